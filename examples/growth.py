@@ -43,7 +43,7 @@ def main():
     measure("merge", [arguments.program, "truths", "merge", *parts, "--out", merged], [0])
     size = (merged / "run.json").stat().st_size
     print(f"run.json: {size / 1e6:.1f} MB, {size / count / 1e3:.1f} kB a case")
-    # Scores that were changed by up to 20 % break some limits.
+    # Changes of up to 20 % break some limits.
     measure("check", [arguments.program, "check", merged, "--scenes-dir", out / "scenes"], [0, 1])
     measure("report", [arguments.program, "report", merged], [0])
     page = (merged / "report.html").stat().st_size
@@ -66,7 +66,7 @@ def parse_arguments():
 
 
 def find_names(run, folder):
-    """Returns the scene of the small run, and the case of its filter."""
+    """Returns the small run's scene, and its filter's case."""
     scenes = {case["scene"] for case in run["cases"]}
     targets = [case for case in run["cases"] if not case["bar"]]
     if len(scenes) != 1 or len(targets) != 1:
@@ -100,7 +100,7 @@ def write_parts(source, run, scenes, filters, out):
 
 
 def copy_case(case, scene, name, numbers):
-    """Returns a case under another name, with scores that differ by up to 20 %."""
+    """Returns a case under another name, with scores changed by up to 20 %."""
     folder = Path(case["folder"]).name
     if name is not None:
         folder = folder.replace(case["filter"], name, 1)
@@ -137,13 +137,13 @@ def write_scenes(root, scene, target, scenes, filters, out):
 
 
 def measure(name, command, allowed):
-    """Runs a command and prints what it took; ends if its exit code is not allowed."""
+    """Runs a command and prints its cost; ends if its exit code is not allowed."""
     start = time.monotonic()
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     errors = process.stderr.read()
     _, status, used = os.wait4(process.pid, 0)
     seconds = time.monotonic() - start
-    # A process that has just begun counts what the one that made it held.
+    # A new process's count includes its parent's memory.
     own = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     note = "" if used.ru_maxrss > own else " at most"
     code = os.waitstatus_to_exitcode(status)

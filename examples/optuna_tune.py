@@ -1,6 +1,6 @@
-"""Optuna drives `shuttertruth tune serve`: two objectives, a bad candidate ended early. Give the words of serve as arguments.
+"""Optuna drives `shuttertruth tune serve`: two objectives, a bad candidate ended early. Arguments are passed to serve.
 
-With `--journal FILE` any number of these processes share one study, and one that is killed costs the trial that it was at."""
+With `--journal FILE` any number of these processes share one study; killing one loses only its current trial."""
 import argparse
 import json
 import subprocess
@@ -37,7 +37,7 @@ def objective(trial):
     raise RuntimeError("shuttertruth tune serve ended")
 
 
-# Processes with one seed would try the same candidates.
+# Processes with the same seed would try the same candidates.
 sampler = optuna.samplers.NSGAIISampler(seed=None if options.journal else 1)
 storage = JournalStorage(JournalFileBackend(options.journal)) if options.journal else None
 study = optuna.create_study(study_name="shuttertruth", storage=storage, load_if_exists=True,

@@ -1,5 +1,5 @@
-//! Which region the headline score is to be pooled over: FLIP of slight errors, of spills and of doing nothing, over *moving* and
-//! *support*, on every shipped scene or on those that are named, as Markdown. `cargo run -p cli --example regions -- 160x90 64`
+//! Helps to choose the region of the headline score: prints FLIP of slight errors, of spills and of doing nothing, over *moving* and
+//! *support*, on all shipped scenes or the named ones, as Markdown. `cargo run -p cli --example regions -- 160x90 64`
 
 use std::ops::ControlFlow;
 use std::process::ExitCode;
@@ -15,7 +15,7 @@ use tracer::{Progress, RenderSettings, Scene, list_scenes, load_scene, trace_fra
 /// FLIP over *moving* and over *support*.
 type Errors = [f64; 2];
 
-/// The errors of a scene's pictures, by their names.
+/// The errors of a scene's pictures, by name.
 struct Row {
     scene: String,
     errors: Vec<(String, Errors)>,
@@ -64,7 +64,7 @@ fn measure_scenes(settings: &RenderSettings, names: &[String]) -> Result<Vec<Row
         let scene = load_scene(std::path::Path::new("scenes").join(&listing.name), None)?;
         let unwatched = |_: Progress| ControlFlow::Continue(());
         let frame = trace_frame(&scene, settings, &unwatched)?;
-        // A centred shutter, whose frame has no lag.
+        // A centred shutter, so that the frame has no lag.
         let truth = trace_truth(&scene, settings, Alignment::Centred, &unwatched)?;
         if truth.support.moving.pixels.contains(&true) {
             rows.push(measure(&scene, &frame, &truth)?);
@@ -110,7 +110,7 @@ fn measure(scene: &Scene, frame: &Frame, truth: &Truth) -> Result<Row, MeasureEr
     })
 }
 
-/// Carries the colours of the support 4 pixels beyond it: a spill and nothing else.
+/// Extends the support's colours by 4 pixels: a spill and nothing else.
 fn add_halo(image: &Image, truth: &Truth) -> Image {
     const REACH: i64 = 4;
     let inside = |x: i64, y: i64| {
@@ -133,7 +133,7 @@ fn add_halo(image: &Image, truth: &Truth) -> Image {
     })
 }
 
-/// Blurs by a Gaussian of a standard deviation in pixels.
+/// Blurs by a Gaussian with a standard deviation in pixels.
 fn soften(image: &Image, deviation: f64) -> Image {
     let reach = (3.0 * deviation).ceil() as i64;
     let weights: Vec<f64> = (-reach..=reach)

@@ -1,4 +1,4 @@
-//! Packs the shipped scenes and their bounds, each file by itself, for the program to bring along.
+//! Packs the shipped scenes and their bounds into the program, each file separately.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -34,7 +34,7 @@ fn main() {
     fs::write(out.join("files.rs"), rows).expect("the build folder can be written");
 }
 
-/// Lists the bounds of all scenes, and every file of each scene, in the order of their paths.
+/// Lists the bounds of all scenes, and every file of each scene, by path.
 fn find_files(root: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for folder in list_folder(root) {

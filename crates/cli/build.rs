@@ -1,9 +1,9 @@
-//! Names the program's version, with the commit and the target that it is built from and for.
+//! Sets the program's version, with the commit and target of the build.
 
 use std::path::Path;
 use std::process::Command;
 
-/// Sources that the program is made of, relative to this crate.
+/// Source folders of the program, relative to this crate.
 const SOURCES: [&str; 4] = [
     "../../Cargo.lock",
     "../../crates",
@@ -18,20 +18,20 @@ fn main() {
     let target = env("TARGET");
     let source = match env("PROFILE").as_str() {
         "release" => describe_source(),
-        // A commit named here would be an old one soon, or every commit would compile the program again.
+        // A commit would soon be out of date, or every commit would recompile the program.
         _ => "development build".to_owned(),
     };
     println!("cargo::rustc-env=SHUTTERTRUTH_VERSION={version} ({source}, {target})");
 }
 
-/// Describes the source: a commit that whoever builds it names, or that git names, or none.
+/// Describes the source: the commit named by the environment or by git, or none.
 fn describe_source() -> String {
     if let Ok(commit) = std::env::var("SHUTTERTRUTH_COMMIT")
         && !commit.trim().is_empty()
     {
         return format!("commit {}", commit.trim());
     }
-    // A folder without git of its own may lie in a repository of another project.
+    // A folder without its own git may be inside another project's repository.
     let root = Path::new("../..").canonicalize().ok();
     let top = git(&["rev-parse", "--show-toplevel"]).map(|top| Path::new(&top).canonicalize());
     let is_own = matches!((root, top), (Some(root), Some(Ok(top))) if root == top);
@@ -48,7 +48,7 @@ fn describe_source() -> String {
     }
 }
 
-/// Runs git; returns what it prints, or none if there is no git or no repository.
+/// Runs git; returns its output, or none without git or a repository.
 fn git(words: &[&str]) -> Option<String> {
     let output = Command::new("git").args(words).output().ok()?;
     let text = String::from_utf8(output.stdout).ok()?;

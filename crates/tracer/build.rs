@@ -1,5 +1,4 @@
-//! Hashes the tracer's sources into the program, so that what one tracer rendered is never taken for what another
-//! would have rendered.
+//! Hashes the tracer's sources into the program, so that one tracer's renders are never mistaken for another's.
 
 use std::path::{Path, PathBuf};
 

@@ -1,7 +1,7 @@
 #!/bin/sh
-# Fetches the shaders of engines that the filters here bind, each at a named commit. Nothing is changed in them. GODOT_GUERTIN,
-# GODOT_JUMP_FLOOD, BEVY, KINO, PPV2 and URP may name other places of the repositories: addresses, or clones on this machine. What cannot be
-# fetched is named, the others are fetched all the same, and the exit code is 1. A file that is there with the right content stays.
+# Fetches the engine shaders that the filters here bind, each at a fixed commit, unchanged. GODOT_GUERTIN,
+# GODOT_JUMP_FLOOD, BEVY, KINO, PPV2 and URP may name other locations of the repositories: addresses, or clones on this machine. Lists
+# what cannot be fetched, fetches the others all the same, and exits with 1. Existing files with the right content stay.
 set -u
 cd "$(dirname "$0")"
 missing=
@@ -20,7 +20,7 @@ fetch() {
     if ! [ -d "$1" ]; then
         copy=$(mktemp -d)
         clone=$copy
-        # Only the files that are read travel, where the other side allows it.
+        # Only the files that are read are transferred, if the server allows it.
         git -C "$copy" init -q &&
             git -C "$copy" remote add origin "$1" &&
             git -C "$copy" config remote.origin.promisor true &&
@@ -39,7 +39,7 @@ fetch() {
     [ -z "$copy" ] || rm -rf "$copy"
 }
 
-# holds FILE: succeeds if the file has the content that SHA256SUMS says
+# holds FILE: succeeds if the file's content matches SHA256SUMS
 holds() {
     known=$(grep " $1\$" SHA256SUMS) && [ -f "$1" ] && [ "$($sums "$1")" = "$known" ]
 }

@@ -52,7 +52,7 @@ def add_sky():
     sky.image.colorspace_settings.name = LINEAR
     place = nodes.new("ShaderNodeTexCoord")
     turn = nodes.new("ShaderNodeMapping")
-    # The middle of the sky lies towards -Z in glTF, which is +Y in Blender, whose own skies have it towards -X.
+    # The middle of the sky is towards -Z in glTF, which is +Y in Blender; Blender's own skies have it towards -X.
     turn.inputs["Rotation"].default_value[2] = -math.pi / 2
     links.new(place.outputs["Generated"], turn.inputs["Vector"])
     links.new(turn.outputs["Vector"], sky.inputs["Vector"])
@@ -60,7 +60,7 @@ def add_sky():
 
 
 def set_lens():
-    """Gives the camera its lens. Blender has a focal length in millimetres and an f-number, whose quotient is the aperture."""
+    """Gives the camera its lens. Blender's aperture is the focal length in millimetres divided by the f-number."""
     lens, camera = manifest["lens"], scene.camera.data
     if lens:
         camera.dof.use_dof = True
@@ -79,7 +79,7 @@ def set_sun():
 
 
 def make_pane(material, surface):
-    """Makes thin glass of a surface that transmits: light passes straight on, with all reflections between both sides of a pane.
+    """Turns a transmitting surface into thin glass: light passes straight on, with all reflections between both sides of a pane.
 
     A side reflects r by Fresnel's equations, and light keeps the share a between them. Then (1 - r)^2 a / (1 - r^2 a^2) = T passes, and
     r + r a T is reflected. The importer's surface is the side of a solid body instead.
@@ -110,7 +110,7 @@ def make_pane(material, surface):
 
     index = surface.inputs["IOR"].default_value
     a = surface.inputs["Base Color"].default_value[:3]
-    # Fresnel's node takes the other side of a surface for the inside of a body. A pane is the same from both.
+    # Fresnel's node treats the other side of a surface as the inside of a body. A pane is the same from both.
     behind = nodes.new("ShaderNodeNewGeometry").outputs["Backfacing"]
     fresnel = nodes.new("ShaderNodeFresnel")
     connect(math_node("POWER", index, math_node("SUBTRACT", 1, math_node("MULTIPLY", 2, behind))), fresnel.inputs["IOR"])
@@ -141,7 +141,7 @@ def find_input(surface, *names):
 
 
 def make_diffuse(material):
-    """Replaces the importer's surface, whose diffuse part is not Lambert's; one that emits is left, and glass is made thin."""
+    """Replaces the importer's surface, since its diffuse part is not Lambert's; keeps emissive ones, and makes glass thin."""
     nodes, links = material.node_tree.nodes, material.node_tree.links
     for surface in [n for n in nodes if n.type == "BSDF_PRINCIPLED"]:
         if find_input(surface, "Transmission", "Transmission Weight").default_value > 0:
@@ -162,7 +162,7 @@ def make_diffuse(material):
 
 
 def decode_textures():
-    """Replaces 8-bit textures by linear 32-bit ones: Cycles interpolates 8-bit texels before it decodes sRGB."""
+    """Replaces 8-bit textures with linear 32-bit ones: Cycles interpolates 8-bit texels before it decodes sRGB."""
     for image in [i for i in bpy.data.images if i.colorspace_settings.name == "sRGB" and i.has_data]:
         encoded = numpy.empty(len(image.pixels), dtype=numpy.float32)
         image.pixels.foreach_get(encoded)
@@ -176,7 +176,7 @@ def decode_textures():
 
 
 def open_shutter(alignment):
-    """Blurs over the scene's exposure: a box in time, with a pose at each of 129 instants of it, the most that Cycles takes."""
+    """Blurs over the scene's exposure: a box in time, with a pose at each of 129 instants, the most that Cycles accepts."""
     scene.render.use_motion_blur = True
     scene.render.motion_blur_shutter = manifest["exposure"]
     scene.cycles.motion_blur_position = {"trailing": "END", "centred": "CENTER", "leading": "START"}[alignment]

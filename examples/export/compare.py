@@ -1,4 +1,4 @@
-"""Prints how far two OpenEXR pictures of one size are from each other: `compare.py ENGINE.exr FRAME.exr`.
+"""Prints the differences between two OpenEXR pictures of one size: `compare.py ENGINE.exr FRAME.exr`.
 
 The second picture may be a truth. Then its mean is compared, the difference of its halves tells its own noise, and each object is
 compared where it fills at least 100 pixels.
@@ -11,7 +11,7 @@ import OpenEXR
 
 
 def read(path):
-    """Returns the picture; of a truth also half the difference of its halves, and the coverage of its objects."""
+    """Returns the picture; for a truth also half the difference of its halves, and its objects' coverage."""
     with OpenEXR.File(path) as file:
         channels = file.parts[0].channels
         color = lambda name: channels[name].pixels[..., :3].astype(float)

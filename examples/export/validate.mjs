@@ -1,11 +1,11 @@
-// Runs the glTF validator of Khronos on exported scenes: `npm install gltf-validator`, then
-// `node examples/export/validate.mjs out/gltf/*`. Ends with 1 if there is an error or a warning.
+// Runs Khronos's glTF validator on exported scenes: `npm install gltf-validator`, then
+// `node examples/export/validate.mjs out/gltf/*`. Exits with 1 if there is an error or a warning.
 
 import fs from "node:fs";
 import path from "node:path";
 import { createRequire } from "node:module";
 
-// The package lies where npm was run, not beside this file.
+// The package is in npm's working folder, not next to this file.
 const validator = createRequire(path.resolve("x.js"))("gltf-validator");
 
 let found = 0;

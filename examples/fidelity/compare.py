@@ -78,7 +78,7 @@ def shuttertruth(arguments, words):
 
 
 def transcriptions():
-    """Every module of originals/: what its ORIGINALS and its AS_LISTED hold."""
+    """Returns ORIGINALS and AS_LISTED of all modules of originals/."""
     originals, as_listed = {}, {}
     for path in sorted((HERE / "originals").glob("*.py")):
         spec = importlib.util.spec_from_file_location(path.stem, path)
@@ -91,7 +91,7 @@ def transcriptions():
 
 
 def presets(listing, originals):
-    """The presets that have a transcription, with their source and every value; and the others, with the reason."""
+    """Returns the presets with a transcription, their source and every value; and the others, with the reason."""
     known, missing = {}, {}
     for filter in listing["filters"]:
         defaults = {parameter["name"]: parameter["default"] for parameter in filter["parameters"]}
@@ -116,7 +116,7 @@ def place(source):
 
 
 def check(settings, known, missing, originals):
-    """Refuses words that stand for nothing."""
+    """Refuses words without a meaning."""
     for name in originals:
         if name not in known:
             sys.exit(f"originals/ transcribe {name}, which is no preset; presets: {', '.join([*known, *missing])}")
@@ -126,7 +126,7 @@ def check(settings, known, missing, originals):
 
 
 class Frame:
-    """What filters get of one scene."""
+    """The inputs of filters from one scene."""
 
     def __init__(self, path):
         with OpenEXR.File(str(path), separate_channels=True) as file:
@@ -165,7 +165,7 @@ def blur_with(arguments, name, scene, values):
 
 
 class Difference:
-    """How far pictures are apart: the largest channel of every pixel."""
+    """Returns the pictures' difference in the largest channel of every pixel."""
 
     def __init__(self, pairs):
         found = np.concatenate([np.abs(ours - theirs).max(-1).ravel() for ours, theirs in pairs])
@@ -183,14 +183,14 @@ def compared(original, frames, pictures, parameters):
 
 
 def judged(limits, found, listed):
-    """Whether the differences are as few as is allowed."""
+    """Returns whether there are no more differences than allowed."""
     few = found.small <= limits["small"] and found.large <= limits["large"]
     near = listed is None or listed.small <= limits["small_as_listed"]
     return "kept" if few and near else "BROKEN"
 
 
 def table(head, rows):
-    """Markdown."""
+    """Formats a table as Markdown."""
     lines = [head, ["---"] * len(head), *rows]
     return "\n".join("| " + " | ".join(cells) + " |" for cells in lines)
 

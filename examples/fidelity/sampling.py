@@ -1,4 +1,4 @@
-"""What samplers of textures do, in numpy, for the transcriptions that need it."""
+"""Texture samplers in numpy, for the transcriptions."""
 
 import numpy as np
 

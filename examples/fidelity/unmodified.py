@@ -41,7 +41,7 @@ PAIRS = [
     ("babylon", "babylon:default", []),
     ("babylon_screen", "babylon_screen:default", []),
 ]
-# In these the camera moves, and something is near.
+# Scenes with a moving camera and a near object.
 CAMERA_SCENES = ["dolly", "roll", "cockpit"]
 FORMATS = re.compile(r'^(color|velocity|output)_format = .*\n', re.M)
 
@@ -81,7 +81,7 @@ def main():
 
 
 def explained_kino(arguments, frames):
-    """The transcription, on velocity and depth as the driver packed them, and with tiles whose halves it rounds towards zero."""
+    """The transcription, on velocity and depth as packed by the driver, and with tiles of halves that it rounds towards zero."""
     wide = arguments.out / "wide" / "kino"
     packing = wide.parent / "kino_packing"
     shutil.rmtree(packing, ignore_errors=True)
@@ -104,7 +104,7 @@ def explained_kino(arguments, frames):
 
 
 def transcribed_three(arguments, frames):
-    """What MotionBlur of three.js does, as ../engine_shaders/three runs it: with halves."""
+    """MotionBlur of three.js, as in ../engine_shaders/three: with halves."""
     folder = HERE.parent / "engine_shaders" / "three"
     pairs = []
     for scene, frame in zip(SCENES, frames):
@@ -126,7 +126,7 @@ def name_of(folder):
 
 
 def widened(folder, copy):
-    """A copy of a filter whose inputs and output have 32 bits."""
+    """A copy of a filter with inputs and output of 32 bits."""
     shutil.rmtree(copy, ignore_errors=True)
     shutil.copytree(folder, copy)
     manifest = copy / "filter.toml"

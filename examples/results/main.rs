@@ -1,5 +1,5 @@
 //! Keeps results: puts the scores of runs of different scenes into their file below `results/`, and writes its page from all files
-//! there: `cargo run -p cli --example results -- out/run.json`. Without a run it writes the page alone.
+//! there: `cargo run -p cli --example results -- out/run.json`. Without a run it only writes the page.
 
 mod page;
 
@@ -25,7 +25,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Writes the file of results of these runs, if there are any.
+/// Writes these runs' file of results, if there are any.
 fn keep(paths: &[PathBuf]) -> Result<(), Error> {
     if paths.is_empty() {
         return Ok(());
@@ -44,7 +44,7 @@ fn keep(paths: &[PathBuf]) -> Result<(), Error> {
     Ok(())
 }
 
-/// Writes the page from every file of results, and pictures of the runs' cases that it shows.
+/// Writes the page from every file of results, and the pictures of the runs' cases on it.
 fn write_page(runs: &[PathBuf]) -> Result<(), Error> {
     let results = Results::read_all(Path::new(FOLDER))?;
     let path = Path::new(FOLDER).join("README.md");
@@ -56,7 +56,7 @@ fn write_page(runs: &[PathBuf]) -> Result<(), Error> {
     Ok(())
 }
 
-/// Writes the worst picture of what each engine ships, if the run made it.
+/// Writes the worst picture of each engine's shipped preset, if the run made it.
 fn write_pictures(all: &[Results], run: &Run, path: &Path) -> Result<(), Error> {
     let Some(results) = main_results(all) else {
         return Ok(());

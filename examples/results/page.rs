@@ -1,28 +1,31 @@
-//! The page of kept results, in Markdown: what engines ship, and the ranking of all presets.
+//! The page of kept results, in Markdown: engines' shipped presets, and the ranking of all presets.
 
 use cli::{markdown_table, range_text};
 use frame::Alignment;
 use judge::{RANK_RULE, RankedFilter, ResultScores, Results, SizeComparison, compare_sizes};
 use metrics::Metric;
 use serde::Deserialize;
-use suite::{Error, IDENTITY};
+use suite::{Bench, Error, IDENTITY};
 
-/// What engines ship, with the scores left out.
+/// Engines' shipped presets, without scores.
 const ENGINES: &str = include_str!("../../results/engines.toml");
+
+/// A bench of the presets on a graphics card.
+const BENCH: &str = include_str!("../../results/bench/1920x1080_h100.json");
 
 /// Characters of a line of the page.
 const WIDTH: usize = 135;
 
-/// An engine with the preset that it ships.
+/// An engine with its shipped preset.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Engine {
     name: String,
-    /// The preset that equals what it ships.
+    /// Preset that equals the engine's default.
     pub ships: String,
-    /// What is wrong with it, in one sentence.
+    /// Its mistake, in one sentence.
     wrong: String,
-    /// The smallest measured change that mends most.
+    /// The smallest measured change that improves most.
     change: Option<Change>,
 }
 
@@ -30,7 +33,7 @@ pub struct Engine {
 #[serde(deny_unknown_fields)]
 struct Change {
     preset: String,
-    /// What to do, as the beginning of a sentence.
+    /// The change, as the beginning of a sentence.
     by: String,
 }
 
@@ -44,14 +47,15 @@ pub fn list_engines() -> Vec<Engine> {
     file.engine
 }
 
-/// Finds the results that the page is about: those with most scenes, in the scenes themselves.
+/// Finds the results for the page: those with most scenes, without seals.
 pub fn main_results(all: &[Results]) -> Option<&Results> {
     let catalogues = all.iter().filter(|own| own.seal.is_none());
     catalogues.max_by_key(|own| own.scenes().len())
 }
 
-/// Makes the page of files of results: what engines ship, and all presets of each shutter next to their ranks in the sealed variants.
+/// Makes the page from files of results: engines' shipped presets, and each shutter's presets next to their ranks in the sealed variants.
 pub fn results_page(all: &[Results]) -> Result<String, Error> {
+    let bench: Bench = serde_json::from_str(BENCH).expect("it is a bench");
     let results = main_results(all).ok_or_else(|| Error::Usage("no file of results".to_owned()))?;
     let sealed = all.iter().find(|own| {
         own.seal.is_some() && own.size == results.size && own.adapter == results.adapter
@@ -63,6 +67,8 @@ pub fn results_page(all: &[Results]) -> Result<String, Error> {
         ("{SAMPLES}", results.samples_per_pixel.to_string()),
         ("{ADAPTER}", results.adapter.clone().unwrap_or_default()),
         ("{RANK_RULE}", RANK_RULE.to_owned()),
+        ("{CARD}", bench.adapter.name.clone()),
+        ("{TIMED_SIZE}", format!("{}x{}", bench.width, bench.height)),
     ];
     let fill = |text: &str| {
         (settings.iter()).fold(text.to_owned(), |text, (key, value)| {
@@ -70,7 +76,7 @@ pub fn results_page(all: &[Results]) -> Result<String, Error> {
         })
     };
     let groups = results.ranking();
-    let mut page = fill(HEAD) + &engines(results, &groups);
+    let mut page = fill(HEAD) + &engines(results, &groups, &bench);
     page += &fill(PRESETS);
     let sealed_groups = sealed.map(Results::ranking).unwrap_or_default();
     for group in &groups {
@@ -85,7 +91,7 @@ pub fn results_page(all: &[Results]) -> Result<String, Error> {
     Ok(wrap(&(page + &fill(COMMANDS))))
 }
 
-/// Fills the lines of paragraphs; tables, pictures, headings and commands stay as they are.
+/// Fills the lines of paragraphs; leaves tables, pictures, headings and commands unchanged.
 fn wrap(page: &str) -> String {
     let wrap_part = |part: &str| {
         if part.starts_with(['|', '!', '#', ' ']) {
@@ -112,7 +118,7 @@ const HEAD: &str = "\
 See how close each engine's motion blur comes to path-traced truth, what is wrong with it, and which small change helps most.
 
 Scores are FLIP where anything moves: the mean over {SCENES} scenes at {SIZE}, on {ADAPTER}. Lower is better. *No blur* is the score of
-the sharp frame. Compare scores of one shutter only.
+the sharp frame. Compare scores of one shutter only. *Time* is in milliseconds per frame of {TIMED_SIZE}, on {CARD}.
 
 An engine without an exposure, such as three.js, blurs the same share of every frame's motion. Here its motion is first multiplied by
 the scene's exposure, so its own picture has a longer smear.
@@ -132,12 +138,13 @@ const COMMANDS: &str = "
 These commands make the scores, the pictures and this page. Each run announces the time that it needs:
 
     shuttertruth run --size {SIZE} --samples-per-pixel {SAMPLES} --jitter-frames 0 --out out/results_{SIZE}
+    shuttertruth bench --size {TIMED_SIZE} --out out
     shuttertruth run --seal 1 --size {SIZE} --samples-per-pixel {SAMPLES} --jitter-frames 0 --out out/sealed_{SIZE}
     cargo run -p cli --example results -- out/results_{SIZE}/run.json
     cargo run -p cli --example results -- out/sealed_{SIZE}/run.json
 
 To add a filter, put its folder into `shaders/` and run them with `--filter` and its name. The JSON files next to this page hold every
-score; [engines.toml](engines.toml) holds the sentences about engines. [Picture sizes](studies/picture-sizes.md) uses the files of other
+score, and [one in bench](bench/1920x1080_h100.json) the times; [engines.toml](engines.toml) holds the sentences about engines. [Picture sizes](studies/picture-sizes.md) uses the files of other
 sizes. [What the scores mean](../crates/metrics/README.md).
 ";
 
@@ -173,8 +180,8 @@ fn measured(groups: &[Vec<RankedFilter>]) -> Vec<Measured<'_>> {
     all
 }
 
-/// Makes a table of the engines, and a part for each with its worst picture.
-fn engines(results: &Results, groups: &[Vec<RankedFilter>]) -> String {
+/// Makes a table of the engines, and a section for each with its worst picture.
+fn engines(results: &Results, groups: &[Vec<RankedFilter>], bench: &Bench) -> String {
     let all = measured(groups);
     let number = |value: f64| Metric::FLIP.number(value);
     let row = |own: &Measured| -> Vec<String> {
@@ -182,7 +189,8 @@ fn engines(results: &Results, groups: &[Vec<RankedFilter>]) -> String {
         let name = format!("{}, `{}`", own.engine.name, own.engine.ships);
         let names = [name, own.shipped.alignment.to_string()];
         let changed = own.changed.map_or("-".to_owned(), number);
-        (names.into_iter().chain(scores).chain([changed])).collect()
+        let time = find_time(bench, &own.engine.ships);
+        (names.into_iter().chain(scores).chain([changed, time])).collect()
     };
     let titles = [
         "engine ships",
@@ -190,6 +198,7 @@ fn engines(results: &Results, groups: &[Vec<RankedFilter>]) -> String {
         "FLIP",
         "no blur",
         "after the change",
+        "time",
     ];
     let mut text = markdown_table(&titles, all.iter().map(row));
     let worse: Vec<&str> = (all.iter())
@@ -220,6 +229,15 @@ fn engines(results: &Results, groups: &[Vec<RankedFilter>]) -> String {
         }
     }
     text
+}
+
+/// Finds the time of a preset in milliseconds; a dash if it was not timed.
+fn find_time(bench: &Bench, name: &str) -> String {
+    let mut cases = bench.cases.iter();
+    let timed = cases.find(|own| format!("{}:{}", own.filter, own.preset) == name);
+    timed.map_or("-".to_owned(), |own| {
+        format!("{:.2}", 1e3 * own.seconds.median)
+    })
 }
 
 /// Names the file of a case's picture: `mcguire_tuned_fan.png`.
@@ -257,7 +275,7 @@ fn mean(ranked: &RankedFilter) -> String {
     number(ranked.mean) + &interval.unwrap_or_default()
 }
 
-/// Says whether the sealed variants order the filters as the catalogue does.
+/// States whether the sealed variants order the filters like the catalogue.
 fn agreement(results: &Results, sealed: &Results, alignment: Alignment) -> Result<String, Error> {
     let compared = compare_sizes(&[results, sealed], Metric::FLIP)?;
     let mut of_shutter = compared.iter().filter(|own| own.alignment == alignment);

@@ -1,4 +1,4 @@
-// Lets three.js draw an exported scene in a Chromium without a window, and writes what it drew:
+// Makes three.js draw an exported scene in headless Chromium, and writes the pictures:
 // `npm run capture -- out/gltf/railing --out out/capture/railing`.
 
 import { spawn } from "node:child_process";
@@ -11,9 +11,9 @@ import { fail, query, readOptions } from "./options.mjs";
 import { startServer } from "./server.mjs";
 
 const CHROMIUMS = ["chromium", "chromium-browser", "google-chrome", "chrome"];
-// What draws for WebGL, the first that there is: the graphics card or Mesa's software for one, then Chromium's own software.
+// WebGL backends, the first available is used: the graphics card, Mesa's software renderer, then Chromium's own.
 const BACKENDS = ["gl-egl", "swiftshader"];
-// Far longer than software takes for a capture of the largest size in use.
+// Far longer than software rendering needs for the largest capture size in use.
 const PATIENCE_SECONDS = 540;
 
 const HELP = `
@@ -33,7 +33,7 @@ if (failure?.includes("no WebGL 2") && backends.length > 1) failure = await capt
 if (failure) fail(`${scene}: ${failure}`);
 console.log(`written: ${out}: color, velocity, depth, object, blurred, ${settings.subframes} sub-frames; drawn by ${engine}`);
 
-// Opens the page in Chromium and takes what it sends. Returns what failed, or null.
+// Opens the page in Chromium and receives its pictures. Returns the failure, or null.
 async function capture(backend) {
   let finish;
   const finished = new Promise((resolve) => (finish = resolve));
@@ -79,7 +79,7 @@ function writeTables(about) {
     "instant = 0",
   ];
   fs.writeFileSync(path.join(out, "capture.toml"), `${lines.join("\n")}\n`);
-  // Velocity: what a point has in normalised device coordinates now, minus what it had a frame ago.
+  // Velocity: a point's normalised device coordinates now, minus those a frame ago.
   const convention = ['velocity = "ndc"', 'velocity_y = "up"', 'depth = "forward"', `near = ${near}`, `far = ${far}`];
   fs.writeFileSync(path.join(out, "engine.toml"), `[convention]\n${convention.join("\n")}\n`);
 }

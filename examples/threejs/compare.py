@@ -1,4 +1,4 @@
-"""Compares captures of three.js with what the tracer renders, and three.js's blur with the mean of its own sub-frames.
+"""Compares captures of three.js with the tracer's renders, and three.js's blur with the mean of its own sub-frames.
 
     shuttertruth truths render --scenes railing --size 320x180 --velocity previous_frame --out out/render
     python3 examples/threejs/compare.py out/capture/railing out/render/railing

@@ -7,7 +7,7 @@ import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { motionBlur } from "three/addons/tsl/display/MotionBlur.js";
 import { MESHES } from "./meshes.js";
 
-// A pixel's colour is the mean over its square: of this many places in each direction.
+// A pixel's colour is the mean over its square, of this many places in each direction.
 const COLOR_SAMPLES = 4;
 
 // Draws the scene at /scene/ and hands every picture to `receiver`, rows from the top.
@@ -31,7 +31,7 @@ export async function captureScene(settings, receiver) {
         resolve();
       });
     });
-  // Draws the scene at an animation time into a frame of its own, for which three.js keeps matrices of the frame before.
+  // Draws the scene at an animation time into a frame of its own, since three.js remembers the previous frame's matrices.
   const draw = async (time, quads) => {
     await nextFrame();
     played.setTime(time);
@@ -46,7 +46,7 @@ export async function captureScene(settings, receiver) {
     return arrange(pixels, width, height, channels);
   };
   const sendColor = async (name, target) => receiver.picture(name, ["R", "G", "B"], await read(target, 3));
-  // The mesh that three.js draws the sky on has no id of its own, and leaves depth as it was cleared.
+  // three.js's mesh of the sky has no id of its own, and leaves depth as cleared.
   const readIds = async (distance) => {
     const ids = await read(gbuffer.renderTarget, 1, attachmentOf(gbuffer, "object"));
     return ids.map((id, at) => (distance[at] === 1 ? 0 : id));
@@ -62,7 +62,7 @@ export async function captureScene(settings, receiver) {
   await receiver.picture("object", ["object"], await readIds(distance));
   for (const { name, target } of [color, ...blurs]) await sendColor(name, target);
 
-  // A centred shutter, as the taps of three.js lie on both sides of a pixel.
+  // A centred shutter, since the taps of three.js are on both sides of a pixel.
   const open = manifest.instant - (settings.exposure / 2) * manifest.seconds_per_frame;
   for (let at = 0; at < settings.subframes; at++) {
     const part = ((at + 0.5) / settings.subframes) * settings.exposure;
@@ -74,7 +74,7 @@ export async function captureScene(settings, receiver) {
   }
 }
 
-// The passes over the scene, and the quads that make pictures of them.
+// The passes over the scene, and the quads that make pictures from them.
 function planDrawing({ width, height, exposure, samples }, { scene, camera }) {
   const options = { type: THREE.FloatType, samples: 0 };
   const gbuffer = pass(scene, camera, options);
@@ -91,20 +91,20 @@ function planDrawing({ width, height, exposure, samples }, { scene, camera }) {
   };
   const color = picture("color", averageSquares(fine.getTextureNode(), width, height));
   const depth = picture("depth", vec4(gbuffer.getTextureNode("depth").r, 0, 0, 1));
-  // The blur adds `velocity` to texture coordinates. Those are 1 over the picture and velocity is 2, so that this is the
-  // length of the exposure.
+  // The blur adds `velocity` to texture coordinates. These span 1 over the picture and velocity spans 2, so this is the length
+  // of the exposure.
   const amount = exposure / 2;
   const input = texture(color.target.texture);
   const blur = (name, scale) => picture(name, motionBlur(input, motion.mul(scale), samples));
   const blurs = [
     blur("blurred", vec2(amount, amount)),
-    // As it would be if the blur took velocity up for coordinates down.
+    // The result if the blur mistook velocity up for coordinates down.
     blur("blurred_y_turned", vec2(amount, -amount)),
   ];
   return { gbuffer, color, depth, blurs };
 }
 
-// Averages squares of a picture that is finer than its pixels.
+// Averages squares of a picture finer than its pixels.
 function averageSquares(source, width, height) {
   return Fn(() => {
     const sum = vec4(0).toVar();
@@ -126,7 +126,7 @@ function nameAdapter(renderer) {
   return gl.getParameter(names ? names.UNMASKED_RENDERER_WEBGL : gl.RENDERER);
 }
 
-// Turns pixels with four channels, rows from the bottom, into ones with fewer, rows from the top.
+// Converts pixels with four channels, rows from the bottom, to fewer channels, rows from the top.
 function arrange(read, width, height, channels) {
   const pixels = new Float32Array(width * height * channels);
   for (let y = 0; y < height; y++) {
@@ -138,7 +138,7 @@ function arrange(read, width, height, channels) {
   return pixels;
 }
 
-// Loads the scene, its sky and what the manifest says, and stops its animation.
+// Loads the scene, its sky and its manifest, and stops its animation.
 async function loadScene({ meshes, near }, aspect) {
   const manifest = await (await fetch("/scene/manifest.json")).json();
   const gltf = await new GLTFLoader().loadAsync("/scene/scene.gltf");
@@ -148,7 +148,7 @@ async function loadScene({ meshes, near }, aspect) {
   const sky = await new EXRLoader().setDataType(THREE.FloatType).loadAsync(`/scene/${manifest.sky}`);
   sky.mapping = THREE.EquirectangularReflectionMapping;
   scene.background = scene.environment = sky;
-  // The middle of the sky lies towards -Z; three.js looks for it towards +X.
+  // The middle of the sky is towards -Z; three.js expects it towards +X.
   scene.backgroundRotation.y = scene.environmentRotation.y = Math.PI / 2;
   const camera = cameras[0];
   camera.aspect = aspect;
@@ -170,7 +170,7 @@ async function loadScene({ meshes, near }, aspect) {
   return { manifest, scene, camera, setTime };
 }
 
-// Gives every mesh the id of its object, which is the number of its node.
+// Gives every mesh its object's id, which is its node's number.
 function nameObjects(scene, parser, objects) {
   scene.traverse((object) => {
     const own = parser.associations.get(object)?.nodes;

@@ -5,7 +5,7 @@ const FLOAT = 2;
 
 // Encodes planes of one size, by channel name: `{ R: Float32Array, ... }`, rows from the top.
 export function encodeExr(width, height, planes) {
-  // The format wants channels by name.
+  // The format requires channels sorted by name.
   const names = Object.keys(planes).sort();
   const header = encodeHeader(width, height, names);
   const rowBytes = names.length * width * 4;

@@ -1,17 +1,17 @@
-// Ways to draw the same objects, each with vectors of its own.
+// Ways to draw the same objects, each with its own vectors.
 
 import * as THREE from "three/webgpu";
 
-// What prepares a scene for each way, and returns what to call after each step of the animation.
+// Functions that prepare a scene for each way, and return a callback for each step of the animation.
 export const MESHES = { plain: () => () => {}, unculled: drawUnculled, instanced: drawInstanced, skinned: drawSkinned };
 
-// Draws every mesh, in the picture or not.
+// Draws every mesh, visible or not.
 function drawUnculled(scene) {
   scene.traverse((object) => (object.frustumCulled = false));
   return () => {};
 }
 
-// Replaces every mesh by an InstancedMesh with one instance, which follows it.
+// Replaces every mesh with an InstancedMesh of one instance, which follows it.
 function drawInstanced(scene) {
   const pairs = replaceMeshes(scene, (mesh) => {
     const instances = new THREE.InstancedMesh(mesh.geometry, mesh.material, 1);
@@ -26,7 +26,7 @@ function drawInstanced(scene) {
   };
 }
 
-// Replaces every mesh by a SkinnedMesh with one bone, which follows it.
+// Replaces every mesh with a SkinnedMesh of one bone, which follows it.
 function drawSkinned(scene) {
   const pairs = replaceMeshes(scene, (mesh) => {
     const { count } = mesh.geometry.attributes.position;

@@ -14,10 +14,10 @@ const HELP = `SCENE  folder of an exported scene: shuttertruth engine export NAM
   --near METRES    near plane of the camera [default: the exported camera's, 0.01]
   --before FRAMES  when the frame before the instant's is drawn; 0 stands still, none draws none [default: 1]`;
 
-// npm runs scripts in the package's folder, and says in which one it was called.
+// npm runs scripts in the package's folder, and names the caller's folder in a variable.
 process.chdir(process.env.INIT_CWD ?? ".");
 
-// Reads the words of a command; `more` are options of its own, for parseArgs.
+// Parses the words of a command; `more` are its own options, for parseArgs.
 export function readOptions(command, more = {}, help = "") {
   const text = { type: "string" };
   const known = { size: text, subframes: text, exposure: text, samples: text, meshes: text, near: text, before: text };
@@ -44,7 +44,7 @@ export function readOptions(command, more = {}, help = "") {
     width: Number(size[1]),
     height: Number(size[2]),
     subframes: number(values, "subframes", 32, 1, 4096),
-    // The animation lasts as long as the scene's own shutter needs, and at least two frames on both sides.
+    // The animation is as long as the scene's own shutter needs, with at least two frames on both sides.
     exposure: number(values, "exposure", manifest.exposure, 0, Math.max(2, manifest.exposure)),
     samples: number(values, "samples", 16, 2, 256),
     meshes,
@@ -54,7 +54,7 @@ export function readOptions(command, more = {}, help = "") {
   return { scene, manifest, settings, values };
 }
 
-// Writes settings as the page reads them, behind its address.
+// Formats settings as the query of the page's address.
 export const query = (settings) => `?${new URLSearchParams(Object.entries(settings))}`;
 
 function number(values, name, otherwise, least, most) {

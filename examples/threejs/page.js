@@ -29,7 +29,7 @@ show(`mean of ${settings.subframes} sub-frames`, 3, mean);
 status.textContent = `${width}x${height}, exposure ${settings.exposure} frames`;
 await post("done", "");
 
-// The colour of sub-frames, which have an id behind each.
+// Finds a sub-frame's colour; an id follows each.
 function colorAt(pixels, at) {
   return pixels[Math.floor(at / 3) * 4 + (at % 3)];
 }
@@ -45,7 +45,7 @@ function failed(error) {
   post("failed", status.textContent);
 }
 
-// Shows a picture as a viewer would see it: colours by the curve of sRGB, velocity around grey, depth and ids from black to white.
+// Shows a picture for viewers: colours by the curve of sRGB, velocity around grey, depth and ids from black to white.
 function show(name, channels, pixels) {
   const canvas = Object.assign(document.createElement("canvas"), { width, height });
   const image = new ImageData(width, height);

@@ -14,7 +14,7 @@ const TYPES = {
   ".png": "image/png",
 };
 
-// Starts a server and returns it with its address. `receive(name, url, body)` gets what the page posts.
+// Starts a server and returns it with its address. `receive(name, url, body)` handles what the page posts.
 export async function startServer(scene, receive) {
   const folders = { "/scene/": scene, "/": HERE };
   const server = http.createServer(async (request, response) => {

@@ -8,7 +8,7 @@ use tests::text::{assert_contains, squeeze};
 use crate::ingest::capture::{CONVENTION, Capture, DESCRIPTION};
 use crate::sandbox::{Sandbox, split, stderr, stdout};
 
-/// Audits the capture, with an exit code; returns the words of the output and what audit.json holds.
+/// Audits the capture, with an exit code; returns the words of the output, and audit.json.
 #[track_caller]
 fn audit(sandbox: &Sandbox, code: i32) -> (String, Value) {
     let output = sandbox.shuttertruth(&split("engine audit capture"));

@@ -1,4 +1,4 @@
-//! Baselines: accepted scores, and later scores held against them.
+//! Baselines: accepted scores, and later scores compared with them.
 
 use std::fs;
 use std::process::Output;
@@ -103,7 +103,7 @@ fn accept_names_its_run_and_newer_runs_of_other_sizes() {
     let other = sandbox.outside_ci(&split("limits accept --out out/48x24 --reason other"));
     let due = "written: base.json, from out/48x24/run.json (1 case at 48x24)\n";
     assert_eq!([stdout(&other), stderr(&other)], [due, ""]);
-    // A run that is not newer is no news.
+    // A run that is not newer changes nothing.
     run(&sandbox, FINE);
     accepted(written, "");
 }

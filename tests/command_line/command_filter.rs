@@ -44,7 +44,7 @@ fn a_program_that_blurs_like_a_kernel_gets_its_scores() {
     let [kernels, program] = &cases[..] else {
         panic!("two filters on one scene");
     };
-    // Colours and mattes travel as 32-bit floats, so nothing is lost.
+    // Colours and mattes are passed as 32-bit floats, so nothing is lost.
     assert_eq!(kernels.scores, program.scores);
     assert_eq!(program.parameters["samples"], filters::Value::Integer(8));
     assert_eq!(kernels.command, None);
@@ -61,7 +61,7 @@ fn a_program_needs_no_adapter_and_runs_again_when_it_is_edited() {
     assert_done(&printed);
     assert_contains(&stdout(&printed), &["adapter: none"]);
     assert_eq!(sandbox.read_run().adapter, None);
-    // An adapter that the user asked for must still be there.
+    // An adapter requested by the user must still exist.
     let asked = format!("{words} --adapter 0");
     let refused = sandbox.without_adapter(&split(&asked));
     assert_refused(&refused, 3, &["mesa-vulkan-drivers"]);
@@ -108,7 +108,7 @@ fn a_program_gets_the_same_inputs_as_a_kernel() {
     let script = "pwd > where; echo $3 > words; cp $1 given.exr; cp $1 $2; echo chatter";
     write_script(&sandbox.path("told/blur.sh"), script);
     let printed = sandbox.execute(&[&blur("./told")[..], &["--frame-index", "7"]].concat());
-    // What the program prints is kept aside, and it runs in its folder.
+    // The program's output is kept apart, and it runs in its folder.
     assert_eq!(printed, "b.exr\n");
     let read = |name: &str| fs::read_to_string(sandbox.path("told").join(name)).unwrap();
     assert_eq!(read("words"), "0.5,7,0.25,{}\n");

@@ -1,4 +1,4 @@
-//! `compare`: two runs side by side, changes told from noise.
+//! `compare`: two runs side by side, with changes separated from noise.
 
 use std::fs;
 use std::sync::OnceLock;

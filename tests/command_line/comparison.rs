@@ -1,4 +1,4 @@
-//! Measurements beside the filters' own scores: references, a common shutter, noise, coarser frames.
+//! Measurements in addition to the filters' own scores: references, a common shutter, noise, coarser frames.
 
 use frame::{Alignment, Frame, Ladder, Picture, Truth};
 use metrics::Metric;
@@ -64,7 +64,7 @@ fn a_sharp_sub_frame_of_the_middle_has_no_skill_under_any_shutter() {
         assert_eq!(skill.value(), Some(expected), "{bar} {alignment}");
     }
     assert!(find("accumulate:1", Alignment::Centred).is_none());
-    // The lag behind the frame has a row of its own.
+    // The lag behind the frame has its own row.
     let lag = flip(find("identity", Alignment::Trailing).unwrap())
         - flip(find("accumulate:1", Alignment::Trailing).unwrap());
     assert!(lag > 0.05, "{lag}");
@@ -103,8 +103,8 @@ fn references_beat_filters_and_have_no_bounds() {
     let cases = sandbox.read_run().cases;
     let [many, oracle, gather] = ["accumulate:64", "scatter_oracle", "velocity_gather:fine"]
         .map(|name| flip(find_case(&cases, name)));
-    // The plate moves evenly before one colour, so it hides nothing that matters. The oracle's only error is the
-    // frame's antialiasing of a plate five pixels wide.
+    // The plate moves evenly in front of one colour, so it hides nothing that matters. The oracle's only error is the frame's
+    // antialiasing of a plate five pixels wide.
     assert!(many < oracle && oracle < 0.75 * gather);
     let findings = sandbox.read_findings();
     for case in &cases {
@@ -156,7 +156,7 @@ fn forms_of_the_input_cost_what_they_take_away() {
     assert_eq!(flip(changed("defect=zero")), identity);
     assert!((flip(changed("defect=no_object")) - identity).abs() < 1e-6);
     assert!(flip(changed("defect=double")) > right + 0.01);
-    // The plate moves evenly, so that a frame late is no difference.
+    // The plate moves evenly, so a late frame makes no difference.
     assert!(differs("defect=lag") < 1e-4);
     assert!(differs("defect=jittered") > 0.0);
     assert_eq!(differs("depth=float16"), 0.0);
@@ -174,7 +174,7 @@ fn forms_of_the_input_cost_what_they_take_away() {
     let mut rows = told.lines().map(str::trim_start);
     let row = rows.find(|line| line.starts_with("defect=zero")).unwrap();
     assert!(row.ends_with(&due), "{told}");
-    // The ranking is of the right buffer alone.
+    // The ranking only covers the right buffer.
     assert!(!told.contains("velocity_gather:fine defect"), "{told}");
     assert!(told.contains("velocity=linear8"), "{told}");
     let case = changed("velocity=linear8");
@@ -205,7 +205,7 @@ fn assert_mean(run: &Run) -> [f64; 2] {
     let [low, high] = mean.interval;
     assert!((0.5 * (high - low) / half - 1.0).abs() < 1e-4, "{mean:?}");
     assert!((0.5 * (high + low) - mean.mean).abs() < 1e-12, "{mean:?}");
-    // A check's mean is one of estimates.
+    // A check's mean is over estimates.
     if run.cases.iter().all(|case| case.intervals.is_empty()) {
         assert!((mean.mean - 0.5 * (first + second)).abs() < 1e-12);
     }
@@ -215,7 +215,7 @@ fn assert_mean(run: &Run) -> [f64; 2] {
 #[test]
 fn means_over_scenes_have_a_student_interval() {
     let sandbox = Sandbox::measured();
-    // One scene is no mean.
+    // One scene makes no mean.
     assert!(sandbox.read_run().overall.is_empty());
     assert!(!sandbox.measure("--filters identity").contains("mean over"));
 

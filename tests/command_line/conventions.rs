@@ -1,4 +1,4 @@
-//! `--convention`: frames and pictures as an engine has them, and the record of what a filter's shaders got.
+//! `--convention`: frames and pictures in an engine's form, and the record of what a filter's shaders got.
 
 use std::fs;
 use std::path::Path;
@@ -10,7 +10,7 @@ use tests::text::{assert_contains, read_rows};
 
 use crate::sandbox::Sandbox;
 
-/// Conventions, each apart from that of frames in one thing or more.
+/// Conventions, each different from the frames' in one thing or more.
 const FORMS: [&str; 12] = [
     "velocity = \"uv\"",
     "velocity = \"ndc\"",
@@ -52,7 +52,7 @@ pub fn largest_difference(a: &Image, b: &Image) -> f32 {
     channels.fold(0.0, f32::max)
 }
 
-/// Converts a frame and back again.
+/// Converts a frame and back.
 fn assert_restores(convention: &Convention, frame: &Frame) {
     let color = convention.restore_color(&convention.convert_color(&frame.color));
     let velocity = convention.convert_velocity(&frame.velocity, frame.exposure);
@@ -148,7 +148,7 @@ fn a_wrong_convention_is_refused_with_its_line() {
     }
 }
 
-/// What kernels expect as Godot hands it over.
+/// Godot's form of kernel inputs.
 const GODOT: &str = "\
 [convention]
 velocity = \"uv\"

@@ -1,4 +1,4 @@
-//! Earlier runs in the same folder: kept beside a narrower run, and never lost silently.
+//! Earlier runs in the same folder: kept by a narrower run, and never lost silently.
 
 use std::fs;
 
@@ -10,7 +10,7 @@ use crate::sandbox::{
     stdout,
 };
 
-/// Names the last run's cases without the references, in the order of their names.
+/// Names the last run's cases without the references, sorted by name.
 fn sorted_names(sandbox: &Sandbox) -> Vec<String> {
     let mut names = sandbox.read_case_names();
     names.sort();
@@ -28,7 +28,7 @@ fn a_narrower_run_keeps_the_cases_of_a_wider_one() {
     let narrow = sandbox.run(&split("--scenes slow --filters velocity_gather:fine"));
     assert_done(&narrow);
     assert_contains(&stderr(&narrow), &["keeps 5 cases of an earlier run"]);
-    // The ranking covers only the filters asked for.
+    // The ranking covers only the requested filters.
     assert!(!stdout(&narrow).contains("mcguire"), "{}", stdout(&narrow));
     assert_eq!(sorted_names(&sandbox), before);
     assert_eq!(sandbox.read_run().common_alignment, Alignment::Centred);
@@ -64,7 +64,7 @@ fn runs_of_two_sizes_lie_side_by_side() {
         files
     };
     let before = contents();
-    // A check makes pictures of the size that its bounds hold at.
+    // A check makes pictures of its bounds' size.
     let few = split("check --samples-per-pixel 64 --out out --filters identity");
     let check = sandbox.outside_ci(&few);
     assert_done(&check);

@@ -1,4 +1,4 @@
-//! The program in a folder without scenes: it brings its own along.
+//! The program in a folder without scenes: it includes its own.
 
 use std::fs;
 use std::path::Path;
@@ -28,9 +28,9 @@ fn a_run_in_an_empty_folder_equals_one_with_the_folder_of_scenes() {
         sandbox.execute(&split(&format!("run --quiet {QUICK} {more}")));
         let out = more.split(' ').nth(1).unwrap();
         let mut run: Value = sandbox.read_json(&format!("{out}/run.json"));
-        // The command that made it.
+        // The command line of the run.
         run["command"].take();
-        // The truth's file holds the hash of its inputs.
+        // The truth's file contains the hash of its inputs.
         let truth = sandbox.path(out).join("fan/truth_trailing.exr");
         (run, fs::read(truth).unwrap())
     });
@@ -46,7 +46,7 @@ fn other_commands_work_in_an_empty_folder() {
     assert!(sandbox.path("out/gltf/fan/scene.gltf").is_file());
     let render = "truths render --quiet --scenes fan@all --size 16x16 --samples-per-pixel 16";
     sandbox.execute(&split(render));
-    // The limits come along as well, for the scene's own size.
+    // The limits are included as well, for the scene's own size.
     sandbox.refuse(
         "check --quiet --scenes fan --filter mcguire:paper --out checked --size 32x18",
         &["built-in/fan/bounds.toml:39: the limit on bleed_lateral holds for 160x90"],
@@ -105,7 +105,7 @@ fn copied_scenes_are_those_of_the_program_and_nothing_is_overwritten() {
         .filter(|(name, _)| is_expected(name))
         .collect();
     assert_same_files(&copied, &shipped);
-    // Limits of your own are kept.
+    // The user's own limits are kept.
     let bounds = sandbox.path("scenes/bounds.toml");
     fs::write(&bounds, "# mine\n").unwrap();
     sandbox.refuse("list fan two_spheres --copy-to scenes", &["fan exists"]);
@@ -113,7 +113,7 @@ fn copied_scenes_are_those_of_the_program_and_nothing_is_overwritten() {
     let text = sandbox.execute(&split("list two_spheres --copy-to scenes"));
     assert!(text.starts_with("kept: scenes"), "{text}");
     assert_eq!(fs::read_to_string(bounds).unwrap(), "# mine\n");
-    // The copies are the scenes that every command finds.
+    // Every command finds the copied scenes.
     let listed = sandbox.execute(&split("list scenes"));
     assert!(listed.contains("two_spheres") && !listed.contains("fence"));
     sandbox.refuse("list fann --copy-to scenes", &["did you mean fan?"]);

@@ -6,14 +6,14 @@ use tests::text::assert_contains;
 
 use crate::sandbox::{Sandbox, assert_done, assert_refused, split, stderr, stdout};
 
-/// Kernel whose output is not finite at one pixel, where the exposure is that of the scene `dim`.
+/// Kernel with an infinite output at one pixel, at the exposure of the scene `dim`.
 const BODY: &str = "
     var value = textureLoad(color, pixel, 0);
     if pixel.x == 9 && pixel.y == 4 { value /= frame.exposure - 0.25; }
     textureStore(output, pixel, value);
 ";
 
-/// Makes two scenes, on one of which the filter `torn` fails.
+/// Makes two scenes; the filter `torn` fails on one.
 fn set_up() -> Sandbox {
     let sandbox = Sandbox::new();
     sandbox.copy_scene("dim", |text| {

@@ -1,4 +1,4 @@
-//! Presets against transcriptions of the programs that they follow.
+//! Presets against transcriptions of their original programs.
 
 use std::collections::BTreeMap;
 use std::process::{Command, Output};
@@ -28,7 +28,7 @@ fn rows(page: &str) -> impl Iterator<Item = Vec<&str>> {
     rows.map(|row| row.trim_matches('|').split('|').map(str::trim).collect())
 }
 
-/// Lists presets, each with its original or the reason why it has none. A row of the page may have several presets.
+/// Lists presets, each with its original or the reason for having none. A row of the page may have several presets.
 fn originals(page: &str) -> BTreeMap<&str, &str> {
     let pairs = rows(page).flat_map(|cells| {
         let presets = cells[0].split(", ");
@@ -38,7 +38,7 @@ fn originals(page: &str) -> BTreeMap<&str, &str> {
     pairs.collect()
 }
 
-/// Compares all presets on some scenes; the rows must be those of the page.
+/// Compares all presets on some scenes; the rows must match the page.
 fn assert_page(scenes: &str) {
     let output = compare(&["--scenes", scenes]);
     let printed = stdout(&output);

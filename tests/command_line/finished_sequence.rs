@@ -13,7 +13,7 @@ const TRUTH: [&str; 2] = ["--truth", "out/plate/truth_trailing.exr"];
 const FRAME: [&str; 2] = ["--frame", "out/plate/frame.exr"];
 const THREE: [&str; 2] = ["--frames", "3"];
 
-/// Makes a sandbox with a filter whose picture depends on the frame before and on the frame's number, and runs it on three frames.
+/// Makes a sandbox with a filter that depends on the previous frame and on the frame's number, and runs it on three frames.
 fn run_filter() -> Sandbox {
     let sandbox = Sandbox::new();
     let body = "let before = textureLoad(color_before, pixel, 0).rgb;
@@ -79,7 +79,7 @@ fn blur_and_score_repeat_the_sequence_of_a_run() {
     let swapped = scores(&sandbox, "mine", &[]);
     assert!(swapped.flicker.value() > slow.flicker.value());
 
-    // Engines write PNGs. A plate of up to 0.7 of white loses little by 8 bits.
+    // Engines write PNGs. A plate of up to 0.7 of white loses little to 8 bits.
     fs::create_dir(sandbox.path("shown")).unwrap();
     for (at, folder) in ["plate", "plate/0001", "plate/0002"].iter().enumerate() {
         let color = sandbox.read_color(&format!("out/{folder}/late_default/output.exr"));
@@ -92,7 +92,7 @@ fn blur_and_score_repeat_the_sequence_of_a_run() {
     assert_misfits_are_refused(&sandbox);
 }
 
-/// Refuses sequences that do not fit.
+/// Checks that mismatched sequences are refused.
 fn assert_misfits_are_refused(sandbox: &Sandbox) {
     let parts = "--out: mine.exr is the name of one picture, and 3 are written";
     sandbox.refuse(&format!("{BLUR} mine.exr"), &[parts]);

@@ -62,7 +62,7 @@ fn a_run_takes_every_scene_at_every_rate_and_keeps_it() {
     assert_kept(&sandbox, &run);
 }
 
-/// Compares a run with one without rates: the file's rate, and a shutter as long as there, give the same numbers.
+/// Compares a run with one without rates: at the file's rate, and with an equally long shutter, the numbers are the same.
 fn assert_holds(run: &Run, whole: &Run) {
     for case in &whole.cases {
         for rate in [None, FrameRate::in_word("60fps_1-120s")] {
@@ -80,7 +80,7 @@ fn assert_holds(run: &Run, whole: &Run) {
     }
     let written = run.overall.iter().filter(|mean| mean.rate.is_none());
     assert_eq!(written.cloned().collect::<Vec<_>>(), whole.overall);
-    // Skill applies at some rates only: where the shutter is open for long enough that the oracle gains more than noise.
+    // Skill applies at some rates only: the shutter must be open long enough that the oracle gains more than noise.
     let [all, one] = [run, whole].map(|run| {
         let means = run.overall.iter();
         means
@@ -90,7 +90,7 @@ fn assert_holds(run: &Run, whole: &Run) {
     assert_eq!(all, 4 * one);
 }
 
-/// Checks that each rate has a row, with what doing nothing scores.
+/// Checks that each rate has a row, with the score of doing nothing.
 fn assert_rows_of_rates(printed: &str) {
     assert!(printed.contains("frame rate"), "{printed}");
     let flip = |rate: &str| -> f64 {
@@ -171,13 +171,13 @@ fn a_rule_of_the_shutter_is_the_blur_of_another_exposure() {
     assert!(right != wrong);
     let case = find(&cases, "plate@24fps", &format!("{name} rule=share_falls"));
     assert_eq!(case.input.rule, ShutterRule::ShareFalls);
-    // The truth stays that of the scene.
+    // The truth stays the scene's.
     let plain = find(&cases, "plate@24fps", name);
     assert_eq!(case.truth_hash, plain.truth_hash);
     assert_eq!(case.exposure, plain.exposure);
 }
 
-/// Writes filters that show the rate which they are told, and a program that logs it.
+/// Writes filters that show their frame rate, and a program that logs it.
 fn write_filters(sandbox: &Sandbox) {
     let sixty = "[convention]\nframes_per_second = 60";
     let rate = "textureStore(output, pixel, vec4<f32>(frame.frames_per_second, frame.exposure, 0.0, 1.0));";
@@ -241,7 +241,7 @@ fn a_sequence_is_shown_at_its_rate() {
         scores.get(SequenceMetric::Jod).value().unwrap()
     };
     let [written, slow] = ["plate", "plate@24fps"].map(|scene| jod(&sandbox, scene));
-    // The rate of the scenes' files does not touch those at another.
+    // The rate of the scenes' files does not affect scenes at another rate.
     sandbox.measure(&format!("{words} 30"));
     assert_ne!(jod(&sandbox, "plate"), written);
     assert_eq!(jod(&sandbox, "plate@24fps"), slow);

@@ -18,7 +18,7 @@ fn a_gallery_shows_the_best_and_the_worst_filter_of_each_shutter() {
     assert_contains(&page, &parts);
     let command = "\n    shuttertruth report out --gallery shown\n";
     let centred = "centred: `bevy:default` 0.";
-    // The camera stands still, so that its motion blurs nothing.
+    // The camera is still, so its motion blurs nothing.
     let trailing = "trailing: `velocity_gather:fine` 0.";
     let worst = ", `camera_gather:default` 0.";
     assert_contains(&page, &[command, centred, trailing, worst]);

@@ -1,4 +1,4 @@
-//! The script that makes large runs of copies of a small one.
+//! The script that makes large runs from copies of a small one.
 
 use std::process::Command;
 

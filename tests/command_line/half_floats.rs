@@ -1,4 +1,4 @@
-//! Filters with colours of 16-bit floats: what they gather is measured in 32 bits.
+//! Filters with colours of 16-bit floats: their gathers are measured in 32 bits.
 
 use std::fs;
 use std::sync::OnceLock;
@@ -9,7 +9,7 @@ use tests::text::{assert_contains, squeeze};
 
 use crate::sandbox::Sandbox;
 
-/// Scores that need weights which do not depend on colour.
+/// Scores that need weights independent of colour.
 const OF_WEIGHTS: [&str; 9] = [
     "lateral_growth",
     "row_loss",
@@ -58,7 +58,7 @@ fn write_outside(sandbox: &Sandbox) {
     tests::filter_folder::write_manifest(&sandbox.path("outside"), "outside", &command);
 }
 
-/// Measures all filters on the plate, once for all tests; returns what the program prints, and their cases.
+/// Measures all filters on the plate, once for all tests; returns the output, and their cases.
 fn measured() -> &'static (String, Vec<Case>) {
     static FOUND: OnceLock<(String, Vec<Case>)> = OnceLock::new();
     FOUND.get_or_init(|| {
@@ -107,14 +107,14 @@ fn rounded_colours_lose_no_score_of_what_a_filter_gathers() {
     for metric in OF_WEIGHTS.map(|name| name.parse().unwrap()) {
         let found = half.scores.get(metric);
         assert!(found.value().is_some(), "{}: {found:?}", metric.name());
-        // The weights are the same, and so is what they gather.
+        // The weights are the same, and so are the gathered colours.
         assert_eq!(found, full.scores.get(metric), "{}", metric.name());
     }
     // The picture is the filter's own.
     assert_ne!(half.scores.moving, full.scores.moving);
 }
 
-/// So do fragment shaders of many engines.
+/// The same is true of many engines' fragment shaders.
 #[test]
 fn shaders_of_engines_keep_their_scores_in_16_bits() {
     for filter in ["godot_blur", "drawn"] {
@@ -125,7 +125,7 @@ fn shaders_of_engines_keep_their_scores_in_16_bits() {
     }
 }
 
-/// A shader that is made again for other constants stores as the first does.
+/// A shader rebuilt for other constants stores like the first.
 #[test]
 fn shaders_of_other_constants_keep_their_scores_in_16_bits() {
     let nonlinearity = find_case("constant").nonlinearity.unwrap();
@@ -142,7 +142,7 @@ fn weights_that_depend_on_colour_give_no_scores_of_weights_and_say_why() {
     for filter in ["bright", "bright_full"] {
         assert_no_weights(filter, &["weights depend on colour"]);
         let case = find_case(filter);
-        // Pixels that are twice as bright weigh up to 1.3 times as much.
+        // Pixels twice as bright weigh up to 1.3 times as much.
         let nonlinearity = case.nonlinearity.unwrap();
         assert!(nonlinearity > 0.01, "{filter}: {nonlinearity}");
         assert!(case.scores.moving.flip.value().is_some(), "{filter}");

@@ -26,7 +26,7 @@ fn set_up() -> Sandbox {
     sandbox
 }
 
-/// Writes the model, and removes the scene that was made of another one.
+/// Writes the model, and removes the previous model's scene.
 fn write_model(sandbox: &Sandbox, text: &str) {
     fs::write(sandbox.path("my models/the house.obj"), text).unwrap();
     _ = fs::remove_dir_all(sandbox.path("scenes/house"));
@@ -41,7 +41,7 @@ fn import(sandbox: &Sandbox, more: &str) -> Output {
     import_to(sandbox, "scenes/house", more)
 }
 
-/// Imports the house; returns what is printed, and the scene's frame at a quarter of the size that its speeds are meant for.
+/// Imports the house; returns the output, and the scene's frame at a quarter of the size that its speeds are for.
 fn import_and_render(sandbox: &Sandbox, more: &str) -> (String, Frame) {
     let output = import(sandbox, more);
     assert_done(&output);
@@ -56,7 +56,7 @@ fn import_and_render(sandbox: &Sandbox, more: &str) -> (String, Frame) {
     (stdout(&output), frame)
 }
 
-/// Returns the places of the pixels that show an object, and their velocities, in pixels of 320x180.
+/// Returns the positions of the pixels that show an object, and their velocities, in pixels of 320x180.
 fn shown_pixels(frame: &Frame, object: &str) -> Vec<([f64; 2], [f64; 2])> {
     let mut names = frame.objects.iter();
     let id = names.position(|name| name == object).unwrap() as u32;
@@ -74,7 +74,7 @@ fn speeds(frame: &Frame, object: &str) -> Vec<f64> {
     shown.map(|(_, [x, y])| x.hypot(y)).collect()
 }
 
-/// Rounding of a plane that is hundreds of metres large.
+/// Rounding of a plane hundreds of metres wide.
 const STILL: f64 = 1e-3;
 
 #[test]
@@ -85,7 +85,7 @@ fn an_imported_model_is_centred_and_slides_at_the_requested_speed() {
     let house = shown_pixels(&frame, "model");
     let count = house.len() as f64;
     let middle = [0, 1].map(|axis| house.iter().map(|(at, _)| at[axis]).sum::<f64>() / count);
-    // The camera looks from the side and from above, so that the seen part is not symmetric about the middle.
+    // The camera looks from the side and from above, so the visible part is not symmetric about the middle.
     assert_near(middle[0], 160.0, 10.0);
     assert_near(middle[1], 90.0, 10.0);
     let inside =
@@ -139,7 +139,7 @@ fn an_orbiting_camera_keeps_the_model_in_the_middle() {
 fn a_model_with_z_up_stands_upright() {
     let sandbox = set_up();
     let (_, upright) = import_and_render(&sandbox, "--slide 8px/frame");
-    // The house lies on its back: its y axis becomes z.
+    // The house is on its back: its y axis becomes z.
     let lying = HOUSE.lines().map(|line| match split(line)[..] {
         ["v", x, y, z] => format!("v {x} {} {y}\n", -z.parse::<f64>().unwrap()),
         _ => format!("{line}\n"),
@@ -190,7 +190,7 @@ fn bad_models_are_refused_with_the_way_out() {
     fs::write(sandbox.path("my models/the house.mtl"), outside).unwrap();
     let dot = frame::Raster::filled(2, 2, [0.5; 3]);
     frame::write_png(&sandbox.path("scenes/dot.png"), &dot).unwrap();
-    // Faces with a texture need coordinates. This is checked before the texture's place.
+    // Faces with a texture need coordinates. This is checked before the texture's path.
     refuse(HOUSE, &["texture", "import the model plain"]);
     let textured = HOUSE.replace(
         "usemtl the roof\r\nf 3 8 9 4\r\nf 4 9 10 5",
@@ -221,7 +221,7 @@ fn a_model_without_its_materials_imports_plain_on_request() {
     assert_refused(&import(&sandbox, &plain), 2, &parts);
 }
 
-/// Imports a bumpy ball with so many steps around and along it.
+/// Imports a bumpy ball with this many steps around and along it.
 fn import_ball(steps: usize) {
     let sandbox = set_up();
     let mut text = String::from("o ball\n");

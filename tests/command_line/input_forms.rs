@@ -1,4 +1,4 @@
-//! Forms in which engines hand over a frame: sizes of buffers, samples, jitter, scale.
+//! Forms in which engines provide a frame: sizes of buffers, samples, jitter, scale.
 
 use frame::read_exr;
 use suite::{BufferSize, CameraJitter, Case, DepthOfField, Multisampling, RenderScale, Sequence};
@@ -6,7 +6,7 @@ use suite::{BufferSize, CameraJitter, Case, DepthOfField, Multisampling, RenderS
 use crate::comparison::find_case;
 use crate::sandbox::{SCENE, Sandbox};
 
-/// Measures how far to the right the middle of the plate lies in the output of one frame of a sequence, in pixels.
+/// Measures how far right the middle of the plate is in the output of one frame of a sequence, in pixels.
 fn plate_middle(sandbox: &Sandbox, sequence: &Sequence, frame: usize) -> f64 {
     let folder = sandbox.path("out").join(&sequence.frames[frame].folder);
     let output = read_exr(&folder.join("output.exr")).unwrap();
@@ -59,27 +59,27 @@ fn buffers_samples_jitter_and_scale_change_what_filters_get() {
     let gathered = |change: &str| flip(&cases, &format!("velocity_gather:fine {change}"));
     let [identity, whole] = ["identity:default", "velocity_gather:fine"].map(|it| flip(&cases, it));
 
-    // Colour is the same whichever sample velocity is of; four samples are coarser than the whole pixel.
+    // Colour is the same whichever sample velocity comes from; four samples are coarser than the whole pixel.
     assert_eq!(own("msaa=first"), own("msaa=nearest"));
     assert_eq!(own("msaa=first"), own("msaa=farthest"));
     assert!((own("msaa=first") - identity).abs() < 0.02);
     assert_ne!(gathered("msaa=nearest"), gathered("msaa=farthest"));
 
-    // Anti-aliased colour is that of the frame; a jittered one lies elsewhere, whatever its vectors.
+    // Anti-aliased colour equals the frame's; a jittered one is shifted, whatever its vectors.
     assert_eq!(own("jitter=resolved"), identity);
     assert_eq!(own("jitter=removed"), own("jitter=left_in"));
     assert_ne!(own("jitter=removed"), identity);
     assert_ne!(gathered("jitter=removed"), gathered("jitter=left_in"));
     assert_ne!(gathered("jitter=resolved"), whole);
 
-    // Without a blur it does not matter whether it comes before or after upscaling.
+    // Without a blur, the order of blur and upscaling does not matter.
     for scale in [50, 67] {
         let [before, after] =
             ["blur_first", "upscale_first"].map(|it| format!("scale={scale}_{it}"));
         assert!((own(&before) - own(&after)).abs() < 1e-6);
         assert_ne!(gathered(&before), gathered(&after));
         assert!((own(&before) - identity).abs() > 1e-3);
-        // The gather blurs in the small picture as far as in the whole one: it stays far from the identity.
+        // The gather blurs as far in the small picture as in the whole one: it stays far from the identity.
         assert!(gathered(&before) < 0.8 * own(&before));
         assert!(gathered(&after) < 0.8 * own(&after));
     }
@@ -88,7 +88,7 @@ fn buffers_samples_jitter_and_scale_change_what_filters_get() {
     assert_eq!(other.input.msaa, Multisampling::None);
 }
 
-/// Smaller buffers change the filters that read them alone.
+/// Smaller buffers only change filters that read them.
 fn assert_buffers_count(cases: &[Case], printed: &str) {
     let [identity, whole] = ["identity:default", "velocity_gather:fine"].map(|it| flip(cases, it));
     for size in BufferSize::ALL.iter().skip(1) {
@@ -101,13 +101,13 @@ fn assert_buffers_count(cases: &[Case], printed: &str) {
     }
     let case = find_case(cases, "velocity_gather:fine buffers=quarter");
     assert_eq!(case.input.buffers, BufferSize::Quarter);
-    // The plate's background stands still: blocks without the plate's own motion blur less than those that spread it.
+    // The plate's background is still: blocks without the plate's own motion blur less than those that spread it.
     let [quarter, dilated] = ["quarter", "quarter_dilated"]
         .map(|size| flip(cases, &format!("velocity_gather:fine buffers={size}")));
     assert_ne!(quarter, dilated);
 }
 
-/// The output of a small picture has the size of the whole one, and its places are in pixels of that.
+/// The output of a small picture has the whole picture's size, and its positions are in the whole picture's pixels.
 fn assert_sizes_fit(sandbox: &Sandbox, cases: &[Case]) {
     let case = find_case(cases, "velocity_gather:fine scale=50_blur_first");
     assert_eq!(case.input.scale, RenderScale::HalfBlurFirst);

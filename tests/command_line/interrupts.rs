@@ -1,8 +1,8 @@
-//! Ctrl-C: every command ends within two seconds, whatever the GPU is doing.
+//! Ctrl-C: every command ends within two seconds, even during GPU work.
 
 use crate::sandbox::{Sandbox, assert_ends_at_ctrl_c, quick_command, split, wait_until_busy};
 
-/// Many passes, which take minutes together.
+/// Many passes that together take minutes.
 const PASSES: &str = "[[pass]]\nentry = \"work\"\nrepeat = 1000";
 
 const BODY: &str = "
@@ -15,7 +15,7 @@ const BODY: &str = "
 
 #[test]
 fn ctrl_c_ends_work_on_the_gpu_within_two_seconds() {
-    // The frame and the truth are there, so that both commands soon reach the GPU.
+    // The frame and the truth exist, so that both commands soon reach the GPU.
     let sandbox = Sandbox::measured();
     sandbox.write_kernel("slow", PASSES, &[], BODY);
     let blur = split("engine blur --filter ./slow --frame out/plate/frame.exr --out b.exr");

@@ -42,7 +42,7 @@ fn render_at_once(sandbox: &Sandbox, parts: &[(&str, &str)]) {
     }
 }
 
-/// Returns what one process renders. It does so once for all tests.
+/// Returns the files of one process's render, which runs once for all tests.
 fn whole() -> &'static Files {
     static FILES: OnceLock<Files> = OnceLock::new();
     FILES.get_or_init(|| {
@@ -52,7 +52,7 @@ fn whole() -> &'static Files {
     })
 }
 
-/// Makes a sandbox whose folder `out` holds that.
+/// Makes a sandbox with these files in `out`.
 fn rendered() -> Sandbox {
     let sandbox = Sandbox::new();
     sandbox.write_files("out", whole());
@@ -98,7 +98,7 @@ fn a_killed_render_resumes_to_the_same_bytes() {
     sandbox.done(&killed);
     assert_eq!(written(), kept, "a whole replicate was rendered again");
     let [whole, mut killed] = ["whole", "killed"].map(|out| read_below(&sandbox.path(out)));
-    // What a killed process was writing.
+    // A killed process's unfinished file.
     killed.retain(|(name, _)| !name.to_string_lossy().contains(".tmp"));
     assert_same_files(&whole, &killed);
 }
@@ -107,7 +107,7 @@ fn replace_by_another(path: &Path) {
     fs::copy(path.with_file_name("replicate_000.exr"), path).unwrap();
 }
 
-/// Writes a truth or a replicate as older versions did.
+/// Rewrites a truth or a replicate like older versions.
 fn remove_support(path: &Path) {
     let mut file = read_exr(path).unwrap();
     let written = file.channels.len();
@@ -206,12 +206,12 @@ fn a_noise_target_adds_replicates_until_it_is_reached_or_reports_a_failure() {
     let target = number(&first, "moving ") / 2.0;
     let until = format!("--alignments trailing,centred --replicates 2 --noise {target}");
     let text = sandbox.execute(&render("both", &split(&until)));
-    // Each truth has the bytes that a render of its number of replicates has. The same command again says the same.
+    // Each truth has the same bytes as a render of its number of replicates. The same command again prints the same.
     for alignment in ["trailing", "centred"] {
         let own = format!("{alignment}: ");
         let line = text.lines().find(|line| line.contains(&own)).expect(&text);
         assert!(number(line, "moving ") <= target, "{line}");
-        // Half the noise takes four times the replicates, and the floor is an estimate.
+        // Half the noise needs four times the replicates, and the floor is an estimate.
         let count = number(line, &own);
         assert!((6.0..=14.0).contains(&count), "{line}");
         let alone = format!("--replicates {count} --alignments {alignment}");

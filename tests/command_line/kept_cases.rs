@@ -12,7 +12,7 @@ use tests::filter_folder::copy_shipped_filter;
 
 use crate::sandbox::{Files, Sandbox, assert_done, files_below, quick_command, split, stdout};
 
-/// Three presets of a filter of the tests' own, beside the identity.
+/// Three presets of a filter of the tests' own, and the identity.
 const FILTERS: &str = "--filters identity --filter mine";
 const BARS: &str = "accumulate_1_trailing accumulate_4_trailing accumulate_8_trailing \
     accumulate_16_trailing accumulate_64_trailing identity_trailing scatter_oracle_trailing";
@@ -88,19 +88,19 @@ fn names(list: &str) -> BTreeSet<String> {
     split(list).into_iter().map(str::to_owned).collect()
 }
 
-/// Replaces one text by another in a file of the bench.
+/// Replaces a text in a file of the sandbox.
 fn change(sandbox: &Sandbox, file: &str, from: &str, to: &str) {
     let text = fs::read_to_string(sandbox.path(file)).unwrap();
     assert!(text.contains(from), "{file} holds \"{from}\"");
     fs::write(sandbox.path(file), text.replacen(from, to, 1)).unwrap();
 }
 
-/// Reads out/run.json as it is.
+/// Reads the bytes of out/run.json.
 fn run_json(sandbox: &Sandbox) -> Vec<u8> {
     fs::read(sandbox.path("out/run.json")).unwrap()
 }
 
-/// Lists the names of the files of ladders.
+/// Lists the names of the ladders' files.
 fn list_rungs(sandbox: &Sandbox) -> Vec<String> {
     let names = read_times(sandbox).into_keys();
     names.filter(|name| name.starts_with("ladder_")).collect()
@@ -150,7 +150,7 @@ fn a_run_takes_the_truth_of_a_check_and_adds_the_ladder() {
     measure_finely(&sandbox, "");
     assert_eq!(truth(), before, "the truth was rendered again");
     assert_eq!(list_rungs(&sandbox).len(), 7);
-    // The output does not depend on what a check left.
+    // The output does not depend on a check's files.
     let kept = run_json(&sandbox);
     assert!(!sandbox.read_run().cases.iter().any(without));
     fs::remove_dir_all(sandbox.path("out")).unwrap();
@@ -170,7 +170,7 @@ fn a_check_takes_the_cases_of_a_run_with_intervals() {
 #[test]
 fn a_check_renders_the_ladder_that_a_limit_asks_for() {
     let sandbox = checked();
-    // The frame as it is has the error of about one sub-frame.
+    // The unblurred frame has the error of about one sub-frame.
     let limit = "n_eq = { limit = 100.0, why = \"none keeps it\" }";
     let text = format!("{NONE_KEEPS_IT}[filter.\"identity:default\"]\n{limit}\n");
     sandbox.write("bounds.toml", &text);
@@ -258,7 +258,7 @@ fn missing_truncated_and_altered_files_are_made_again() {
         };
         let whole: Vec<_> = read().collect();
         for kind in ["missing", "cut", "altered"] {
-            // A record has the hashes of its files, and none of itself: whoever can change it can write any hash into it.
+            // A record has the hashes of its files, but not its own: whoever can change it can write any hash into it.
             if kind == "altered" && files.ends_with(".json") {
                 continue;
             }

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use tests::root;
 use walkdir::{DirEntry, WalkDir};
 
-/// Folders without pages of the project's own.
+/// Folders without our own pages.
 const FOREIGN: [&str; 4] = ["target", "out", "node_modules", ".git"];
 
 /// Finds every page below a folder.
@@ -50,7 +50,7 @@ fn anchors(text: &str) -> Vec<String> {
     headings.map(anchor).collect()
 }
 
-/// Tells whether a link leads somewhere.
+/// Returns whether a link leads somewhere.
 fn leads_somewhere(page: &Path, target: &str) -> bool {
     let (file, anchor) = target.split_once('#').unwrap_or((target, ""));
     let path = match file {

@@ -1,4 +1,4 @@
-//! The program as its user meets it: output, files and exit codes.
+//! The program as its user sees it: output, files and exit codes.
 
 mod arguments;
 mod audit;
@@ -17,6 +17,7 @@ mod failures;
 mod fidelity;
 mod finished_sequence;
 mod frame_rates;
+mod further_velocities;
 mod gallery;
 #[cfg(unix)]
 mod growth;

@@ -1,4 +1,4 @@
-//! The filter that the guide writes, and the error messages that the guide quotes.
+//! The guide's filter, and the error messages that the guide quotes.
 
 use tests::text::code_block;
 
@@ -31,7 +31,7 @@ fn write(sandbox: &Sandbox, change: Option<&Mistake>) {
     sandbox.write_filter("my_blur", &manifest, &kernels);
 }
 
-/// Mistake that the guide shows: a file, a text and its replacement, and the program's message.
+/// Mistake from the guide: a file, a text and its replacement, and the program's message.
 struct Mistake {
     from: &'static str,
     to: &'static str,

@@ -1,11 +1,11 @@
-//! The Python that drives the program.
+//! The Python for scripts that drive the program.
 
 use std::process::Command;
 
-/// Returns the Python that has these packages. `make test` installs them and names it in PYTHON.
+/// Returns a Python with these packages. `make test` installs them and names it in PYTHON.
 pub fn python_with(packages: &[&str]) -> String {
     let python = std::env::var("PYTHON").unwrap_or("python3".to_owned());
-    // To find them takes less time than to import them.
+    // Finding them is faster than importing them.
     let find = "import sys; from importlib.util import find_spec; \
         sys.exit(any(not find_spec(own) for own in sys.argv[1:]))";
     let found = Command::new(&python)

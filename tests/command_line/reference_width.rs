@@ -10,7 +10,7 @@ use tests::text::assert_contains;
 
 use crate::sandbox::{Sandbox, assert_done, split, stdout};
 
-/// Manifest of a box blur. Its parameter is a radius in pixels, for pictures four times as wide as the bench's.
+/// Manifest of a box blur. Its parameter is a radius in pixels, for pictures four times as wide as the sandbox's.
 const MANIFEST: &str = include_str!("../fixtures/filters/box_blur.toml");
 const BODY: &str = include_str!("../fixtures/filters/box_blur.wgsl");
 
@@ -95,7 +95,7 @@ fn bench_and_tuning_scale_presets_unless_told_not_to() {
 #[test]
 fn a_tuned_preset_records_the_width_of_its_tuning() {
     let sandbox = set_up();
-    // Five scenes that are much alike tell a choice from the start, which blurs too little at their speeds.
+    // Five scenes that are much alike distinguish a choice from the start, which blurs too little at their speeds.
     for (name, way) in ["a", "b", "c", "d", "e"].iter().zip(358..) {
         let way = format!("-{:.2}", f64::from(way) / 100.0);
         sandbox.copy_scene(name, |text| text.replace("-1.6", &way));
@@ -114,7 +114,7 @@ fn a_tuned_preset_records_the_width_of_its_tuning() {
     let (written, _) = preset("--as-written");
     assert!(!written.contains("reference_width"), "{written}");
 
-    // The filter has the preset as soon as it is appended.
+    // The filter has the preset once it is appended.
     let appended = format!("{MANIFEST}\n{scaled}");
     fs::write(sandbox.path("mine/filter.toml"), appended).unwrap();
     let listed = sandbox.done("list --filter mine");
@@ -122,7 +122,7 @@ fn a_tuned_preset_records_the_width_of_its_tuning() {
     assert_contains(&listed, &parts);
 }
 
-/// Scores of filters that are scaled say little about those that are not.
+/// Scores of scaled filters say little about others.
 #[test]
 fn a_run_that_mixes_scaled_and_unscaled_filters_says_which_are_which() {
     let sandbox = set_up();
@@ -154,7 +154,7 @@ fn a_run_that_mixes_scaled_and_unscaled_filters_says_which_are_which() {
     }
     assert_eq!(note(filters, &["--as-written"]), None);
     assert_eq!(note("mcguire:paper,identity", &[]), None);
-    // A width of its own, for all presets.
+    // Its own width, for all presets.
     write(&manifest.replacen("[[parameter]]", "reference_width = 256\n\n[[parameter]]", 1));
     assert_eq!(note(filters, &[]), None);
     let cases = sandbox.read_filter_cases();

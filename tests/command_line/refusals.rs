@@ -37,7 +37,7 @@ fn bad_arguments_are_refused_with_the_allowed_values_and_leave_nothing_behind() 
     }
 }
 
-/// All slips in scenes are tried on the reader itself.
+/// All mistakes in scenes are tried on the reader itself.
 #[test]
 fn a_bad_scene_is_refused_with_file_and_line_and_leaves_nothing_behind() {
     let long = SCENE.replace("exposure = 0.5", "exposure = -0.5");

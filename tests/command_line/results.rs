@@ -1,4 +1,4 @@
-//! Kept results: files of scores, and the page that is made from them.
+//! Kept results: files of scores, and the page made from them.
 
 #[path = "../../examples/results/page.rs"]
 mod page;
@@ -133,7 +133,7 @@ fn run(more: &str) -> Run {
 
 #[test]
 fn results_of_two_runs_are_those_of_one() {
-    // A run keeps the cases of earlier ones in its folder, so that each has its own.
+    // A run keeps the cases of earlier ones in its folder, so each has its own.
     let [plate, slow] = ["plate", "slow"].map(|scene| run(&format!("--scenes {scene}")));
     let whole = Results::from_runs(&[run("")]).unwrap();
     let joined = Results::from_runs(&[plate.clone(), slow]).unwrap();
@@ -159,11 +159,11 @@ fn results_of_two_runs_are_those_of_one() {
     let name = sealed.file_name();
     assert!(name.ends_with("_seal3.json"), "{name}");
 
-    // A filter that was measured later joins those of its scene.
+    // A filter that was measured later joins the others of its scene.
     let mut part = whole.clone();
     (part.scores).retain(|own| own.scene != "plate" || own.name != "velocity_gather:coarse");
     assert_eq!(part.scores.len(), 5);
-    // Its own score takes the place of an older one.
+    // Its own score replaces an older one.
     part.scores[0].floor = 9.0;
     part.update(whole.clone()).unwrap();
     assert_eq!(part, whole);
@@ -182,7 +182,7 @@ fn results_of_two_runs_are_those_of_one() {
     assert_contains(&refused, &["kept.json: has format 9; allowed: 2"]);
 }
 
-/// Writes the filter `learnt`: a gather along the velocity that the plate has, whatever the velocity buffer says.
+/// Writes the filter `learnt`: a gather along the plate's true velocity, ignoring the velocity buffer.
 fn write_learnt_filter(sandbox: &Sandbox) {
     let folder = sandbox.path("learnt");
     copy_changed_filter("velocity_gather", &folder, |kernels| {
@@ -207,7 +207,7 @@ fn a_filter_that_was_fitted_to_the_scenes_falls_on_sealed_ones() {
         sandbox.copy_scene(name, |text| text.replace("0.2, 0.2, 0.2", light));
     }
     write_learnt_filter(&sandbox);
-    // One that lets all of the plates move the other way.
+    // One where all of the plates move the other way.
     let turns_round = |seed: u64| {
         let turned = |name: &&str| {
             let seal = Seal::new(seed, name);

@@ -1,6 +1,6 @@
-//! Tables of tests in TOML files: what is tried, and what the program must say about it.
+//! Tables of tests in TOML files: what is tried, and the program's expected messages.
 
-/// Reads the rows of a table. They live as long as the tests.
+/// Reads the rows of a table, with a static lifetime.
 pub fn rows(toml: &str, table: &str) -> Vec<Vec<&'static str>> {
     let tables: toml::Table = toml.parse().unwrap();
     let rows: Vec<Vec<String>> = tables[table].clone().try_into().unwrap();
@@ -9,7 +9,7 @@ pub fn rows(toml: &str, table: &str) -> Vec<Vec<&'static str>> {
     rows.into_iter().map(|row| leak(row).collect()).collect()
 }
 
-/// Divides a row into changes, each `from => to`, and the words that an error must have.
+/// Divides a row into changes, each `from => to`, and the required words of an error.
 pub fn divide(row: &[&'static str]) -> (Vec<(&'static str, &'static str)>, Vec<&'static str>) {
     let (changes, words): (Vec<&str>, Vec<&str>) =
         row.iter().partition(|text| text.contains(" => "));

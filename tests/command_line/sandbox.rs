@@ -12,11 +12,10 @@ pub use tests::plate::{MTL, OBJ};
 use tests::text::{assert_contains, read_rows};
 use walkdir::WalkDir;
 
-/// Scene of a plate. The vertical field of view is 60 degrees from 4 m away, so that 0.4 m is about 2.7 px of 32 px
-/// rows.
+/// Scene of a plate. The vertical field of view is 60 degrees from 4 m away, so 0.4 m is about 2.7 px of 32 px rows.
 pub const SCENE: &str = include_str!("plate.toml");
 
-/// Words that choose the identity alone.
+/// Words that choose only the identity.
 pub const IDENTITY: [&str; 2] = ["--filters", "identity"];
 
 /// Temporary folder with one scene, `plate`, and an `out` that does not exist yet.
@@ -73,7 +72,7 @@ impl Sandbox {
         read_below(self.folder.path())
     }
 
-    /// Makes a sandbox with what `make` leaves in one. It is called once for all tests.
+    /// Makes a sandbox from the files that `make` leaves, which is called once for all tests.
     pub fn once(files: &OnceLock<Files>, make: impl FnOnce() -> Self) -> Self {
         Self::of(files.get_or_init(|| make().read_files()))
     }
@@ -112,7 +111,7 @@ impl Sandbox {
         self.write("bounds.toml", &format!("[default]\n{bound}\n"));
     }
 
-    /// Bounds the same score of another scene.
+    /// Bounds the same score on another scene.
     pub fn copy_bound(&self, scene: &str) {
         let folders = ["plate", scene].map(|name| self.path("scenes").join(name));
         let [from, to] = folders.map(|folder| folder.join("bounds.toml"));
@@ -138,7 +137,7 @@ impl Sandbox {
         self.command(words).output().unwrap()
     }
 
-    /// Runs a command that must succeed; returns what it prints.
+    /// Runs a command that must succeed; returns its output.
     #[track_caller]
     pub fn execute(&self, words: &[&str]) -> String {
         let output = self.shuttertruth(words);
@@ -146,7 +145,7 @@ impl Sandbox {
         stdout(&output)
     }
 
-    /// Runs a command line that must succeed; returns what it prints.
+    /// Runs a command line that must succeed; returns its output.
     #[track_caller]
     pub fn done(&self, line: &str) -> String {
         self.execute(&split(line))
@@ -165,7 +164,7 @@ impl Sandbox {
         assert!(status.unwrap().success(), "git {line}");
     }
 
-    /// Does it for a table: more words of the command, and the parts of the message.
+    /// Does the same for a table: more words of the command, and the parts of the message.
     #[track_caller]
     pub fn refuse_rows(&self, command: &str, table: &str) {
         for (words, parts) in read_rows(table) {
@@ -173,14 +172,14 @@ impl Sandbox {
         }
     }
 
-    /// Runs a command as if no CI were there.
+    /// Runs a command as if outside CI.
     pub fn outside_ci(&self, words: &[&str]) -> Output {
         let mut command = self.command(words);
         command.env_remove("CI").env_remove("GITHUB_STEP_SUMMARY");
         command.output().unwrap()
     }
 
-    /// Runs a command as if no Vulkan driver were there.
+    /// Runs a command as if without a Vulkan driver.
     pub fn without_adapter(&self, words: &[&str]) -> Output {
         let mut command = self.command(words);
         for name in ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"] {
@@ -201,7 +200,7 @@ impl Sandbox {
         self.shuttertruth(&[&words, more].concat())
     }
 
-    /// Runs `run` with few samples, which must succeed; returns what it prints.
+    /// Runs `run` with few samples, which must succeed; returns its output.
     #[track_caller]
     pub fn measure(&self, line: &str) -> String {
         self.measure_into("out", line)
@@ -215,7 +214,7 @@ impl Sandbox {
         self.execute(&[&words[..], &split(line)].concat())
     }
 
-    /// Runs `check` with few samples and no CI; the report is on standard output.
+    /// Runs `check` with few samples and outside CI; the report is on standard output.
     pub fn check(&self, more: &[&str]) -> Output {
         let words = quick_command("check", "64");
         self.outside_ci(&[&words, more].concat())
@@ -237,7 +236,7 @@ impl Sandbox {
         file.color("").unwrap()
     }
 
-    /// Tells whether the process that a file names has ended. A zombie has: nobody has collected it yet.
+    /// Returns whether the process named in a file has ended. A zombie has: nobody has collected it yet.
     pub fn has_ended(&self, file: &str) -> bool {
         let pid = fs::read_to_string(self.path(file)).unwrap();
         let mut ps = Command::new("ps");
@@ -289,7 +288,7 @@ pub fn assert_refused(output: &Output, code: i32, parts: &[&str]) {
     assert_eq!(stdout(output), "", "a refused command prints nothing");
 }
 
-/// Files, by their names below a folder.
+/// Files by their names below a folder.
 pub type Files = Vec<(PathBuf, Vec<u8>)>;
 
 /// Reads all files below a folder.
@@ -301,7 +300,7 @@ pub fn read_below(folder: &Path) -> Files {
     files_below(folder).into_iter().map(read).collect()
 }
 
-/// Fails with the name of a file that is missing or differs.
+/// Fails with the name of a missing or different file.
 #[track_caller]
 pub fn assert_same_files(one: &Files, other: &Files) {
     let names = |files: &Files| -> Vec<PathBuf> { files.iter().map(|own| own.0.clone()).collect() };
@@ -336,7 +335,7 @@ pub fn send(child: &Child, signal: &str) {
     assert!(status.status().unwrap().success());
 }
 
-/// Waits until something is so while a process runs, for two minutes at most.
+/// Waits until a condition is true while a process runs, for two minutes at most.
 #[track_caller]
 pub fn wait_until(child: &mut Child, mut is_so: impl FnMut() -> bool) {
     let end = Instant::now() + Duration::from_secs(120);
@@ -347,8 +346,8 @@ pub fn wait_until(child: &mut Child, mut is_so: impl FnMut() -> bool) {
     }
 }
 
-/// Waits until a process has computed for a number of hundredths of a second, summed over its threads, or for two seconds
-/// where the system does not tell.
+/// Waits until a process has computed for a number of hundredths of a second, summed over its threads, or for two seconds if the
+/// system does not report that.
 pub fn wait_until_busy(child: &mut Child, hundredths: u64) {
     let stat = Path::new("/proc").join(child.id().to_string()).join("stat");
     for _ in 0..if cfg!(target_os = "linux") { 6000 } else { 200 } {
@@ -375,7 +374,7 @@ pub fn split(line: &str) -> Vec<&str> {
     line.split_whitespace().collect()
 }
 
-/// Returns the words of a command that renders and measures in next to no time.
+/// Returns the words of a command that renders and measures very quickly.
 pub fn quick_command<'a>(command: &'a str, samples_per_pixel: &'a str) -> [&'a str; 8] {
     [
         command,

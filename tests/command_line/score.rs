@@ -45,14 +45,14 @@ fn set_up() -> Sandbox {
     })
 }
 
-/// Returns the filter's scores without those of probes, which a picture cannot have.
+/// Returns the filter's scores except those of probes, which a picture cannot have.
 fn read_scores(sandbox: &Sandbox) -> Scores {
     let mut scores = sandbox.read_filter_cases()[0].scores.clone();
     scores.probes = ProbeScores::not_applicable("no probes were run through the filter");
     scores
 }
 
-/// Copies an OpenEXR file without the channels whose names begin with a text.
+/// Copies an OpenEXR file without the channels that begin with a text.
 fn copy_without(sandbox: &Sandbox, channels: &str, from: &str, to: &str) {
     let mut file = read_exr(&sandbox.path(from)).unwrap();
     let written = file.channels.len();
@@ -127,7 +127,7 @@ fn colours_without_mattes_get_only_the_scores_of_colour() {
     };
     let mattes = line("the picture has no mattes, channels coverage.<object>");
     for metric in Metric::all() {
-        // The plate is the only object, so that nothing still can be contaminated.
+        // The plate is the only object, so nothing still can be contaminated.
         let is_probe = matches!(metric, Metric::Probe(_));
         let due = !of_colour(&metric) && metric != Metric::OccluderContamination && !is_probe;
         let listed = mattes.contains(&format!(" {metric}")); // each follows a blank
@@ -148,7 +148,7 @@ fn a_png_is_converted_back_to_radiance() {
         let png = OUTPUT.replace(".exr", ".png");
         let found = scores(&sandbox, &format!("{png} {LADDER}"));
         let [flip, due] = [&found, &expected].map(|own| own.moving.flip.value().unwrap());
-        // Steps of 1/255 in sRGB are small beside the blur's error. A forgotten stop is not: the whole picture becomes
+        // Steps of 1/255 in sRGB are small compared with the blur's error. A forgotten stop is not: the whole picture becomes
         // half or twice as bright.
         assert!((flip - due).abs() < 0.004, "{flip} {due}");
         assert_eq!(found.full.flip_hdr.value(), None);

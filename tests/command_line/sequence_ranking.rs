@@ -10,7 +10,7 @@ use tracer::SceneId;
 
 use crate::sandbox::{Sandbox, assert_done, split, stdout};
 
-/// Names of a ranking with their ranks: `1 a`, `2-3 b`.
+/// Lists the names of a ranking with their ranks: `1 a`, `2-3 b`.
 fn names(ranking: &[Vec<RankedSequence>]) -> Vec<String> {
     let ranked = ranking.iter().flatten().map(|own| &own.ranked);
     ranked
@@ -18,7 +18,7 @@ fn names(ranking: &[Vec<RankedSequence>]) -> Vec<String> {
         .collect()
 }
 
-/// Replaces the run's scenes by six, in which the filters lack the given JOD to the perfect ones.
+/// Replaces the run's scenes with six, where the filters are the given JOD below perfect.
 fn with_scores(run: &Run, lost: impl Fn(&str, f64) -> f64, floor: f64) -> Run {
     let mut made = Run {
         cases: Vec::new(),
@@ -89,12 +89,12 @@ fn sequences_are_ranked_by_means_over_scenes_with_intervals_and_ties() {
     assert_ties(&run);
 }
 
-/// Ranks made scores: what is alike in every scene, or on one scene within the floor, shares its ranks.
+/// Ranks synthetic scores: filters that are equal in every scene, or on one scene within the floor, share their ranks.
 fn assert_ties(run: &Run) {
     let fine = "velocity_gather:fine";
     let departure = "velocity_gather:departure";
 
-    // In every scene fine is a little better than identity, and the third beside it by chance alone.
+    // In every scene fine is a little better than identity, and the third differs from it by chance alone.
     let by = |name: &str, scene: f64| match name {
         "velocity_gather:fine" => 1.0 + 0.1 * scene,
         "identity:default" => 1.1 + 0.101 * scene,
@@ -107,7 +107,7 @@ fn assert_ties(run: &Run) {
         (rank_sequences(&far), ["1", "2-3", "2-3"]),
         // On one scene the floor decides.
         (rank_sequences_on(&far, &first), ["1", "2", "3"]),
-        // The losses are 1.00, 1.10 and 1.15: the first and the last alone differ by more than the floor.
+        // The losses are 1.00, 1.10 and 1.15: only the first and the last differ by more than the floor.
         (rank_sequences_on(&noisy, &first), ["1-2", "1-3", "2-3"]),
     ] {
         let due = std::iter::zip(ranks, [fine, "identity:default", departure]);

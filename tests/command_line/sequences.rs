@@ -71,7 +71,7 @@ fn a_sequence_begins_with_the_frame_without_one_and_goes_on_where_it_ended() {
     let [first, last] = [0, 2].map(|at| own.frames[at].error.unwrap());
     assert!((first / last - 1.0).abs() < 0.1, "{first} {last}");
     assert_page(&sandbox, &printed);
-    // JOD depends on the rate: sequences of two rates are no one run.
+    // JOD depends on the rate: sequences of two rates cannot be one run.
     let other = "--filters velocity_gather:fine --frames 3 --fps 24";
     let parts = [
         "number of frames was 3 at 60 per second, now 3 at 24 per second",
@@ -128,7 +128,7 @@ fn a_filter_with_history_reads_the_frame_before() {
     let frames = ["", "0001/", "0002/"].map(|frame| color(&format!("{frame}frame.exr")));
     let outputs =
         ["", "0001/", "0002/"].map(|frame| color(&format!("{frame}before_default/output.exr")));
-    // The first frame stands in for the one before it.
+    // The first frame has no previous one; it serves as its own.
     for (index, before) in [0, 0, 1].into_iter().enumerate() {
         let due = frames[before].map(|pixel| pixel.map(|value| value + index as f32));
         assert!(outputs[index] == due, "frame {index}");

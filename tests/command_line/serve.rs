@@ -1,4 +1,4 @@
-//! `serve` and `evaluate`: searches that other programs drive.
+//! `serve` and `evaluate`: searches driven by other programs.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -102,7 +102,7 @@ fn parameters_of_a_file_are_checked() {
     assert!(!sandbox.path("out").exists());
 }
 
-/// Makes the command of the example, which finds the program on its PATH; `more` are options of the example.
+/// Makes the example's command, which finds the program on its PATH; `more` are options of the example.
 fn optuna(sandbox: &Sandbox, more: &[&str]) -> Command {
     let example = tests::root().join("examples/optuna_tune.py");
     let program = Path::new(env!("CARGO_BIN_EXE_shuttertruth"));
@@ -131,7 +131,7 @@ fn optuna_finds_something_better_through_the_service() {
     assert!(least < 0.0, "20 trials beat the start: {found}");
 }
 
-/// Reads the operations of a study's journal that are written whole.
+/// Reads the complete operations of a study's journal.
 fn read_journal(sandbox: &Sandbox) -> Vec<Value> {
     let text = fs::read_to_string(sandbox.path("study.log")).unwrap_or_default();
     let lines = text
@@ -181,7 +181,7 @@ fn two_workers_share_a_study_and_one_goes_on_when_the_other_is_killed() {
     assert!(!best.as_array().unwrap().is_empty());
     let journal = read_journal(&sandbox);
     assert_eq!(find_workers(&journal).len(), 2);
-    // Both may have been at their last trial.
+    // Both may have been in their last trial.
     let ended = count_ended(&journal);
     assert!((12..=13).contains(&ended), "{ended}");
 }

@@ -1,4 +1,4 @@
-//! Version, completions and pages of the manual.
+//! Version, completions and manual pages.
 
 use std::fs;
 use std::process::Command;
@@ -7,7 +7,7 @@ use tests::root;
 
 use crate::sandbox::{Sandbox, stdout};
 
-/// Lists the commands, as the page of commands has them: `tune search`.
+/// Lists the commands, as on the page of commands: `tune search`.
 fn list_commands() -> Vec<String> {
     let page = fs::read_to_string(root().join("docs/commands.md")).unwrap();
     let lines = page.lines();
@@ -65,7 +65,7 @@ fn the_manual_has_a_page_for_every_command() {
     };
     for command in list_commands() {
         let name = format!("shuttertruth {command}");
-        // In a manual a hyphen has a backslash.
+        // In manual pages a hyphen has a backslash.
         let escaped = name.replace(' ', "\\-");
         let (parent, _) = name.rsplit_once(' ').unwrap();
         let link = format!("{escaped}(1)");

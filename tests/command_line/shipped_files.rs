@@ -1,4 +1,4 @@
-//! The action of GitHub and the release archive: what pages and files say about them is what they are.
+//! The GitHub action and the release archive: pages and files describe them correctly.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -28,7 +28,7 @@ fn read_section(section: &str) -> BTreeMap<String, Vec<String>> {
     found
 }
 
-/// Reads the first two cells of the rows of the table below a line that begins with `first`.
+/// Reads the first two cells of each row of the table below a line that begins with `first`.
 fn read_table(page: &str, first: &str) -> BTreeMap<String, String> {
     let rows = page
         .lines()
@@ -71,7 +71,7 @@ fn the_page_on_ci_lists_the_inputs_and_outputs_of_the_action_and_the_defaults() 
 
 #[test]
 fn no_script_of_the_action_has_an_expression_in_its_text() {
-    // GitHub puts the value into the script itself, where it would be executed: it belongs into `env`.
+    // GitHub inserts the value into the script itself, where it would be executed: it belongs into `env`.
     let action = read("action.yml");
     let mut script = None;
     for (number, line) in action.lines().enumerate() {

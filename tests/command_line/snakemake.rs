@@ -1,4 +1,4 @@
-//! Snakemake runs the jobs of a plan, after one was killed too.
+//! Snakemake runs the jobs of a plan, also after one was killed.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use tests::text::assert_contains;
 use crate::python::python_with;
 use crate::sandbox::{Sandbox, split, stderr, stdout};
 
-/// Words behind `plan` and `run`.
+/// Words after `plan` and `run`.
 const WORDS: &str =
     "--quiet --size 64x32 --samples-per-pixel 16 --jitter-frames 2 --filter identity";
 
@@ -28,7 +28,7 @@ fn snakemake(sandbox: &Sandbox) -> Command {
     command
 }
 
-/// Finds a process that was started in a folder and whose words contain all of these.
+/// Finds a process that was started in a folder with all of these in its words.
 fn find_process(folder: &Path, words: &[&str]) -> Option<String> {
     let is_own = |process: &PathBuf| {
         let text = fs::read_to_string(process.join("cmdline")).unwrap_or_default();
@@ -58,7 +58,7 @@ fn kill_process(folder: &Path, words: &[&str]) {
     assert!(killed.unwrap().success(), "the job had ended");
 }
 
-/// Runs the Snakefile to its end; returns what it says.
+/// Runs the Snakefile to its end; returns its messages.
 fn finish(sandbox: &Sandbox) -> String {
     let output = snakemake(sandbox).output().unwrap();
     let said = stderr(&output);

@@ -1,11 +1,11 @@
-//! What commands print, compared with files of `snapshots/`. `SNAPSHOTS=overwrite` writes these anew, for a reviewer to read.
+//! Output of commands, compared with files of `snapshots/`. `SNAPSHOTS=overwrite` writes these anew, for a reviewer to read.
 
 use snapbox::{Assert, Data, Redactions};
 use tests::filter_folder::one_kernel;
 
 use crate::sandbox::{Sandbox, split, stderr, stdout};
 
-/// Compares what a command prints with a file of `snapshots/`.
+/// Compares a command's output with a file of `snapshots/`.
 #[track_caller]
 fn assert_printed(text: &str, file: &str) {
     let mut redactions = Redactions::new();

@@ -1,4 +1,4 @@
-//! Summary of a run, as a newcomer sees it.
+//! Summary of a run, as newcomers see it.
 
 use std::fs;
 
@@ -9,7 +9,7 @@ use crate::sandbox::Sandbox;
 #[test]
 fn a_run_ranks_filters_in_at_most_40_lines_and_names_the_report() {
     let sandbox = Sandbox::new();
-    // All filters of a run that names none.
+    // A run without named filters uses all.
     let text = sandbox.measure("--jitter-frames 0");
     assert!(text.lines().count() <= 40, "{text}");
     assert_contains(&text, &["centred shutter", "--table shows all"]);

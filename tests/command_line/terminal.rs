@@ -12,7 +12,7 @@ use crate::sandbox::{IDENTITY, Sandbox, assert_done, quick_command, split, stder
 /// First character of every colour code.
 const ESCAPE: char = '\u{1b}';
 
-/// Variables that decide about colours.
+/// Variables that affect colours.
 const VARIABLES: [&str; 4] = ["CI", "NO_COLOR", "CLICOLOR", "CLICOLOR_FORCE"];
 
 /// Makes a sandbox whose scenes have a limit that the identity breaks.
@@ -44,7 +44,7 @@ fn output_fits_80_columns() {
     let check = stdout(&sandbox.check(&split(filters)));
     assert_contains(&check, &["BROKEN flip_moving"]);
     assert_fits(&check);
-    // What the check rendered serves the run.
+    // The run reuses the check's renders.
     let run = quick_command("run", "64").join(" ");
     assert_fits(&sandbox.execute(&split(&format!("{run} {filters}"))));
     fs::rename(sandbox.path("out"), sandbox.path("first")).unwrap();
@@ -165,7 +165,7 @@ fn long_work_is_announced() {
     assert_contains(&expected, &parts);
 }
 
-/// Where no terminal is, and unless messages of drivers are requested.
+/// Without a terminal, and unless drivers' messages are requested.
 #[test]
 fn a_short_run_prints_nothing_on_standard_error() {
     let sandbox = Sandbox::measured();

@@ -48,7 +48,7 @@ fn run_npm(folder: &Path, words: &[&str]) {
     assert!(output.status.success(), "npm: {said}");
 }
 
-/// A scene as three.js draws it, and as the tracer renders it.
+/// A scene as drawn by three.js, and as rendered by the tracer.
 struct Drawn {
     sandbox: Sandbox,
     frame: Frame,
@@ -90,7 +90,7 @@ impl Drawn {
         Convention::parse(&path, &fs::read_to_string(&path).unwrap()).unwrap()
     }
 
-    /// Reads velocity as three.js has it: a picture's height and width are 2, and y points up.
+    /// Reads three.js's velocity: a picture's height and width are 2, and y points up.
     fn velocity(&self) -> Vectors {
         let file = self.file("velocity.exr");
         let [x, y] = ["velocity.X", "velocity.Y"].map(|name| file.plane(name).unwrap());
@@ -102,7 +102,7 @@ impl Drawn {
         self.convention().restore_depth(&depth)
     }
 
-    /// Audits the capture; returns the exit code and what is printed.
+    /// Audits the capture; returns the exit code and the output.
     fn audit(&self) -> (Option<i32>, String) {
         let folder = scenes().display().to_string();
         let words = split("engine audit capture --out audit --scenes-dir");
@@ -118,7 +118,7 @@ impl Drawn {
         write_exr(&self.sandbox.path("capture/velocity.exr"), &file).unwrap();
     }
 
-    /// Returns what a measure of every pixel is at the pixels of some objects where both programs see the same one.
+    /// Returns a per-pixel measure at the pixels of some objects where both programs show the same one.
     fn measure(&self, of: impl Fn(u32) -> bool, measure: &Raster<f32>) -> Vec<f32> {
         let ids = self.file("object.exr").plane("object").unwrap();
         let expected = &self.frame.object_id.pixels;
@@ -157,7 +157,8 @@ fn three_js_s_objects_have_exact_vectors_which_the_audit_tells_from_planted_ones
     let speed = drawn.frame.velocity.map(|[x, y]| x.hypot(*y));
     assert!(drawn.measure(is_object, &speed).last().unwrap() > &9.0);
     let error = drawn.measure(|id| id > 1, &drawn.velocity_error());
-    // A mirrored, swapped or scaled axis makes pixels. SwiftShader, on machines without Mesa, puts corners on a grid of 1/16 pixel.
+    // A mirrored, swapped or scaled axis makes an error of pixels. SwiftShader, on machines without Mesa, puts corners on a 1/16 pixel
+    // grid.
     assert!(median(&error) < 0.02, "{} px", median(&error));
     assert!(error[error.len() * 95 / 100] < 0.1);
     let depth = drawn.depth();
@@ -166,7 +167,7 @@ fn three_js_s_objects_have_exact_vectors_which_the_audit_tells_from_planted_ones
     });
     assert!(median(&drawn.measure(is_object, &error)) < 1e-3);
 
-    // Everything sends 0.5; 16 taps and the pixel itself are divided by 16.
+    // Everything emits 0.5; the sum of 16 taps and the pixel itself is divided by 16.
     let color = drawn.color("color.exr");
     let blurred = drawn.color("blurred.exr");
     for (name, picture, expected) in [("color", color, 0.5), ("blurred", blurred, 0.53125)] {

@@ -13,7 +13,7 @@ fn a_bench_prints_and_writes_the_same_times() {
     let parts = [
         "32x16",
         "quartiles",
-        // The baseline takes part without being named.
+        // The baseline is included without being named.
         "jump_flood:paper",
         "jump_flood_packed:paper",
         "  dilate x 3",

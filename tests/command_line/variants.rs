@@ -48,7 +48,7 @@ fn kinds_of_frames_are_recorded_and_sealed_scenes_have_other_truths_and_no_limit
     assert_eq!(found, ["\"camera_only\"", "\"point\"", "false"]);
     fs::remove_dir_all(sandbox.path("out")).unwrap();
     let plain = measure(&sandbox, "");
-    // The plate's own motion is lost to the camera alone.
+    // A camera-only velocity lacks the plate's own motion.
     assert_ne!(error(&run), error(&plain));
 
     let sealed = measure(&sandbox, "--seal 7");

@@ -1,4 +1,4 @@
-//! The blur without a velocity buffer, against the gather that gets only the camera's velocity.
+//! The blur without a velocity buffer, against the gather with only the camera's velocity.
 
 use filters::Input;
 use frame::{Frame, FrameOptions, Image, VelocityKind};
@@ -10,8 +10,7 @@ use tests::text::assert_contains;
 use tests::unwatched;
 use tracer::{Background, Key, Motion, RenderSettings, Scene, trace_frame};
 
-/// Makes a scene in which a camera flies, turns and zooms past a slanted wall before a sky, and one panel moves by
-/// itself.
+/// Makes a scene in which a camera flies, turns and zooms past a slanted wall in front of a sky, with one panel that moves by itself.
 fn flight() -> Scene {
     let mut scene = empty_scene("flight");
     scene.background = Background::Gradient {
@@ -41,7 +40,7 @@ fn flight() -> Scene {
     scene
 }
 
-/// Renders a frame of the flight, with the velocity that the camera alone gives: several pixels per frame.
+/// Renders a frame of the flight, with only the camera's velocity: several pixels per frame.
 pub fn render_frame(guard_band: u32) -> Frame {
     let settings = RenderSettings {
         width: 96,
@@ -61,7 +60,7 @@ pub fn render_frame(guard_band: u32) -> Frame {
     frame
 }
 
-/// Blurs a frame by a built-in filter, with changes to a preset such as `samples=9`.
+/// Blurs a frame with a built-in filter, with changes to a preset such as `samples=9`.
 pub fn blur_frame(frame: &Frame, filter: &str, preset: Option<&str>, changes: &str) -> Image {
     let mut blur = make_blur(filter, preset, changes, frame.size());
     let outputs = blur.run(&frame_input(frame, &[&frame.color]));
@@ -72,7 +71,7 @@ pub fn blur_frame(frame: &Frame, filter: &str, preset: Option<&str>, changes: &s
 fn depth_and_the_previous_camera_give_the_camera_s_velocity() {
     for guard_band in [0, 7] {
         let frame = render_frame(guard_band);
-        // Both take the same eight taps.
+        // Both use the same eight taps.
         let filters = [("camera_gather", "default"), ("velocity_gather", "coarse")];
         let [rebuilt, given] =
             filters.map(|(filter, preset)| blur_frame(&frame, filter, Some(preset), ""));

@@ -1,4 +1,4 @@
-//! Velocity and depth fields by formula: the same on every machine.
+//! Synthetic velocity and depth fields, the same on every machine.
 
 use filters::{Blur, Input};
 use frame::{FAR_DEPTH, Image, Plane, Raster, Reprojection, Vectors};
@@ -19,6 +19,8 @@ impl Field {
         Input {
             color,
             velocity: &self.velocity,
+            velocity_next: None,
+            velocity_z: None,
             depth: &self.depth,
             reprojection: self.reprojection,
             camera: None,
@@ -34,8 +36,7 @@ impl Field {
     }
 }
 
-/// Makes a field in which every pixel moves on its own, at its own depth; a sixth stands still, a tenth is far
-/// background.
+/// Makes a field in which every pixel moves on its own, at its own depth; a sixth is still, a tenth is far background.
 pub fn noise(width: u32, height: u32, seed: u64) -> Field {
     let mut random = Random::new(seed);
     let color = Raster::from_fn(width, height, |_, _| {
@@ -60,7 +61,7 @@ pub fn noise(width: u32, height: u32, seed: u64) -> Field {
     }
 }
 
-/// Makes rectangles of one motion and one depth each over a panning background, so that many sources lie equally deep.
+/// Makes rectangles of one motion and one depth each over a panning background, so that many sources are equally deep.
 pub fn rectangles(width: u32, height: u32, seed: u64) -> Field {
     let mut random = Random::new(seed);
     let mut field = noise(width, height, seed);

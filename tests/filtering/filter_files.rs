@@ -8,7 +8,7 @@ use filters::{Blur, Filter, FilterError};
 use tests::text::assert_contains;
 use tests::{root, shared_gpu};
 
-/// Makes the first preset of a filter ready for pictures of a size, in pixels.
+/// Prepares the first preset of a filter for pictures of a size, in pixels.
 pub fn ready(filter: &Filter, (width, height): (u32, u32)) -> Result<Blur<'static>, FilterError> {
     let settings = filter.settings(None).unwrap();
     Blur::new(shared_gpu(), filter, &settings, width, height)

@@ -168,7 +168,7 @@ fn assert_equal(said: &str, expected: &Painted, found: &Painted) {
 
 #[test]
 fn seeds_and_pixels_equal_the_jump_flood_s() {
-    // Every change meets four of the five frames, each with another preset.
+    // Every change is run on four of the five frames, each with another preset.
     compare_floods(|number, frame| {
         number % CHANGES.len() % 5 == (frame + number / CHANGES.len()) % 5
     });
@@ -190,10 +190,9 @@ fn tiles_that_no_trail_reaches_are_skipped() {
         let reached = found.iter().filter(|tile| **tile == 1).count();
         let tiles = found.len();
         assert_eq!(tiles, 13 * 8);
-        // Each of three movers lies in at least one tile. Their trails of up to 33 pixels are widened by a third on
-        // either side for the tolerance. They stay within half of the image even if they are taken for boxes around
-        // whole tiles. The tuned preset tolerates 1.87 of the way: 123 pixels across, of the image's 120, but not the
-        // corners.
+        // Each of three movers is in at least one tile. Their trails of up to 33 pixels are widened by a third on either side for the
+        // tolerance. They stay within half of the image even if they are treated as boxes around whole tiles. The tuned preset
+        // tolerates 1.87 of the way: 123 pixels across, of the image's 120, but not the corners.
         let most = match preset.name.as_str() {
             "tuned" => tiles * 9 / 10,
             _ => tiles / 2,

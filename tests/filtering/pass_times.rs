@@ -1,4 +1,4 @@
-//! Reports of what passes cost. The times depend on the machine, so no test checks them.
+//! Reports of passes' costs. The times depend on the machine, so no test checks them.
 
 use filters::{Blur, BufferCopy, Clock, Filter};
 use tests::near::assert_within;
@@ -28,7 +28,7 @@ fn every_dispatch_is_timed_once_by_either_clock() {
             // Eight dispatches of 960 pixels: a minute means a wrong clock.
             assert_within(pass.seconds, f64::MIN_POSITIVE..60.0);
         }
-        // The timed dispatches are the ones that a run has.
+        // The timed dispatches are a run's own.
         let seeds = blur.read_texture("seeds").unwrap();
         assert!(seeds.pixels.iter().any(|texel| texel[3] == 1.0));
     }
@@ -38,7 +38,7 @@ fn every_dispatch_is_timed_once_by_either_clock() {
 fn every_texture_of_a_pass_counts_once() {
     let picture = Picture::uniform(WIDTH, HEIGHT, white(0.0));
     let colors = [&picture.color];
-    // Bytes per pixel: colours, seeds and sources take 16, velocities 8, depths 4.
+    // Bytes per pixel: 16 each for colours, seeds and sources, 8 for velocities, 4 for depths.
     let step = 16 + 8 + 4 + 16;
     for (filter, expected) in [
         ("identity", vec![16 + 16]),

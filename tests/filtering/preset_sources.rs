@@ -1,4 +1,4 @@
-//! Sources of presets, and the picture width that a preset was made for.
+//! Sources of presets, and their original picture widths.
 
 use filters::{Filter, Settings, Value};
 use tests::filter_folder::one_kernel;
@@ -98,7 +98,7 @@ fn lengths_scale_with_the_width_within_their_range_unless_asked_for_as_written()
     // 20 x 600 / 1920 = 6.25 and 20 x 1000 / 1920 = 10.42.
     assert_eq!(scale(&filter, &engine, 600)[0], Value::Integer(6));
     assert_eq!(scale(&filter, &engine, 1000)[0], Value::Integer(10));
-    // 1.67 tiles and 0.125 pixels lie below the ranges; 400 and 30 lie above.
+    // 1.67 tiles and 0.125 pixels are below the ranges; 400 and 30 are above.
     assert_eq!(scale(&filter, &engine, 160), values(2, 0.25, 9));
     assert_eq!(scale(&filter, &engine, 38_400), values(256, 4.0, 9));
     let anywhere = filter.settings(Some("anywhere")).unwrap();

@@ -1,4 +1,4 @@
-//! What references in 64-bit floats share: runs of a filter on fields, and the noise of a pixel.
+//! Common parts of references in 64-bit floats: runs of a filter on fields, and the noise of a pixel.
 
 use std::collections::BTreeMap;
 
@@ -25,8 +25,8 @@ pub struct Run {
     textures: BTreeMap<&'static str, Raster<[f32; 4]>>,
 }
 
-/// Runs every case on fields of odd sizes, wide and tall, none a multiple of a tile; two of random pixels, two of objects over a
-/// slow background.
+/// Runs every case on fields of odd sizes, wide and tall, none a multiple of a tile; two of random pixels, two of objects over a slow
+/// background.
 pub fn run_cases(cases: &[Case], textures: &[&'static str]) -> Vec<Run> {
     let mut runs = Vec::new();
     for (name, preset, changes, exposure) in cases {
@@ -100,8 +100,8 @@ impl Run {
     }
 }
 
-/// Computes interleaved gradient noise of a pixel on a cycle of 8 frames, `offset` pixels further right and down; none where it may
-/// wrap around in 32-bit floats that err by `error`.
+/// Computes interleaved gradient noise of a pixel on a cycle of 8 frames, `offset` pixels further right and down; none if it may wrap
+/// around in 32-bit floats that err by `error`.
 pub fn noise(pixel: [i64; 2], offset: f64, error: f64) -> Option<f64> {
     let frame = f64::from(FRAME_INDEX % 8);
     let x = pixel[0] as f64 + frame * 47.0 * 0.695 + offset;
@@ -112,14 +112,14 @@ pub fn noise(pixel: [i64; 2], offset: f64, error: f64) -> Option<f64> {
     (clear(inner, error / 50.0) && clear(noise, error)).then_some(noise)
 }
 
-/// Reads a texel, or the one at the edge that is nearest to it.
+/// Reads a texel, or the nearest one at the edge.
 pub fn read_clamped<T: Copy>(raster: &Raster<T>, x: i64, y: i64) -> T {
     let x = x.clamp(0, i64::from(raster.width) - 1);
     let y = y.clamp(0, i64::from(raster.height) - 1);
     *raster.at(x as u32, y as u32)
 }
 
-/// Samples as a linear sampler does, at a place in pixels.
+/// Samples like a linear sampler, at a position in pixels.
 pub fn sample_linear(place: Vec2, texel: impl Fn(i64, i64) -> f64) -> f64 {
     // Snaps to a texel's centre if only the last bits of a 64-bit float miss it.
     let [x, y] = place.map(|c| match c - 0.5 {

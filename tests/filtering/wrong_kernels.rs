@@ -74,7 +74,7 @@ fn iterations_of_all_loops_and_functions_count_together() {
     let Some(limit) = shared_gpu().loop_limit else {
         return;
     };
-    // Nested loops: the inner ones take the square of the outer iterations.
+    // Nested loops: the inner ones run the square of the outer iterations.
     let nested = "
     var value = u32(pixel.x);
     for (var i = 0; i < parameters.steps; i++) {
@@ -101,7 +101,7 @@ fn a_pixel_that_no_pass_writes_is_named() {
 
 #[test]
 fn a_pass_past_its_time_limit_is_stopped_and_named() {
-    // Far more work than the time allows, in loops of allowed length. The adapter stays at work.
+    // Far more work than the time allows, in loops of allowed length. The adapter stays busy.
     let error = blur(&open_gpu(), COUNT, 8000, 1e-4).unwrap_err();
     let parts = [
         "filter wrong, pass work",

@@ -20,7 +20,7 @@ use crate::{fixture, self_test};
 /// Longest time of a case.
 const LIMIT: Duration = Duration::from_secs(60);
 
-/// Failures after which a target is left alone: the same cases would fail again.
+/// Failures after which a target is skipped: the same cases would fail again.
 const MAX_FAILURES: u64 = 40;
 
 /// Cases of one target.
@@ -42,14 +42,14 @@ pub struct Tally {
 
 /// First input that failed in one way.
 pub struct Failure {
-    /// What happened: a panic with its place, the last words of the process, or its time.
+    /// Description: a panic with its place, the last words of the process, or its time.
     pub how: String,
     case: u64,
     /// Number of inputs that failed the same way.
     count: u64,
 }
 
-/// Settings, and what was found with them.
+/// Settings, and their results.
 pub struct Campaign {
     options: Options,
     /// Longest time of a case.
@@ -75,7 +75,7 @@ pub fn execute(mut options: Options) -> ExitCode {
 }
 
 impl Campaign {
-    /// Starts without a result.
+    /// Starts without results.
     pub fn new(options: Options, limit: Duration) -> Self {
         Self {
             options,
@@ -84,7 +84,7 @@ impl Campaign {
         }
     }
 
-    /// Lists the cases of a round: in the first one the seeds as they are, in each changed ones by the targets' shares.
+    /// Lists the cases of a round: in the first round the unchanged seeds, in each changed ones by the targets' shares.
     fn list_batches(&self, cases: u64, round: u64) -> Vec<Batch> {
         let mut batches = Vec::new();
         for target in self.options.chosen() {
@@ -107,7 +107,7 @@ impl Campaign {
         (batches.par_bridge()).for_each(|(target, cases)| self.try_batch(target, cases));
     }
 
-    /// Tries a batch. Every failed case ends a process, and a new one goes on after it.
+    /// Tries a batch. Every failed case ends a process, and a new one continues after it.
     fn try_batch(&self, target: &'static Target, mut cases: Range<u64>) {
         let is_hopeless = || {
             let found = self.found.lock().unwrap();
@@ -132,7 +132,7 @@ impl Campaign {
         }
     }
 
-    /// Keeps the input of a failure below the build folder, under the hash of its bytes, and says how to try it again.
+    /// Keeps the input of a failure below the build folder, under the hash of its bytes, and prints how to try it again.
     fn keep(&self, target: &'static Target, case: u64, how: String) -> Failure {
         let place = Place::new(target.name, &self.options.fixture);
         let input = Seeds::read(target, &self.options, &place).make(&place, case);

@@ -1,4 +1,4 @@
-//! Words that are worth trying in an input, from `dictionaries.toml`.
+//! Useful words for inputs, from `dictionaries.toml`.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;

@@ -1,5 +1,5 @@
-//! Real files of every kind: those of `tests/fuzz/fixture`, and what the program itself makes of them before the first case, so
-//! that it always has today's layout.
+//! Real files of every kind: those of `tests/fuzz/fixture`, and the program's own output from before the first case, so that it always
+//! has today's layout.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,10 +9,10 @@ use walkdir::{DirEntry, WalkDir};
 
 use crate::seeds::in_repository;
 
-/// The program that is fuzzed.
+/// The fuzzed program.
 pub const PROGRAM: &str = env!("CARGO_BIN_EXE_shuttertruth");
 
-/// Options that every picture is rendered with.
+/// Render options of all pictures.
 pub const RENDER: &str = "--quiet --scenes plate --size 16x16 --samples-per-pixel 16";
 
 /// Makes a run, its measured time and baseline, a tuning and a study.
@@ -53,7 +53,7 @@ pub fn copy(from: &Path, to: &Path) {
     }
 }
 
-/// Finds the files below a folder whose names end this way, sorted by path. A folder that is not there has none.
+/// Finds the files below a folder with this ending, sorted by path; none if there is no folder.
 pub fn files(folder: &Path, end: &str) -> Vec<PathBuf> {
     let entries = WalkDir::new(folder).into_iter().filter_map(Result::ok);
     let mut found: Vec<PathBuf> = entries.map(DirEntry::into_path).collect();

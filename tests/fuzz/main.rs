@@ -1,4 +1,4 @@
-//! A fuzzer: hostile and broken input for everything that the program reads. `docs/fuzzing.md` says how to use it.
+//! A fuzzer: hostile and broken input for everything that the program reads. `docs/fuzzing.md` explains how to use it.
 
 mod campaign;
 mod dictionary;

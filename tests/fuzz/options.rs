@@ -35,7 +35,7 @@ pub struct Options {
     /// Folder of the [`fixture`](crate::fixture) that a worker uses.
     #[arg(long, hide = true, default_value = "none")]
     pub fixture: PathBuf,
-    // What `cargo test` and cargo-nextest may pass to any test program.
+    // Options that `cargo test` and cargo-nextest may pass to any test program.
     #[arg(hide = true)]
     names: Vec<String>,
     #[arg(long, hide = true)]
@@ -59,7 +59,7 @@ impl Options {
         chosen
     }
 
-    /// Returns whether only other tests were asked for; prints the name of this one for a list.
+    /// Returns whether only other tests were requested; prints the name of this one for a list.
     pub fn asks_for_other_tests(&self) -> bool {
         let Self { list, names, .. } = self;
         if *list {

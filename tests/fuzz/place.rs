@@ -1,4 +1,4 @@
-//! Folder that a worker's cases run in.
+//! Folder where a worker's cases run.
 
 use std::fs;
 use std::os::unix::fs::FileTypeExt;
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crate::fixture;
 
-/// Content of a file beside the folder of a case, which no case may change.
+/// Content of a file next to a case's folder, which no case may change.
 pub const CANARY: &str = "this file belongs to nobody's run";
 
 /// Temporary folder.
@@ -62,7 +62,7 @@ impl Place {
         own
     }
 
-    /// Panics if a case changed a file beside its folder.
+    /// Panics if a case changed a file next to its folder.
     pub fn check(&self) {
         let found = fs::read_to_string(self.canary()).unwrap_or_default();
         assert!(
@@ -76,7 +76,7 @@ impl Place {
     }
 }
 
-/// Joins the last three lines of a file that hold something.
+/// Joins the last three lines of a file that are not empty.
 pub fn last_lines(path: &Path) -> String {
     let text = fs::read(path).unwrap_or_default();
     let text = String::from_utf8_lossy(&text);

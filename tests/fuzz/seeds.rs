@@ -1,4 +1,4 @@
-//! Inputs to begin with.
+//! Initial inputs.
 
 use std::fs;
 use std::path::PathBuf;
@@ -11,22 +11,22 @@ use crate::options::Options;
 use crate::place::Place;
 use crate::target::Target;
 
-/// Longest input that gets changed; a longer one is only tried as it is.
+/// Longest input that is changed; a longer one is only tried unchanged.
 const MAX_LENGTH: usize = 200_000;
 
-/// Inputs that a target begins with, always in the same order.
+/// Initial inputs of a target, always in the same order.
 pub struct Seeds {
     target: &'static Target,
     seed: u64,
     inputs: Vec<Vec<u8>>,
-    /// Files of the first ones.
+    /// Files of the first inputs.
     paths: Vec<PathBuf>,
-    /// Compressed ones, which are large and only tried as they are.
+    /// Compressed inputs, which are large and only tried unchanged.
     packed: Vec<PathBuf>,
 }
 
 impl Seeds {
-    /// Reads the corpus of a target and makes its other seeds, or takes the one input that was asked for.
+    /// Reads the corpus of a target and makes its other seeds, or uses the one requested input.
     pub fn read(target: &'static Target, options: &Options, place: &Place) -> Self {
         let corpus = in_repository("tests/fuzz/corpus").join(target.name);
         let paths = match &options.input {
@@ -49,18 +49,18 @@ impl Seeds {
         }
     }
 
-    /// Returns the number of cases that are tried as they are.
+    /// Returns the number of cases that are tried unchanged.
     pub fn count(&self) -> u64 {
         (self.inputs.len() + self.packed.len()) as u64
     }
 
-    /// Returns whether a case is a seed that must not be refused: otherwise nobody would notice that it has an old layout.
+    /// Returns whether a case is a seed that must not be refused: otherwise an outdated layout would go unnoticed.
     pub fn is_valid(&self, case: u64) -> bool {
         let name = self.paths.get(case as usize).and_then(|it| it.file_name());
         name.is_some_and(|name| name.to_string_lossy().starts_with("valid"))
     }
 
-    /// Makes the input of a case: first the seeds as they are, then changed ones.
+    /// Makes the input of a case: first the unchanged seeds, then changed ones.
     pub fn make(&self, place: &Place, case: u64) -> Vec<u8> {
         let index = case as usize;
         if let Some(input) = self.inputs.get(index) {
@@ -85,12 +85,12 @@ pub fn in_repository(path: &str) -> PathBuf {
     tests::root().join(path)
 }
 
-/// Reads the files below a folder of the repository whose names end this way.
+/// Reads the files below a folder of the repository with this ending.
 pub fn shipped(folder: &str, end: &str) -> Vec<Vec<u8>> {
     read_all(&files(&in_repository(folder), end))
 }
 
-/// Reads the files below a folder of the fixture whose names end in one of these ways.
+/// Reads the files below a folder of the fixture with one of these endings.
 pub fn made(place: &Place, folder: &str, ends: &[&str]) -> Vec<Vec<u8>> {
     let find = |end| {
         let found = files(&place.fixture.join(folder), end);

@@ -9,7 +9,7 @@ use crate::options::Options;
 use crate::seeds::shipped;
 use crate::target::find;
 
-/// Panics unless every planted failure is found. The lines of its input after the first are words that must be said.
+/// Panics unless every planted failure is found. The input's lines after the first are words of the expected message.
 pub fn check() {
     let planted = find("planted").expect("it is a target");
     let inputs = shipped("tests/fuzz/corpus/planted", "");

@@ -3,7 +3,7 @@
 use crate::place::Place;
 use crate::targets::ALL;
 
-/// Sum of the targets' shares, about.
+/// Approximate sum of the targets' shares.
 pub const SHARES: u64 = 20_000;
 
 /// One kind of input, and the code that reads it.
@@ -14,9 +14,9 @@ pub struct Target {
     pub share: u64,
     /// Kind of changes to its inputs.
     pub shape: Shape,
-    /// Inputs to begin with, in addition to its corpus.
+    /// Initial inputs in addition to its corpus.
     pub seeds: fn(&Place) -> Vec<Vec<u8>>,
-    /// Function that reads an input as the program does. It may refuse the input, and must return.
+    /// Function that reads an input like the program. It may refuse the input, and must return.
     pub run: Run,
 }
 

@@ -1,4 +1,4 @@
-//! The process that cases run in. Its end does not end the fuzzer.
+//! The process of the cases. Its end does not end the fuzzer.
 
 use std::io::Write;
 use std::ops::Range;

@@ -17,7 +17,7 @@ use crate::worker::MARK;
 /// Address space of a worker, and of every program that it starts, in KiB.
 const MEMORY: u64 = 4 << 20;
 
-/// Characters of a failure that are reported.
+/// Characters of a failure in reports.
 const MAX_CHARACTERS: usize = 400;
 
 /// First words of a failure by panic.

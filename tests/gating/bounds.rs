@@ -41,7 +41,7 @@ fn identity() -> Vec<FilterChoice> {
     select_filters(&["identity".to_owned()], None, &[], Programs::Refused).unwrap()
 }
 
-/// Reads bounds from texts beside the scenes and beside `fan`, as `check` does before it measures the identity.
+/// Reads bounds from texts for all scenes and for `fan`, as `check` does before it measures the identity.
 fn read(shared: &str, own: &str) -> Result<SceneBounds, String> {
     let scenes = Scenes::new();
     scenes.write("bounds.toml", shared);
@@ -58,7 +58,7 @@ fn read(shared: &str, own: &str) -> Result<SceneBounds, String> {
         .map_err(|error: Error| (error.to_string()).replace(&root.display().to_string(), "scenes"))
 }
 
-/// Writes a line that limits a metric; `keys` are more keys of it, each with a comma behind.
+/// Writes a line that limits a metric; `keys` are more keys for it, each followed by a comma.
 fn line(metric: &str, limit: f64, keys: &str) -> String {
     format!("{metric} = {{ limit = {limit}, {keys} why = \"w\" }}\n")
 }
@@ -117,7 +117,7 @@ fn limits_hold_only_at_their_own_size() {
             "for 160x90; check them apart",
         ],
     );
-    // At another size, the limit for any size is left.
+    // At another size, the limit for any size remains.
     let left = |size| small.clone().at(size).of("identity", "default")[&Metric::FLIP].limit;
     assert_eq!([left((160, 90)), left((320, 180))], [0.2, 0.1]);
 }
@@ -138,7 +138,7 @@ fn every_metric_of_sequences_can_have_a_bound_for_a_number_of_frames() {
         let bounds = read(&single, &text).unwrap();
         let metric = Metric::Sequence(metric);
         assert_eq!(bounds.of("identity", "default")[&metric].limit, 0.25);
-        // Single frames leave it alone, and another length is refused before anything is rendered.
+        // Single frames ignore it, and another length is refused before anything is rendered.
         let lengths = |frames| judge::check_lengths(std::iter::once(&bounds), &identity(), frames);
         assert!(lengths(at(1, 60.0)).is_ok());
         assert!(lengths(at(4, 60.0)).is_ok());
@@ -147,7 +147,7 @@ fn every_metric_of_sequences_can_have_a_bound_for_a_number_of_frames() {
         let refused = lengths(at(3, 60.0)).unwrap_err().to_string();
         assert_contains(&refused, &[&start, "to have 3 frames"]);
         assert_eq!(lengths(at(4, 24.0)).is_err(), has_rate);
-        // `run` leaves out limits for another length, as it does those for another size.
+        // `run` leaves out limits for another length, like limits for another size.
         let left = |frames| bounds.clone().over(frames).of("identity", "default");
         assert!(left(at(4, 60.0)).contains_key(&metric));
         assert!(!left(at(1, 60.0)).contains_key(&metric));
@@ -182,7 +182,7 @@ fn limits_for_a_second_size_stand_in_a_file_of_their_own() {
     refused(Some((320, 180)), way_out);
 
     write("_1280x720", &table(0.1, "size = [160, 90],"));
-    // Files for sizes that nobody asked for are checked as well.
+    // Files for other sizes are checked as well.
     for asked in [None, large] {
         refused(
             asked,
@@ -202,9 +202,9 @@ fn limits_for_a_second_size_stand_in_a_file_of_their_own() {
 /// A row of refused_bounds.toml.
 #[derive(Deserialize)]
 struct Refused {
-    /// Bounds beside the scenes; if none are given, good ones.
+    /// Bounds of all scenes; valid ones if none are given.
     shared: Option<String>,
-    /// Bounds beside the scene.
+    /// Bounds of the scene.
     #[serde(default)]
     own: String,
     /// Parts of the error.

@@ -15,8 +15,8 @@ use tests::limits::calibrate_scene;
 use tests::open_gpu;
 use tracer::{RenderSettings, SceneId};
 
-/// Scenes: one thing that slides, far and at an angle; two that pass one another; many that turn, fly and hide one
-/// another; many that cross; some that leave the picture; thin ones.
+/// Scenes: one object that slides, far and at an angle; two that pass one another; many that turn, fly and hide one another; many
+/// that cross; some that leave the picture; thin ones.
 const SCENES: [&str; 7] = [
     "sliding_panel@128px_0deg",
     "sliding_panel@64px_45deg",
@@ -31,19 +31,19 @@ const SCENES: [&str; 7] = [
 const METRICS: &str = "mse_moving flip_moving flip_p99_moving gather_spread flip_static label_tv bleed_lateral bleed_leading \
                        bleed_trailing lateral_growth row_gain row_loss misplacement extent energy deficit unity";
 
-/// Seeds that the bounds are measured with, and the first of them to check with. Floors vary from seed to seed, and a
-/// bound that is too strict for one seed would say nothing about defects.
+/// Seeds that the bounds are measured with, and the first of them to check with. Floors vary from seed to seed, and a bound that is
+/// too strict for one seed would say nothing about defects.
 const CALIBRATED_WITH: [u64; 2] = [1, 2];
 const CHECKED_WITH: u64 = CALIBRATED_WITH[0];
 
-/// Side of McGuire's tiles. It is to these small pictures what 20 pixels are to 320x180: trails reach from tile to
+/// Side of McGuire's tiles. Relative to these small pictures it equals 20 pixels at 320x180: trails reach from tile to
 /// tile.
 const SMALL_TILES: &str = "8";
 
 /// Filters without defects.
 const SOUND: [&str; 2] = ["mcguire:paper", "jump_flood:corrected"];
 
-/// The defects by filter and name: the sound text and what replaces it.
+/// The defects by filter and name: the sound text and its replacement.
 type Defects = BTreeMap<String, BTreeMap<String, [String; 2]>>;
 
 /// Defects that together break a bound of each metric that any defect breaks. Two of them break few bounds.
@@ -78,10 +78,10 @@ impl Bench {
                 seed,
                 ..RenderSettings::default()
             },
-            // Each seed has truths of its own.
+            // Each seed has its own truths.
             out: self.folder.path().join(format!("seed_{seed}")),
             intervals: true,
-            // No limit is on equivalent sub-frames.
+            // Equivalent sub-frames are not limited.
             ladders: false,
             ..RunPlan::default()
         };
@@ -123,7 +123,7 @@ impl Bench {
     }
 }
 
-/// Selects each filter by itself: copies have the names of their originals.
+/// Selects each filter separately: copies have the names of their originals.
 fn choices(words: impl IntoIterator<Item = String>) -> Vec<FilterChoice> {
     let select = |word| select_filters(&[word], None, &[], Programs::Refused).unwrap();
     let mut choices: Vec<FilterChoice> = words.into_iter().flat_map(select).collect();
@@ -191,7 +191,7 @@ fn check_defects(
 fn a_planted_defect_breaks_a_bound_and_sound_filters_pass() {
     let broken = check_defects(&SCENES[1..4], |name| FEW.contains(&name));
     let kept = METRICS.split(' ').filter(|name| !broken.contains(*name));
-    // Both filters leave what stands still as it is.
+    // Both filters leave still pixels unchanged.
     assert_eq!(kept.collect::<Vec<_>>(), ["flip_static"]);
 }
 

@@ -1,5 +1,5 @@
-//! Shipped bounds: the identity breaks one in every scene with motion, the mean of 64 sub-frames none, and the most compared
-//! filters keep those that are required of them.
+//! Shipped bounds: the identity breaks one in every scene with motion, the mean of 64 sub-frames breaks none, and the most compared
+//! filters keep their required ones.
 
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -15,11 +15,10 @@ use suite::{FilterChoice, Monitor, Rendering, RunPlan, measure_scenes};
 use tests::open_gpu;
 use tracer::{RenderSettings, Scene};
 
-/// Scenes whose truths take little time.
+/// Scenes with quick truths.
 const FEW: [&str; 2] = ["sliding_panel", "two_spheres"];
 
-/// Scenes in which nothing moves farther than the bounds allow. The tests of the catalogue show by changed pixels what
-/// these scenes expose.
+/// Scenes in which nothing moves farther than the bounds allow. The tests of the catalogue show by changed pixels what these scenes expose.
 const HARDLY_MOVING: [&str; 1] = ["creep"];
 
 /// Filters with required bounds, and metrics that each scene limits for them.
@@ -31,11 +30,11 @@ const GUARDED: [&str; 4] = [
 ];
 const REQUIRED: [&str; 2] = ["flip_moving", "bleed_lateral"];
 
-/// Size that the required bounds hold for.
+/// Size of the required bounds.
 const SIZE: (u32, u32) = (160, 90);
 
-/// Locks and returns the folder of truths, which stay from one run of the tests to the next: two tests that need the
-/// same truths render them once. `make mutants` has the same ones there.
+/// Locks and returns the folder of truths, which are kept between runs of the tests: two tests that need the same truths render
+/// them once. `make mutants` keeps the same ones there.
 fn lock_truths() -> (PathBuf, MutexGuard<'static, ()>) {
     static IN_USE: Mutex<()> = Mutex::new(());
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("mutants/160x90_256/seed_1");
@@ -87,7 +86,7 @@ fn judge_bars(scene: &Scene, bounds: &SceneBounds, out: &Path) -> [Vec<JudgedSco
         .map(|picture| judge_scores(&reference.measure(&picture).unwrap().scores, None, &bounds))
 }
 
-/// Returns the scores of an outcome, as text.
+/// Formats the scores with an outcome.
 fn list(judged: &[JudgedScore], outcome: Outcome) -> String {
     let own = judged.iter().filter(|one| one.outcome == outcome);
     own.map(|one| {
@@ -168,7 +167,7 @@ fn check_guarded(names: &[&str]) {
         render: render_settings(),
         out,
         intervals: true,
-        // No limit is on equivalent sub-frames; `check` renders none either.
+        // Equivalent sub-frames are not limited; `check` renders no ladder either.
         ladders: false,
         ..RunPlan::default()
     };

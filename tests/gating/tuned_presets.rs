@@ -13,7 +13,7 @@ use tune::{
 
 const TUNED: [&str; 2] = ["jump_flood", "mcguire"];
 
-/// Loads the named shipped scenes, or all, except those that a tuning used.
+/// Loads the named shipped scenes, or all, except those used by a tuning.
 fn held_out(names: &[&str], used: &[String]) -> Vec<(Scene, SceneBounds)> {
     let root = tests::scenes();
     let names: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
@@ -26,10 +26,10 @@ fn held_out(names: &[&str], used: &[String]) -> Vec<(Scene, SceneBounds)> {
         .collect()
 }
 
-/// Compares a filter's tuned preset with the one that the search started from. Lengths in pixels are as written, or scaled to
-/// the picture, as users have them.
+/// Compares a filter's tuned preset with the search's start preset. Lengths in pixels are as written, or scaled to the picture as
+/// for users.
 ///
-/// Both presets see the same noise, which only hides differences, and so few samples give the same verdict.
+/// Both presets have the same noise, which only hides differences, so few samples give the same verdict.
 fn compare(name: &str, names: &[&str], width: u32, as_written: bool) -> (PairedComparison, String) {
     let gpu = open_gpu();
     let render = RenderSettings {
@@ -38,7 +38,7 @@ fn compare(name: &str, names: &[&str], width: u32, as_written: bool) -> (PairedC
         samples_per_pixel: 32,
         ..RenderSettings::default()
     };
-    // Truths stay from one run of the tests to the next.
+    // Truths are kept between runs of the tests.
     let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join("tuned");
     let choice = select_filters(&[format!("{name}:tuned")], None, &[], Programs::Refused)
         .unwrap()
@@ -48,8 +48,8 @@ fn compare(name: &str, names: &[&str], width: u32, as_written: bool) -> (PairedC
     let tuned = presets.find_map(|preset| preset.tuned.as_ref()).unwrap();
     let scenes = held_out(names, &tuned.scenes);
     assert!(scenes.len() >= 5, "{name}: too few scenes are left");
-    let alignment = choice.filter.alignment;
-    let rendered = render_scenes(&scenes, alignment, &render, &out, Monitor::SILENT).unwrap();
+    let filter = &choice.filter;
+    let rendered = render_scenes(&scenes, filter, &render, &out, Monitor::SILENT).unwrap();
     let mut evaluator =
         Evaluator::new(Some(&gpu), &choice, &rendered, true, Monitor::SILENT).unwrap();
     let [published, own] =

@@ -14,11 +14,11 @@ use tracer::{RenderSettings, Scene};
 use crate::options::Options;
 use crate::subject::Subject;
 
-/// Seed of the truth that mutants are checked against: the one that `check` takes.
+/// Seed of the truth that mutants are checked against, as in `check`.
 pub const SEED: u64 = 1;
 
 pub struct Bench {
-    /// Scenes in the order in which mutants meet them.
+    /// Scenes in the order in which mutants run on them.
     pub scenes: Rc<Vec<Scene>>,
     pub bounds: RunBounds,
     pub render: RenderSettings,
@@ -84,14 +84,14 @@ impl Bench {
             },
             out: self.truths(seed),
             intervals: true,
-            // No limit is on equivalent sub-frames.
+            // Equivalent sub-frames are not limited.
             ladders: false,
             ..RunPlan::default()
         };
         measure_scenes(&plan, Some(&self.gpu), Vec::new())
     }
 
-    /// Opens the adapter anew, after it was left at work on kernels that take too long.
+    /// Opens the adapter again, after it was left busy with kernels that take too long.
     pub fn reopen_gpu(&mut self) {
         self.gpu = tests::open_gpu();
     }

@@ -13,7 +13,7 @@ use crate::subject::MutantFilter;
 
 const COMPARED: [Region; 2] = [Region::Moving, Region::Full];
 
-/// A scene's frame, and the picture that the filter makes of it without a change.
+/// A scene's frame, and the unchanged filter's picture of it.
 struct SoundPicture {
     scene: SceneId,
     frame: Frame,
@@ -68,7 +68,7 @@ impl Study<'_, '_> {
     }
 }
 
-/// Compares the pictures of a mutant with those of the sound filter. Once one of them takes too long, no other is tried.
+/// Compares the pictures of a mutant with the sound filter's. Once one of them takes too long, no other is tried.
 fn compare(
     bench: &Bench,
     scenes: &[&SoundPicture],

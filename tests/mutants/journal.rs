@@ -9,7 +9,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use suite::{Case, Error, Run};
 
-/// A mutant on a scene: the subject's key, the mutant's name, the scene. A seed stands for the filter without a change.
+/// A mutant on a scene: the subject's key, the mutant's name, the scene. A seed in place of the name means the unchanged filter.
 pub type Place = (String, String, String);
 
 pub struct Journal {
@@ -22,7 +22,7 @@ pub struct Journal {
 pub struct Change {
     /// Root mean square over a region, in noise floors of the truth there; the larger of the moving region and the whole picture.
     pub floors: f64,
-    /// Share of the pixels that are not the same.
+    /// Share of the pixels that differ.
     pub share: f64,
 }
 
@@ -40,7 +40,7 @@ impl Journal {
         })
     }
 
-    /// Tells whether a mutant makes the same picture of a scene as the filter without a change.
+    /// Returns whether a mutant makes the same picture of a scene as the unchanged filter.
     pub fn is_same_picture(&self, place: &Place) -> bool {
         matches!(self.changes.get(place), Some(Ok(change)) if change.share == 0.0)
     }
@@ -53,7 +53,7 @@ impl<T: Serialize + DeserializeOwned> Records<T> {
             true => fs::read_to_string(path).map_err(name)?,
             false => String::new(),
         };
-        // A run that was killed may leave half a line.
+        // A killed run may leave half a line.
         let found = (text.lines()).filter_map(|line| serde_json::from_str(line).ok());
         let mut options = OpenOptions::new();
         let mut file = options.append(true).create(true).open(path).map_err(name)?;

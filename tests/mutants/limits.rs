@@ -1,4 +1,4 @@
-//! Limits that mutants are held to.
+//! Limits for mutants.
 
 use judge::{Level, Outcome, SceneBounds, default_metrics, judge_scores};
 use metrics::Metric;
@@ -13,8 +13,7 @@ use crate::study::{Limits, Study};
 const CALIBRATED_WITH: [u64; 2] = [SEED, SEED + 1];
 
 impl Study<'_, '_> {
-    /// Finds the limits on every scene: those of bounds.toml if any of them is required at this size, or else those that `calibrate`
-    /// proposes.
+    /// Finds the limits on every scene: those of bounds.toml if any of them is required at this size, or else `calibrate`'s proposals.
     pub fn find_limits(&mut self) -> Result<(), Error> {
         let sound = &self.subject.sound;
         for scene in self.bench.scenes.clone().iter() {
@@ -65,7 +64,7 @@ impl Study<'_, '_> {
         Ok(calibrate_scene(&runs, metrics, &scene.id))
     }
 
-    /// Measures the filter without a change, unless the journal has it.
+    /// Measures the unchanged filter, unless the journal has it.
     fn measure_sound(&mut self, scene: &Scene, seed: u64) -> Result<Run, Error> {
         let place = self.subject.sound_place(&scene.id, seed);
         if let Some(run) = self.journal.sound.get(&place) {
@@ -80,7 +79,7 @@ impl Study<'_, '_> {
         Ok(run)
     }
 
-    /// Refuses limits that the filter breaks without a change: all of its mutants would break them.
+    /// Refuses limits that the unchanged filter breaks: all of its mutants would break them.
     pub fn refuse_broken(&self, case: &Case) -> Result<(), Error> {
         let broken = find_broken(case, &self.limits[&case.scene].deciding);
         if broken.is_empty() {
@@ -95,7 +94,7 @@ impl Study<'_, '_> {
     }
 }
 
-/// Lists the metrics of a case whose required limits are broken.
+/// Lists the metrics of a case with broken required limits.
 pub fn find_broken(case: &Case, bounds: &SceneBounds) -> Vec<String> {
     let bounds = bounds.of(&case.filter, &case.preset);
     let judged = judge_scores(&case.scores, Some(&case.intervals), &bounds).into_iter();

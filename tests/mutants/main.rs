@@ -1,5 +1,5 @@
 //! A mutation score of the limits: changes of the shipped kernels, and the share that a check notices. results/studies/mutation.md
-//! says how to use it.
+//! explains how to use it.
 
 mod bench;
 mod change;

@@ -16,7 +16,7 @@ const BATCH: usize = 16;
 const SOUND: &str = "sound";
 
 impl Study<'_, '_> {
-    /// Measures every mutant on one scene after the other, the one that it changes most first, until a limit kills it.
+    /// Measures every mutant on each scene in turn, beginning with its largest change, until a limit kills it.
     pub fn measure_mutants(&mut self) -> Result<(), Error> {
         let scenes = self.bench.scenes.clone();
         loop {
@@ -51,13 +51,13 @@ impl Study<'_, '_> {
         }
     }
 
-    /// Tells whether the scores of a mutant on a scene are missing. Those of the same picture are known.
+    /// Returns whether the scores of a mutant on a scene are missing. Scores of an unchanged picture are known.
     fn lacks_scores(&self, mutant: &MutantFilter, scene: &Scene) -> bool {
         let place = self.subject.place(&mutant.name, &scene.id);
         self.journal.cases.get(&place).is_none() && !self.journal.is_same_picture(&place)
     }
 
-    /// Measures some mutants on a scene, one by one if they fail together. The filter without a change is measured with the first.
+    /// Measures some mutants on a scene, one by one if they fail together. The unchanged filter is measured with the first.
     fn measure_batch(&mut self, scene: &Scene, batch: &[&MutantFilter]) -> Result<(), Error> {
         let subject = self.subject;
         // Cases and failures name filter and preset, which are the same in all mutants.
@@ -101,8 +101,8 @@ impl Study<'_, '_> {
         Ok(())
     }
 
-    /// Takes the case with a label out of a run, or the reason why it failed, and gives it the preset's name. Removes its pictures,
-    /// which nobody looks at again.
+    /// Removes the case with a label from a run, or returns the reason for its failure, and gives it the preset's name. Removes its
+    /// pictures, which are not needed again.
     fn take_case(&self, run: &Run, label: &str) -> Result<Case, String> {
         let Some(case) = run.cases.iter().find(|case| case.preset == label) else {
             let name = format!("{}:{label}", self.subject.sound.filter.name);
@@ -110,7 +110,7 @@ impl Study<'_, '_> {
             let failure = failure.expect("every case is measured or fails");
             return Err(failure.reason.clone());
         };
-        // A folder that stays is no harm.
+        // A leftover folder is harmless.
         let _ = fs::remove_dir_all(self.bench.truths(SEED).join(&case.folder));
         let mut case = case.clone();
         case.id.preset = self.subject.sound.preset.clone();

@@ -1,4 +1,4 @@
-//! What a measurement of one filter's mutants works on.
+//! Data for measuring one filter's mutants.
 
 use std::collections::BTreeMap;
 
@@ -14,17 +14,17 @@ pub struct Study<'a, 's> {
     pub bench: &'a mut Bench,
     pub subject: &'s Subject,
     pub journal: &'a mut Journal,
-    /// Limits that its mutants are held to.
+    /// Limits for its mutants.
     pub limits: BTreeMap<SceneId, Limits>,
-    /// Function that says whether work may still be begun.
+    /// Function that returns whether work may still begin.
     pub due: &'a dyn Fn() -> bool,
 }
 
 /// Limits on one scene.
 pub struct Limits {
     pub deciding: SceneBounds,
-    /// True if they are those of bounds.toml.
+    /// True if they come from bounds.toml.
     pub are_shipped: bool,
-    /// Limits on every metric that can have one, which tell what would notice a survivor; none until they are calibrated.
+    /// Limits on every metric that can have one, which show what would notice a survivor; none until they are calibrated.
     pub widest: Option<SceneBounds>,
 }

@@ -11,13 +11,13 @@ use tracer::SceneId;
 
 use crate::journal::Place;
 
-/// Seconds that a pass of a mutant may take. A shipped one takes less than one.
+/// Upper limit on the seconds of a mutant's pass. A shipped one takes less than one.
 const TIME_LIMIT: f64 = 20.0;
 
 pub struct Subject {
     /// Filter and preset: `mcguire:paper`.
     pub name: String,
-    /// Name by which the journal knows these kernels: another text has other mutants.
+    /// Name of these kernels in the journal: another text has other mutants.
     pub key: String,
     /// File of the kernels, below the repository.
     pub file: String,

@@ -34,7 +34,7 @@ pub fn format_total(verdicts: &[Verdict]) -> String {
     )
 }
 
-/// Formats killed mutants and all of them, by operator and by the size of the change.
+/// Formats the numbers of killed and of all mutants, by operator and by the size of the change.
 fn format_counts(verdicts: &[Verdict]) -> String {
     let mut text = format!("{:12} {:>8} {:>10}", "killed of", "mutants", "no picture");
     text.extend(SIZES.map(|size| format!(" {size:>10}")));
@@ -91,7 +91,7 @@ fn format_score(verdicts: &[Verdict]) -> String {
     text
 }
 
-/// Lists the survivors, those with the largest change first.
+/// Lists the survivors, largest change first.
 fn format_survivors(subject: &Subject, verdicts: &[Verdict]) -> String {
     let mut survivors: Vec<&Verdict> = (verdicts.iter())
         .filter(|it| it.failure.is_none() && it.killed.is_none() && it.is_decided)

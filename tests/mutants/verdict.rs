@@ -1,4 +1,4 @@
-//! Verdict on a mutant: killed by a limit, or why not.
+//! Verdict on a mutant: killed by a limit, or the reason why not.
 
 use metrics::Measured;
 use suite::Case;
@@ -10,18 +10,18 @@ use crate::limits::find_broken;
 use crate::study::Study;
 use crate::subject::MutantFilter;
 
-/// Change from which on a mutant is to be noticed, in noise floors.
+/// Smallest change that a check should notice, in noise floors.
 pub const NOTICEABLE: f64 = 3.0;
 
 pub struct Verdict<'s> {
     pub mutant: &'s MutantFilter,
-    /// Error of a mutant that makes no picture, on which a check fails by itself.
+    /// Error of a mutant that makes no picture, which fails a check by itself.
     pub failure: Option<String>,
-    /// Largest change of a picture, and its scene; none as long as a scene was not tried.
+    /// Largest change of a picture, and its scene; none until every scene was tried.
     pub change: Option<(Change, SceneId)>,
-    /// Mean squared error over what moves in that scene, divided by that of the filter without a change.
+    /// Mean squared error over what moves in that scene, divided by the unchanged filter's.
     pub error: Option<f64>,
-    /// First scene on which limits are broken, and their metrics.
+    /// First scene with broken limits, and their metrics.
     pub killed: Option<(SceneId, Vec<String>)>,
     /// True if every scene was tried, or a limit broke.
     pub is_decided: bool,
@@ -34,7 +34,7 @@ pub struct Verdict<'s> {
 pub enum Reason {
     /// More than three noise floors: a limit is missing or too loose, or a scene is missing.
     Hole,
-    /// More than three noise floors, but no larger squared error comes of it where the change is largest.
+    /// More than three noise floors, but without a larger squared error where the change is largest.
     NoWorse,
     /// One to three noise floors.
     Small,
@@ -72,7 +72,7 @@ impl Reason {
 }
 
 impl Verdict<'_> {
-    /// Tells whether a mutant broke a limit on a scene, or made no picture.
+    /// Returns whether a mutant broke a limit on a scene, or made no picture.
     pub fn is_killed(&self) -> bool {
         self.killed.is_some() || self.failure.is_some()
     }
@@ -141,7 +141,7 @@ impl<'s> Study<'_, 's> {
         verdict
     }
 
-    /// Divides the mean squared error of a mutant by that of the filter without a change.
+    /// Divides the mean squared error of a mutant by the unchanged filter's.
     fn find_error(&self, mutant: &MutantFilter, scene: &SceneId) -> Option<f64> {
         let (subject, journal) = (self.subject, &self.journal);
         let sound = journal.sound.get(&subject.sound_place(scene, SEED))?;

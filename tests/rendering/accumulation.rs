@@ -1,4 +1,4 @@
-//! Worth of accumulated sub-frames, the unit of the headline score.
+//! Errors of accumulated sub-frames, the unit of the headline score.
 
 use frame::{Alignment, Picture};
 use metrics::{Metric, Reference};
@@ -9,8 +9,8 @@ use crate::renders::{expect_near, render_frame, render_ladder, render_truth, set
 #[test]
 fn n_subframes_are_worth_n() {
     let folder = tests::scenes().join("sliding_panel");
-    // 128 px per frame at 640x360 are 8 px over this shutter and size: 8 sub-frames lie a pixel apart, so that the
-    // error of each count is well above the noise.
+    // 128 px per frame at 640x360 are 8 px over this shutter and size: 8 sub-frames are a pixel apart, so the error of each count is
+    // well above the noise.
     let scene = load_scene(&folder, Some("128px_30deg")).unwrap();
     let settings = RenderSettings {
         exposure: Some(1.0),

@@ -20,7 +20,7 @@ const ANGLES: [f64; 4] = [0.0, 30.0, 45.0, 90.0];
 fn shapes_in_motion_cover_what_their_closed_forms_say() {
     for (number, expect) in SHAPES.into_iter().enumerate() {
         for (index, alignment) in Alignment::ALL.into_iter().enumerate() {
-            // Every alignment meets three angles, and each shape three exposures.
+            // Every alignment is run with three angles, and each shape with three exposures.
             let degrees = ANGLES[(index + number) % 4];
             expect(alignment, degrees.to_radians(), [0.75, 1.0, 0.4][index]);
         }
@@ -44,7 +44,7 @@ fn overlap(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[1].min(b[1]) - a[0].max(b[0])).max(0.0)
 }
 
-/// The edge lies 2.3 pixels ahead of the centre at the instant. Motion is not along its normal.
+/// The edge is 2.3 pixels ahead of the centre at the instant. Motion is not along its normal.
 fn expect_half_plane(alignment: Alignment, angle: f64, exposure: f64) {
     let normal = DVec2::from_angle(angle);
     let velocity = SPEED * DVec2::from_angle(angle + 0.35);
@@ -71,7 +71,7 @@ fn expect_reversals(alignment: Alignment, angle: f64, exposure: f64) {
         for index in 0..5 {
             let [(first, start), (last, end)] =
                 [index, index + 1].map(|key| (times[key], places[key]));
-            // Before the first key and after the last the motion goes on.
+            // Before the first key and after the last the motion continues.
             let from = if index == 0 { -1.0 } else { first };
             let to = if index == 4 { 1.0 } else { last };
             let span = [from.max(shutter.open), to.min(shutter.close)];
@@ -138,7 +138,7 @@ fn a_rotating_bar_covers_its_sector_of_the_annulus() {
                 if farthest <= nearest {
                     return 0.0;
                 }
-                // The bar's angles that contain the point lie on both sides of the point's own angle.
+                // The bar's angles that contain the point are on both sides of the point's own angle.
                 let own = point.to_angle();
                 let sides = overlap(swept, [own + nearest, own + farthest])
                     + overlap(swept, [own - farthest, own - nearest]);

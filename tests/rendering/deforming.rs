@@ -35,7 +35,7 @@ fn render_velocities(scene: &Scene, velocity: VelocityKind) -> Vec<[f32; 2]> {
     render_frame(scene, &settings).velocity.pixels
 }
 
-/// Makes a scene of one glowing mesh at the distance where metres are pixels.
+/// Makes a scene of one glowing mesh at the distance where a metre is a pixel.
 fn scene_of(mesh: Mesh, motion: impl Fn(DVec3) -> Motion) -> Scene {
     let mut scene = empty_scene("deforming");
     let at = DVec3::new(0.0, 0.0, -DISTANCE);
@@ -72,7 +72,7 @@ fn shifting_shapes_equal_a_translation() {
 
 #[test]
 fn a_stretching_panel_covers_and_moves_as_its_edges_do() {
-    // The left edge stays; the right one moves, and turns back at a key inside the shutter.
+    // The left edge stays; the right one moves, and reverses at a key inside the shutter.
     let panel = rectangle(10.0, 400.0);
     let right = |time: f64| match time < -0.2 {
         true => 5.0 + 10.0 * time,
@@ -133,7 +133,7 @@ fn skewed(at: DVec3) -> Motion {
     motion
 }
 
-/// The places of vertices are right to a thousand-millionth, and rays stop there.
+/// The positions of vertices are right to a thousand-millionth, and rays stop there.
 #[test]
 fn a_deforming_sphere_does_not_leak_at_its_edges_and_vertices() {
     let mesh = potato();

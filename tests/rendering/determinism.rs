@@ -1,4 +1,4 @@
-//! Determinism: equal inputs give equal bytes, and hashes tell inputs apart.
+//! Determinism: equal inputs give equal bytes, and hashes distinguish inputs.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU64, Ordering};

@@ -1,4 +1,4 @@
-//! Frames as engines have them: velocity from only the camera, colour at pixel centres, a still sky, a guard band.
+//! Frames in engines' forms: velocity from only the camera, colour at pixel centres, a still sky, a guard band.
 
 use frame::{ColorSampling, Frame, VelocityKind};
 use glam::{DQuat, DVec3, Vec3};

@@ -246,8 +246,7 @@ fn image_of(sky: &Background) -> Background {
 fn a_sky_and_its_image_light_a_floor_by_the_cosine() {
     for (sky, expected) in [
         (heights(1.0, 1.0, 1.0), 0.6),
-        // Even and uneven skies: one is met by chance, the other sampled as a light. The mean of the height over the
-        // cosine lobe is 2/3.
+        // Even and uneven skies: one is hit by chance, the other sampled as a light. The mean of the height over the cosine lobe is 2/3.
         (heights(1.0, 1.0, 4.0), 0.6 * 3.0),
         (heights(0.0, 0.0, 1.0), 0.4),
         (heights(9.0, 0.0, 1.0), 0.4),
@@ -287,7 +286,7 @@ fn a_small_bright_sun_in_an_image_is_found() {
         .sum();
     let truth = render_small_truth(&scene, 512);
     expect_everywhere("sun in an image", &truth, 0.6 * irradiance / PI);
-    // Without light samples, one path in 500 would meet it, with a deviation of 20 times its mean.
+    // Without light samples, one path in 500 would hit it, with a deviation of 20 times its mean.
     let estimates = estimate_pixels(&truth, |_, _| 0.0).into_iter();
     let worst = estimates.map(|estimate| estimate.error).fold(0.0, f64::max);
     assert!(worst < 0.01 * irradiance, "{worst} {irradiance}");

@@ -79,7 +79,7 @@ fn still_objects_among_moving_ones_are_met_as_by_brute_force() {
             (object.motion.keys.iter_mut()).for_each(|key| key.scale = scale);
         }
     }
-    // An object of the same mesh whose texture is one hole.
+    // An object of the same mesh with a texture that is one hole.
     let mut hole = glowing(1.0);
     hole.opacity = 0.0;
     scene.materials.push(hole);
@@ -87,6 +87,6 @@ fn still_objects_among_moving_ones_are_met_as_by_brute_force() {
         scene.objects[index].materials = vec![1];
     }
     expect_what_every_triangle_gives(&scene, [-0.9, 0.5], 8.0, 3000);
-    // At one time, all objects stand still.
+    // At one time, all objects are still.
     expect_what_every_triangle_gives(&scene, [-0.4, -0.4], 8.0, 1000);
 }

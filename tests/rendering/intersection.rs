@@ -64,8 +64,8 @@ pub fn expect_no_leak(
                 2 => 0.5 * (a + b),
                 _ => a + 0.5 * (1.0 + numbers.next()) * (b - a),
             };
-            // From inside, where every way out must be stopped; and from outside towards the near side of a convex mesh, which must
-            // stop the ray at the target. Edge-on triangles belong to the silhouette, which rounding may miss.
+            // From inside, where every way out must be stopped; and from outside towards the near side of a convex mesh, which must stop
+            // the ray at the target. Edge-on triangles belong to the silhouette, which rounding may miss.
             let start = match index / 4 % 4 {
                 2 if mesh.shapes.is_empty() => 3.0 * (target + 0.2 * numbers.vector()),
                 3 if mesh.shapes.is_empty() => 1000.0 * (target + 0.2 * numbers.vector()),
@@ -85,7 +85,7 @@ pub fn expect_no_leak(
     });
 }
 
-/// Aims rays at a sphere that was split so many times.
+/// Aims rays at a sphere with this many splits.
 fn expect_tight_sphere(splits: u32, motion: Motion, count: u64) {
     let mut scene = empty_scene("sphere");
     add(&mut scene, icosphere(1.0, splits), glowing(1.0), motion);
@@ -145,8 +145,8 @@ fn a_convex_surface_never_meets_its_own_rays_from_1_mm_to_10_km() {
         add(&mut scene, ball, diffuse(0.5), placed(DVec3::ZERO));
         // Closer than the radius: only the ball is in view.
         for_each_color(scene, place(offset), 1.1 * radius, |color| {
-            // Every path scatters once and leaves. A path that met the surface again would lose half its light, a part of 1 / 64 of
-            // the pixel.
+            // Every path scatters once and leaves. A path that hit the surface again would lose half its light, a part of 1 / 64 of the
+            // pixel.
             assert!(
                 color.iter().all(|part| (part - 0.5).abs() < 1e-6),
                 "radius {radius} m, {offset} m from the origin: {color:?}"
@@ -212,7 +212,7 @@ fn the_first_of_equally_near_surfaces_is_seen() {
     let coincident = |mirror: [f64; 2]| {
         let mut scene = empty_scene("ties");
         for z in mirror {
-            // A panel at z = 0 and a wing beside it, which makes the trees visit the object with the nearer wing first.
+            // A panel at z = 0 and a wing next to it, which makes the trees visit the object with the nearer wing first.
             let mut panel = rectangle(2.0, 2.0);
             let wing = [3.0, 3.5, 4.0].map(|x| Vec3::new(x, x * x, 8.0));
             panel.positions.extend(wing);
@@ -236,7 +236,7 @@ fn the_first_of_equally_near_surfaces_is_seen() {
             };
             let hit = stage.closest(&mut stage.poses(), &ray).expect("aimed at");
             assert_eq!((hit.object, hit.t), (0, 2.0));
-            // A ray on the diagonal meets both triangles, and the first one is seen.
+            // A ray on the diagonal hits both triangles, and the first one is visible.
             assert!(x != y || hit.triangle == 0);
         }
     }

@@ -1,4 +1,4 @@
-//! Rendering: frames and truths against known answers, and the files that hold them.
+//! Rendering: frames and truths against known answers, and their files.
 
 mod accumulation;
 mod at_instant;

@@ -9,7 +9,7 @@ use tracer::{Interpolation, Key, Motion, TraceError, Turn, trace_truth};
 
 use crate::renders::{render_frame, settings};
 
-/// Makes a motion through keys at these times, with places of up to `far` and turns of up to `turn` radians about random axes.
+/// Makes a motion through keys at these times, with positions of up to `far` and turns of up to `turn` radians about random axes.
 pub fn random_motion(
     numbers: &mut Numbers,
     interpolation: Interpolation,

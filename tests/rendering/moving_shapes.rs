@@ -38,7 +38,7 @@ pub fn moving_scene(mesh: Mesh, angle: f64, times: &[f64], place: impl Fn(f64) -
     scene
 }
 
-/// Makes a half-plane whose edge lies `along(t)` pixels from the centre in the direction of `normal`.
+/// Makes a half-plane with its edge `along(t)` pixels from the centre in the direction of `normal`.
 pub fn half_plane_scene(normal: DVec2, times: &[f64], along: impl Fn(f64) -> f64) -> Scene {
     let place = |time: f64| (along(time) - 200.0) * normal;
     moving_scene(rectangle(400.0, 400.0), normal.to_angle(), times, place)
@@ -59,7 +59,7 @@ pub fn mean_over_pixel(corner: DVec2, side: u32, value: impl Fn(DVec2) -> f64) -
     points.map(|point| value(corner + point)).sum::<f64>() / f64::from(side * side)
 }
 
-/// Renders a truth, and compares the only object's coverage with the exact one, which follows from a pixel's lower left corner and the
+/// Renders a truth, and compares the only object's coverage with the exact one, which depends on a pixel's lower left corner and the
 /// shutter; then colour and motion with coverage.
 pub fn expect_coverage(
     what: &str,
@@ -71,7 +71,7 @@ pub fn expect_coverage(
     let truth = render_truth(scene, &truth_settings(), alignment);
     let estimates = coverage_estimates(&truth, |x, y| exact(pixel_corner(x, y), truth.shutter));
     expect_agreement(&what, &estimates, truth.provenance.replicates);
-    // Shifts and stretches show in the first moments.
+    // The first moments show shifts and stretches.
     let column = |pixel: usize| f64::from(pixel as u32 % WIDTH) - 15.5;
     expect_total(&what, &estimates, column);
     let row = |pixel: usize| f64::from(pixel as u32 / WIDTH) - 8.5;

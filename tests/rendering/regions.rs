@@ -13,7 +13,7 @@ fn count(regions: &Regions, region: Region) -> usize {
     regions.select(region, &all).len()
 }
 
-/// Fails unless the support holds nearly all coverage.
+/// Fails unless the support contains nearly all coverage.
 pub fn expect_support(scene: &str, truth: &Truth) {
     let mean = truth.mean();
     for (object, seen) in truth.support.seen.iter().enumerate() {

@@ -4,7 +4,7 @@ use frame::{Alignment, Frame, Image, Ladder, Truth, VelocityKind};
 use tests::{scenes, unwatched};
 use tracer::{RenderSettings, Scene, load_scene, trace_frame, trace_ladder, trace_truth};
 
-/// Takes a size and samples per pixel, those of a truth in 8 replicates.
+/// Makes settings of a size and samples per pixel, those of a truth in 8 replicates.
 pub fn settings([width, height]: [u32; 2], samples_per_pixel: u32) -> RenderSettings {
     RenderSettings {
         width,
@@ -14,7 +14,7 @@ pub fn settings([width, height]: [u32; 2], samples_per_pixel: u32) -> RenderSett
     }
 }
 
-/// Takes a size, samples per pixel, and a kind of motion for the velocity buffer.
+/// Makes settings of a size, samples per pixel, and a kind of motion for the velocity buffer.
 pub fn settings_with(
     size: [u32; 2],
     samples_per_pixel: u32,
@@ -25,7 +25,7 @@ pub fn settings_with(
     settings
 }
 
-/// Takes a size and samples per pixel in 2 replicates.
+/// Makes settings of a size and samples per pixel in 2 replicates.
 pub fn settings_of_two(size: [u32; 2], samples_per_pixel: u32) -> RenderSettings {
     RenderSettings {
         replicates: 2,

@@ -1,4 +1,4 @@
-//! Poses, skies, suns and floors that several tests use.
+//! Poses, skies, suns and floors shared by several tests.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -64,8 +64,8 @@ pub fn fresnel(cosine: f64, index: f64) -> f64 {
     0.5 * (across * across + along * along)
 }
 
-/// Makes a floor at y = 0, of which the camera sees one small spot at a slope of 1 to 2. There the light of a lamp 1 m above varies
-/// by less than 2e-6 of itself.
+/// Makes a floor at y = 0, with one small spot that the camera sees at a slope of 1 to 2. There the light of a lamp 1 m above varies by
+/// less than 2e-6 of itself.
 pub fn floor_scene(material: Material) -> Scene {
     let mut scene = empty_scene("floor");
     let floor = facing_up(DVec3::ZERO);

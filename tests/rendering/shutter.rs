@@ -38,7 +38,7 @@ fn curves() -> [Curve; 5] {
     ]
 }
 
-/// Returns the mean of `value` over the shutter, weighted by `weight` of the part of the interval. Where the weights have corners, the
+/// Returns the mean of `value` over the shutter, weighted by `weight` of the part of the interval. If the weights have corners, the
 /// midpoint rule errs by less than 3e-5; standard errors of pixels are above 1e-3.
 fn weighted_mean(shutter: Shutter, weight: fn(f64) -> f64, value: impl Fn(f64) -> f64) -> f64 {
     const STEPS: u32 = 400;

@@ -1,4 +1,4 @@
-//! Tiles of frames, replicates and rungs, rendered alone: they hold what the whole holds there.
+//! Tiles of frames, replicates and rungs, rendered alone: they equal the same part of the whole.
 
 use frame::{Alignment, AtInstant, Replicate, Tile, Truth, VelocityKind};
 use tests::unwatched;
@@ -54,7 +54,7 @@ fn part(whole: &Replicate, tile: Tile) -> Replicate {
 fn a_tile_of_a_replicate_holds_what_the_replicate_holds_there() {
     let fan = load_shipped("fan");
     for scene in [with_lens(fan.clone(), 0.3, 3.0), fan] {
-        // Each has a pilot and a support of its own.
+        // Each has its own pilot and support.
         let tracer = |alignments: &[Alignment]| {
             TruthTracer::new(&scene, &settings(), alignments).expect("settings are allowed")
         };
@@ -105,7 +105,7 @@ fn a_tile_of_a_rung_holds_what_the_rung_holds_there() {
     let truth = render_truth(&scene, &settings, Alignment::Trailing);
     let tracer = LadderTracer::new(&scene, &settings, &truth, &[2, 8]).unwrap();
     let whole = tracer.trace(8, &unwatched).unwrap();
-    // Some of these pixels are rendered, and others hold the truth's mean.
+    // Some of these pixels are rendered, and others have the truth's mean.
     assert_ne!(whole.rungs[0].halves[0], truth.mean());
     for tile in tiles(40, 24) {
         let part = tracer.trace_tile(8, tile, &unwatched).unwrap();

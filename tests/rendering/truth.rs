@@ -49,7 +49,7 @@ fn the_truth_of_a_still_scene_is_its_frame() {
     }
     let truth = render_truth(&scene, &own_settings(512), Alignment::Trailing);
     let frame = render_frame(&scene, &own_settings(512));
-    // The frame has as many samples as the truth, in one set, and so at most its noise.
+    // The frame has as many samples as the truth, in one set, so it has at most the truth's noise.
     let mut against_frame = estimate_pixels(&truth, |x, y| f64::from(frame.color.at(x, y)[0]));
     for estimate in &mut against_frame {
         estimate.error *= std::f64::consts::SQRT_2;
@@ -58,7 +58,7 @@ fn the_truth_of_a_still_scene_is_its_frame() {
     assert!(truth.motion.pixels.iter().all(|motion| *motion == 0.0));
     for (of_frame, of_truth) in frame.coverage.iter().zip(truth.mean().coverage) {
         for (of_frame, of_truth) in of_frame.pixels.iter().zip(of_truth.pixels) {
-            // Edges of still things: rms 0.005 at 512 samples (measured); the largest of 864 pixels is four times that.
+            // Edges of still objects: rms 0.005 at 512 samples (measured); the largest of 864 pixels is four times that.
             assert!((of_frame - of_truth).abs() < 0.03);
         }
     }
@@ -70,8 +70,7 @@ fn halves_are_independent() {
     let scene = slab_scene(SPEED);
     let truth = render_truth(&scene, &settings, Alignment::Trailing);
     let ladder = render_ladder(&scene, &settings, &truth, &[256]);
-    // The slab's smear is a trapezoid that is equal in every row. The mean over rows gives its exact value, with 1/4 of
-    // the noise.
+    // The slab's smear is a trapezoid, equal in every row. The mean over rows gives its exact value, with 1/4 of the noise.
     let errors = |coverage: &Plane| -> Vec<f64> {
         let columns = (0..WIDTH).flat_map(|x| {
             let column = (0..HEIGHT).map(move |y| f64::from(*coverage.at(x, y)));

@@ -11,7 +11,7 @@ use crate::sandbox::Sandbox;
 
 const FILTERS: &str = "jump_flood:paper,velocity_gather:fine,identity";
 
-/// A clip as the page numbers it.
+/// Number of a clip on the page.
 fn code(clip: Clip) -> i64 {
     match clip {
         Clip::Filter(filter) => filter as i64,
@@ -31,7 +31,7 @@ fn wait(browser: &mut Browser, question: usize) {
     ));
 }
 
-/// The key of an attentive person, to whom a filter of a smaller number looks better.
+/// Returns the key of an attentive person who prefers filters of smaller numbers.
 fn key(pair: &ShownPair) -> &'static str {
     let rank = |clip| match code(clip) {
         -2 => 100,
@@ -44,7 +44,7 @@ fn key(pair: &ShownPair) -> &'static str {
     }
 }
 
-/// Reads the session that the browser keeps.
+/// Reads the session stored in the browser.
 fn kept(browser: &mut Browser) -> Value {
     let text = browser.text("localStorage.getItem(localStorage.key(0))");
     serde_json::from_str(&text).unwrap()
@@ -77,7 +77,7 @@ fn answers_by_keys_survive_a_reload_and_become_a_scale() {
     let pairs = draw_session(&study, Question::Truth, seed);
     assert_eq!(pairs.len(), 5);
 
-    // Three clips in step: what a canvas shows is the picture of the frame, at a whole number of pixels.
+    // Three clips in step: a canvas shows the frame's picture, at a whole number of pixels.
     for frame in ["1", "2", "0"] {
         browser.until(&format!("document.body.dataset.frame === '{frame}'"));
     }
@@ -186,7 +186,7 @@ fn the_page_draws_the_sessions_that_the_program_expects() {
         }
     }
 
-    // A page with one question asks that, and shows no truth. In a window that is too small it says so, and takes no answer.
+    // A page with one question asks that, and shows no truth. In too small a window it says so, and accepts no answer.
     assert_eq!(browser.value("document.documentElement.scrollWidth"), 390);
     browser.click("#begin");
     wait(&mut browser, 0);

@@ -1,4 +1,4 @@
-//! A real Chromium without a window, driven by the DevTools protocol.
+//! A real headless Chromium, driven by the DevTools protocol.
 
 use std::io::{BufRead, BufReader};
 use std::net::TcpStream;
@@ -14,7 +14,7 @@ use tungstenite::{Message, WebSocket};
 /// Time limit, far longer than anything here takes on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// Options of a Chromium without a window, whose pictures are the same everywhere.
+/// Options of a headless Chromium with pictures that are the same everywhere.
 const OPTIONS: [&str; 7] = [
     "--headless",
     "--no-sandbox",
@@ -115,7 +115,7 @@ impl Browser {
         self.value(&format!("document.querySelector('{selector}').click()"));
     }
 
-    /// Tells whether the first element that a selector finds is visible.
+    /// Returns whether the first element that a selector finds is visible.
     pub fn shows(&mut self, selector: &str) -> bool {
         self.value(&format!(
             "document.querySelector('{selector}').checkVisibility()"
@@ -131,7 +131,7 @@ impl Browser {
         }
     }
 
-    /// Presses and releases a key, as `KeyboardEvent.key` calls it.
+    /// Presses and releases a key, named as in `KeyboardEvent.key`.
     pub fn press(&mut self, key: &str) {
         let text = if key.chars().count() == 1 { key } else { "" };
         for (kind, text) in [("keyDown", text), ("keyUp", "")] {
@@ -140,12 +140,12 @@ impl Browser {
         }
     }
 
-    /// Moves the mouse to a place of the window, in pixels.
+    /// Moves the mouse to a position in the window, in pixels.
     pub fn point(&mut self, x: f64, y: f64) {
         self.mouse("mouseMoved", x, y);
     }
 
-    /// Presses the mouse at a place, moves to another one, and lets go.
+    /// Presses the mouse at a position, moves to another one, and releases it.
     pub fn drag(&mut self, from: [f64; 2], to: [f64; 2]) {
         self.mouse("mousePressed", from[0], from[1]);
         self.mouse("mouseMoved", to[0], to[1]);
@@ -158,7 +158,7 @@ impl Browser {
         self.call("Input.dispatchMouseEvent", words);
     }
 
-    /// Turns the wheel over a place; up is below 0.
+    /// Turns the wheel at a position; up is below 0.
     pub fn turn_wheel(&mut self, x: f64, y: f64, down: f64) {
         let words = json!({"type": "mouseWheel", "x": x, "y": y, "deltaX": 0, "deltaY": down});
         self.call("Input.dispatchMouseEvent", words);
@@ -171,7 +171,7 @@ impl Browser {
         self.call("Emulation.setDeviceMetricsOverride", screen);
     }
 
-    /// Shows pages as on paper.
+    /// Shows pages as in print.
     pub fn print(&mut self) {
         self.call("Emulation.setEmulatedMedia", json!({"media": "print"}));
     }
@@ -205,7 +205,7 @@ impl Browser {
         self.picture_at([x + left, y + top, width, height])
     }
 
-    /// Takes a PNG of the page from its top, at most so many pixels high.
+    /// Takes a PNG of the page from its top, at most `most` pixels high.
     pub fn picture_of_page(&mut self, most: f64) -> Vec<u8> {
         let [_, _, width, height] = self.place("html");
         self.picture_at([0.0, 0.0, width, height.min(most)])
@@ -236,7 +236,7 @@ impl Browser {
         complaints.map(Value::to_string).collect()
     }
 
-    /// Returns the addresses of all requests, except for pictures that the page itself holds.
+    /// Returns the addresses of all requests, except for embedded pictures.
     pub fn requests(&mut self) -> Vec<String> {
         self.value("0");
         let sent =
@@ -311,7 +311,7 @@ fn program() -> PathBuf {
     })
 }
 
-/// Reads the address that Chromium listens at.
+/// Reads the address where Chromium listens.
 fn read_address(process: &mut Child) -> String {
     let mut said = Vec::new();
     let mut lines = BufReader::new(process.stderr.take().unwrap()).lines();
@@ -327,7 +327,7 @@ fn read_address(process: &mut Child) -> String {
     panic!("Chromium ended before it listened: {}", said.join("\n"));
 }
 
-/// Writes a path as a browser's address line does.
+/// Formats a path as a browser's address line does.
 pub fn address_of(page: &Path) -> String {
     let escapes = [(' ', "%20"), ('#', "%23"), ('<', "%3C"), ('>', "%3E")];
     let path = page.to_str().unwrap().to_owned();

@@ -136,7 +136,7 @@ fn wheel_and_worst_place_zoom_and_the_zoom_is_shown(browser: &mut Browser, page:
     ));
     press(browser, "0");
     assert_eq!(browser.text(zoom), "1×");
-    // The read-out floats beside the pointer.
+    // The read-out floats next to the pointer.
     browser.point(left + width / 2.0, top + height / 2.0);
     browser.until("document.querySelector('.tip').textContent.includes('identity:default: ')");
     let [x, y, ..] = browser.place(".tip");

@@ -19,7 +19,7 @@ use report::{LARGEST_PAGE, write_report};
 use sandbox::{Sandbox, split};
 use tests::text::assert_contains;
 
-/// Makes the page of the bench's last run; returns its path.
+/// Makes the page of the sandbox's last run; returns its path.
 fn make_page(sandbox: &Sandbox) -> PathBuf {
     make_page_within(sandbox, LARGEST_PAGE)
 }
@@ -38,10 +38,10 @@ fn open_page(page: &Path) -> Browser {
     browser
 }
 
-/// A look at a page that was just opened, in a window of a usual size or of the last check's.
+/// A check of a page just opened, in a window of a usual size or of the last check's.
 type Check = fn(&mut Browser, &Path);
 
-/// Opens a page for each check, and expects that it does not complain.
+/// Opens a page for each check, and expects no complaints from it.
 fn run_checks(browser: &mut Browser, page: &Path, checks: &[Check]) {
     for check in checks {
         browser.open(page, "");
@@ -86,7 +86,7 @@ fn a_page_opens_without_complaint_and_asks_for_nothing_else() {
         browser.until(&format!(
             "!!document.getElementById('{address}').querySelector('#viewer')"
         ));
-        // Steps through its own pictures, those of seven other filters, and its maps. Accumulations are alike, as are scenes.
+        // Steps through its own pictures, seven other filters', and its maps. Accumulations are alike, as are scenes.
         let is_alike = case.scene == "slow" || case.preset.len() > 1 && case.is_reference;
         for _ in 0..if is_alike { 2 } else { 18 } {
             press(&mut browser, "m");
@@ -99,7 +99,7 @@ fn a_page_opens_without_complaint_and_asks_for_nothing_else() {
         an_address_that_names_another_section_is_left_alone,
     ];
     run_checks(&mut browser, &page, &checks);
-    // The test would hear an error: it causes one itself.
+    // The test notices errors: it causes one itself.
     browser.value("console.error('heard')");
     assert_eq!(browser.complaints().len(), 1);
     browser
@@ -124,7 +124,7 @@ fn every_key_that_the_page_lists_works(browser: &mut Browser, page: &Path) {
             browser.value("document.querySelector('.stack').focus()");
         }
         browser.press(key);
-        // A key that comes while another case is about to open is lost.
+        // A key pressed while another case is about to open is lost.
         let change = format!("{state} !== {}", serde_json::json!(before));
         browser.until(&format!("{change} && {is_open}"));
         before = browser.text(state);

@@ -1,4 +1,4 @@
-//! Numbers behind the pictures: the read-out of a pixel against the files.
+//! Numbers of the pictures: the read-out of a pixel against the files.
 
 use std::fs;
 
@@ -20,7 +20,7 @@ pub fn read_out(browser: &mut Browser, x: u32, y: u32) -> serde_json::Value {
     )
 }
 
-/// Returns the channels that the read-out shows of each layer.
+/// Returns the read-out's channels of each layer.
 fn channels(files: &[ExrFile; 4]) -> Vec<(&'static str, &ExrFile, Vec<&'static str>)> {
     let [truth, output, frame, errors] = files;
     let color = || vec!["R", "G", "B"];
@@ -78,14 +78,14 @@ fn assert_near(shown: &serde_json::Value, files: &[ExrFile; 4], x: u32, y: u32) 
     }
 }
 
-/// Points at pixels of a case, whose read-outs show the values of the OpenEXR files in three digits.
+/// Points at pixels of a case, where the read-outs show the OpenEXR files' values with three digits.
 fn assert_read_outs(browser: &mut Browser, files: &[ExrFile; 4]) {
     let [left, top, width, _] = browser.place(".stack");
     let scale = width / 64.0;
     let check = |browser: &mut Browser, x: u32, y: u32| {
         let shown = read_out(browser, x, y);
         assert_near(&shown, files, x, y);
-        // The plate stands 4 m away.
+        // The plate is 4 m away.
         let depth = &shown["depth"][0];
         assert!(depth == "4" || depth == "no surface", "{depth}");
     };

@@ -1,4 +1,4 @@
-//! Time that a report takes to open: `cargo run --package cli --example report_opening -- out/report.html`.
+//! Opening time of a report: `cargo run --package cli --example report_opening -- out/report.html`.
 
 #[expect(dead_code, reason = "the tests of pages need more of it")]
 mod browser;
@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use browser::Browser;
 
-/// Times that the page is opened.
+/// Number of times that the page is opened.
 const REPEATS: usize = 7;
 
 fn main() {

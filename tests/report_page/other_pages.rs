@@ -51,7 +51,7 @@ fn a_tuning_fits_the_screen_and_marks_unbeaten_candidates() {
     let mut browser = Browser::new(390, 844);
     browser.open(&page, "");
     assert_eq!(browser.value("document.documentElement.scrollWidth"), 390);
-    // No blue mark of the chart has another mark to the left and below, or beside it.
+    // No blue mark of the chart has another mark to the left and below, or next to it.
     let beaten = "(() => { const marks = [...document.querySelectorAll('.drawings svg')[0].querySelectorAll('circle:not(.ring)')]; \
                   const at = mark => [mark.cx.baseVal.value, -mark.cy.baseVal.value]; \
                   const blue = marks.filter(mark => !mark.classList.contains('faint')); \
@@ -68,7 +68,7 @@ fn a_sequence_plays_in_step_and_goes_frame_by_frame() {
     sandbox.measure(&format!("{GATHER} --frames 3"));
     let page = sandbox.path("out/sequences.html");
     let mut browser = Browser::new(1280, 900);
-    // The last sequence is that of the filter.
+    // The last sequence is the filter's.
     let last = sandbox.read_run().sequences.len() - 1;
     browser.open(&page, &format!("#{last}"));
     let loaded = "[...document.querySelectorAll('#pictures img:not([hidden])')].every(own => own.complete && own.naturalWidth === 64)";

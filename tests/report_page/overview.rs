@@ -42,13 +42,13 @@ fn the_search_filters_rows_and_references_show_on_request() {
     let found = show("at('[name=search]').value = 'Gather'");
     assert_eq!(found, "velocity_gather:fine");
     let all = show("at('[name=search]').value = ''; at('[name=references]').checked = true");
-    // A check has no accumulations but the one that skill is counted from.
+    // A check has no accumulations except the one that skill is counted from.
     let due = "accumulate:1 identity identity:default scatter_oracle velocity_gather:fine";
     assert_eq!(all, due);
     show("at('[value=psnr_moving]').checked = true");
     let title = browser.text("document.querySelector('.panel:not([hidden])').dataset.metric");
     assert_eq!(title, "psnr_moving");
-    // The thumbnail of the truth stands above its column, whichever score is shown.
+    // The thumbnail of the truth is above its column, whichever score is shown.
     browser
         .until("document.querySelector('.panel:not([hidden]) th.scene img').naturalWidth === 64");
     assert_eq!(browser.complaints(), [""; 0]);
@@ -94,7 +94,7 @@ fn a_link_opens_the_same_table(browser: &mut Browser, page: &Path) {
     browser.open(page, &link);
     browser.until(&format!("{seen} === 'row_loss,y_g'"));
     assert_eq!(rows(browser), "velocity_gather:fine");
-    // The way back from a case keeps them.
+    // Going back from a case keeps them.
     browser.value("location.hash = '#plate/identity:default'");
     browser.until("!document.getElementById('viewer').hidden");
     browser.press("o");
@@ -174,7 +174,7 @@ fn everything_fits_a_narrow_screen(browser: &mut Browser, page: &Path) {
         // It need not be scrolled sideways.
         assert_eq!(browser.value(width), 360, "{part}");
     }
-    // Nor does the paper of the overview.
+    // Nor need the printed overview.
     browser.resize(794, 1123);
     browser.print();
     browser.open(page, "");

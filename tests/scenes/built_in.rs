@@ -25,7 +25,7 @@ fn object_index(scene: &Scene, name: &str) -> usize {
     index.unwrap_or_else(|| panic!("{} has no object {name}", scene.id))
 }
 
-/// Returns the least and largest pixel coordinates of an object at a time.
+/// Returns the smallest and largest pixel coordinates of an object at a time.
 fn pixel_range(scene: &Scene, name: &str, time: f64) -> [DVec2; 2] {
     let index = object_index(scene, name);
     let to_world = scene.object_to_world(index, time);
@@ -112,7 +112,7 @@ fn the_panel_keeps_clear_of_the_border() {
             let [least, largest] = pixel_range(&scene, "panel", time);
             let clear = least.min(DVec2::new(width, height) - largest).min_element();
             assert!(clear >= 30.0, "{name} at {time}: {clear} pixels");
-            // A square of 80 pixels; its sides show as less than a tenth of one.
+            // A square of 80 pixels; its sides appear as less than a tenth of one.
             assert!((largest - least).distance(DVec2::splat(80.0)) < 0.1);
         }
     }
@@ -147,7 +147,7 @@ fn the_car_is_seen_whole_behind_the_railing_and_its_wheels_roll() {
     assert!((48.0..64.0).contains(&speed("car")));
     assert!((3.0..10.0).contains(&speed("aeroplane")));
 
-    // A rolling wheel stands still where it touches the road, and its top moves twice as fast as the car.
+    // A rolling wheel is still where it touches the road, and its top moves twice as fast as the car.
     let wheel = object_index(&scene, "wheel_front_near");
     let velocity = |height: f64| {
         let to_wheel = scene.object_to_world(wheel, 0.0).inverse();

@@ -1,4 +1,4 @@
-//! Scenes at other frame rates than that of their files.
+//! Scenes at other frame rates than their files'.
 
 use frame::{Alignment, Frame, Truth, VelocityKind};
 use tests::unwatched;
@@ -46,7 +46,7 @@ fn measure_smear(truth: &Truth) -> [f64; 2] {
         }
     }
     let middle = moments[1] / moments[0];
-    // Squared widths of boxes add up: those of bar, smear and pixel.
+    // Squared widths of boxes add up: the bar's, the smear's and the pixel's.
     let width = 12.0 * (moments[2] / moments[0] - middle * middle);
     [middle, (width - BAR * BAR - 1.0).max(0.0).sqrt()]
 }
@@ -236,7 +236,7 @@ fn times_beyond_the_keys_are_refused() {
     }
     let text = check("24fps", Alignment::Leading).unwrap();
     assert!(text.contains("end at frame 0.4"), "{text}");
-    // So are those that the velocity since the frame before needs.
+    // So are those that the velocity since the previous frame needs.
     let scene = load_shipped("flag@24fps");
     let mut settings = RenderSettings::default();
     assert!(settings.check_frame(&scene).is_ok());

@@ -1,4 +1,4 @@
-//! Variants that every scene has: sealed ones, changed by a seed, and `unlit`, whose surfaces send out their own colours.
+//! Variants of every scene: sealed ones, changed by a seed, and `unlit`, with surfaces that emit their own colours.
 
 use frame::{ColorSampling, Frame};
 use tests::unwatched;
@@ -9,7 +9,7 @@ use crate::{load_shipped, shipped};
 const WIDTH: u32 = 64;
 const HEIGHT: u32 = 36;
 
-/// Renders at the pixels' centres, without a lens, which has noise of its own.
+/// Renders at the pixels' centres, without a lens, which has its own noise.
 fn render(scene: &Scene, seed: u64) -> Frame {
     let mut settings = RenderSettings {
         width: WIDTH,
@@ -58,7 +58,7 @@ fn a_mirrored_scene_is_seen_left_for_right() {
                 same += usize::from(pairs.into_iter().all(close));
             }
         }
-        // At silhouettes a rounding decides what a pixel's centre sees.
+        // At silhouettes, rounding decides what a pixel's centre sees.
         let share = same as f64 / f64::from(WIDTH * HEIGHT);
         assert!(share > 0.97, "{name}: {share} of the pixels");
     }

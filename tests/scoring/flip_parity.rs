@@ -1,4 +1,4 @@
-//! Parity of FLIP with the reference tool, flip-evaluator 1.7, on pictures made by formula.
+//! Parity of FLIP with the reference tool, flip-evaluator 1.7, on synthetic pictures.
 //!
 //! `fixtures/flip/make.py` makes the same pictures and stores the tool's answers.
 
@@ -11,7 +11,7 @@ use serde::Deserialize;
 /// An integer from 0 to 256 by column, row and channel.
 type Formula = fn(u32, u32, u32) -> u32;
 
-/// Answer of the reference tool about one pair.
+/// The reference tool's result for one pair.
 #[derive(Deserialize)]
 struct Expected {
     mean: f64,
@@ -78,8 +78,8 @@ fn flip_equals_the_reference_tool() {
         let sum: f64 = map.pixels.iter().map(|error| f64::from(*error)).sum();
         let mean = sum / map.pixels.len() as f64;
         let max = f64::from(map.pixels.iter().copied().fold(0.0, f32::max));
-        // Both compute in 32 bits, whose rounding grows to about 1e-7 through FLIP's powers. A wrong constant shows at
-        // 1e-4. Single pixels round more than the mean does.
+        // Both compute in 32 bits, and their rounding grows to about 1e-7 through FLIP's powers. A wrong constant makes 1e-4. Single pixels
+        // round more than the mean does.
         let Expected {
             mean: due,
             max: due_max,

@@ -56,8 +56,8 @@ fn measure_intervals(scene: &Scene, blur: &Blur) -> Found {
     (found, measure_scores(&picture, &frame, &converged))
 }
 
-/// Does the same for a shipped scene, whose truths are traced as a user's are, and for several pictures. All but the last, which lies a
-/// few pixels off, are nearly perfect in most pixels: there the noise of the truth decides what is measured.
+/// Does the same for a shipped scene, with truths traced as for users, and for several pictures. All except the last, which is shifted by
+/// a few pixels, are nearly perfect in most pixels: there the truth's noise decides the scores.
 fn trace_intervals(
     name: &str,
     [width, height]: [u32; 2],
@@ -126,7 +126,7 @@ fn count_holding(metric: &str, (found, converged): &Found) -> usize {
         .count()
 }
 
-/// Expects that about 95 % of the intervals of a blur's scores hold the converged score.
+/// Expects that about 95 % of the intervals of a blur's scores contain the converged score.
 fn assert_about_95_percent(scene: &Scene, blur: &Blur) {
     // Of 200 intervals 190 on average, with a standard deviation of 3.1: four of them to either side.
     let about_95_percent = 178..200;
@@ -173,7 +173,7 @@ fn about_95_of_100_intervals_of_larger_pictures_contain_the_converged_score() {
     }
 }
 
-/// Scores that the noise of the truth raises by as much as itself where a picture is perfect.
+/// Scores that the truth's noise raises by as much as itself where a picture is perfect.
 const RAISED_BY_NOISE: [&str; 5] = [
     "mae_moving",
     "mae_full",
@@ -182,7 +182,8 @@ const RAISED_BY_NOISE: [&str; 5] = [
     "row_loss",
 ];
 
-/// Expects that intervals of traced truths hold the converged scores that noise raises of all pictures, and others of the moved one.
+/// Expects that intervals of traced truths contain the converged scores: those that noise raises for all pictures, others for the moved
+/// one.
 fn assert_traced(scene: &str, size: [u32; 2], seeds: u64, of_moved: &str) {
     let traced = trace_intervals(scene, size, 2048, seeds);
     // Four standard deviations below the mean: of 48 intervals 45.6, with one of 1.5.

@@ -8,7 +8,7 @@ use tests::synthetic::{Blur, Object, Sampling, Scene, Shape, VIEWING};
 
 use crate::{assert_near, bar, clean_truth, measure_blur, measure_scores, scene};
 
-/// Blur that every score sees as wrong.
+/// Blur that is wrong by every score.
 const WRONG: Blur = Blur {
     from: -1.25,
     to: 0.25,
@@ -18,7 +18,7 @@ const WRONG: Blur = Blur {
 
 /// Makes a scene whose three objects all differ.
 fn varied_scene() -> Scene {
-    // The still bar stands in the moving region, where nothing meets it.
+    // The still bar is in the moving region, where nothing touches it.
     let post = Object::sliding(bar([2.0, 20.0], 0.0), [20.9, 30.0], [0.0, 0.0]);
     let disc = Object::sliding(Shape::Disc(8.0), [46.2, 30.3], [12.0, 0.0]);
     let bar = Object::sliding(bar([6.0, 4.0], 0.5), [50.3, 49.4], [12.0, 0.0]);
@@ -37,8 +37,7 @@ fn measure_varied() -> Measurement {
     measure(output, frame, truth, None, &VIEWING).expect("they agree")
 }
 
-/// Remaps frame, truth and output pixel by pixel: `source` gives the pixel that each new one is taken from, `turn`
-/// changes screen vectors.
+/// Remaps frame, truth and output pixel by pixel: `source` gives the source pixel of each new one, `turn` changes screen vectors.
 fn remap(
     width: u32,
     height: u32,

@@ -1,4 +1,4 @@
-//! Parity of ColorVideoVDP with its reference implementation, cvvdp 0.5.7, on clips made by formula.
+//! Parity of ColorVideoVDP with its reference implementation, cvvdp 0.5.7, on synthetic clips.
 //!
 //! `fixtures/cvvdp/make.py` makes the same clips and stores the reference's answers.
 

@@ -112,8 +112,8 @@ fn skill_is_the_share_of_the_way_from_a_sharp_picture_to_the_one_frame_oracle() 
         let expected = SKILLS.map(|name| (name, expected, 1e-6));
         assert_scores("an end", &scores_of(picture), &expected);
     }
-    // Half of the way to the truth leaves half of the pixels' time with the wrong object, and the oracle leaves a
-    // quarter. Squared errors leave the squares of both.
+    // Half of the way to the truth leaves half of the pixels' time with the wrong object, and the oracle leaves a quarter. Squared
+    // errors leave the squares of both.
     let half = scores_of(&mix(&nothing, &truth.mean(), 0.5));
     let expected = [
         ("skill_label_tv", 0.5 / 0.75, 1e-5),
@@ -153,7 +153,7 @@ fn skill_needs_an_oracle_that_beats_no_blur() {
     }
 }
 
-/// Returns the probes after a gather that takes `taps` (offset in whole pixels, weight) at every pixel.
+/// Returns the probes after a gather with `taps` (offset in whole pixels, weight) at every pixel.
 fn gather_probes(taps: &[([i32; 2], f32)]) -> Probes {
     // Far enough from the border that all taps stay in the picture.
     let images = Probes::images(72, 48);
@@ -177,7 +177,7 @@ fn gather_probes(taps: &[([i32; 2], f32)]) -> Probes {
 #[test]
 fn probes_locate_a_filter_s_taps() {
     let (frame, mut truth) = frame_and_truth();
-    // The taps lie 3 pixels further right on average, at 2 and at 4, in pixels one wide.
+    // The taps are 3 pixels further right on average, at 2 and at 4, in pixels one wide.
     for half in &mut truth.at_instant {
         half.offset = half.offset.map(|_| [3.0, 0.0]);
         let products = [9.0 + 1.0 + 1.0 / 12.0, 0.0, 1.0 / 12.0];

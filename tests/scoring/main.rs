@@ -108,7 +108,7 @@ fn find_value(scores: &Scores, name: &str) -> f64 {
     find_score(scores, name).value
 }
 
-/// Returns why a metric does not apply; fails the test if it does.
+/// Returns the reason why a metric does not apply; fails the test if it applies.
 #[track_caller]
 fn find_reason(scores: &Scores, metric: &str) -> String {
     match scores.get(metric.parse().expect("a metric's name")) {

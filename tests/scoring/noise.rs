@@ -27,7 +27,7 @@ fn make_reference(ladder: Option<&Ladder>) -> Reference<'static> {
     Reference::new(&FRAME, &TRUTH, ladder, &VIEWING).expect("they agree")
 }
 
-/// Scores a blur with as many samples, from a seed of its own.
+/// Scores a blur with as many samples, from its own seed.
 fn score_blur(reference: &Reference, blur: &Blur, samples: u32) -> Scores {
     let output = sliding_disc().render(blur, noisy(samples, 9));
     reference.measure(&output).expect("a finite picture").scores
@@ -112,8 +112,8 @@ fn a_converged_picture_scores_about_the_floor_of_a_noisy_truth() {
     for name in names.split(' ') {
         let score = find_score(&scores, name);
         let ratio = score.value / score.floor;
-        // Half A and the mean differ by exactly the mean's noise, drawn once more: equal except for chance and, for
-        // FLIP, for noise in both pictures.
+        // Half A and the mean differ by exactly the mean's noise, drawn once more: equal except for chance and, for FLIP, for noise in
+        // both pictures.
         assert!((0.7..1.4).contains(&ratio), "{name}: {score:?}");
     }
     for name in ["lateral_growth", "row_gain", "row_loss"] {

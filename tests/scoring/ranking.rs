@@ -30,7 +30,7 @@ const ENTRIES: [Entry; 8] = [
     ("jimenez:wicked", false, Alignment::Centred, 0.253, 0.253),
 ];
 
-/// Makes scores whose values do not matter.
+/// Makes scores with arbitrary values.
 fn any_scores() -> Scores {
     let disc = Object::sliding(Shape::Disc(6.0), [24.0, 16.0], [12.0, 0.0]);
     measure_blur(&scene([48, 32], vec![disc]), Blur::TRUE).scores
@@ -129,14 +129,14 @@ fn print_table(run: &Run) -> String {
     text
 }
 
-/// Returns the table of means whose heading comes so many times before, up to a text.
+/// Returns the table of means after this many equal headings, up to a text.
 fn print_means(run: &Run, heading: usize, end: &str) -> String {
     let text = print_table(run);
     let means = text.split("mean over 5 scenes").nth(heading).unwrap();
     means.split(end).next().unwrap().to_owned()
 }
 
-/// Expects that names come one after the other.
+/// Expects names in this order.
 fn assert_order(text: &str, names: &[&str]) {
     let places: Vec<usize> = names
         .iter()
@@ -170,7 +170,7 @@ fn a_filter_worse_than_doing_nothing_ranks_below_it() {
     // Its FLIP is nevertheless smaller than the identity's against the trailing truth.
     assert!(mean(&run, "jimenez:wicked", "flip_moving").mean < 0.270);
     let ranking = print_means(&run, 2, "Skill is by");
-    // The trailing frame lags: it is worse still, and its lag is told apart.
+    // The trailing frame lags: it is worse still, and its lag has a line of its own.
     let (above, below) = ranking.split_once("jimenez:wicked").unwrap();
     assert_contains(above, &["[accumulate:1]", "[identity]"]);
     assert_contains(below, &["[identity]"]);

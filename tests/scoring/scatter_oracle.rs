@@ -1,4 +1,4 @@
-//! The reference `scatter_oracle`, which is right wherever one frame with straight motion decides the result.
+//! The reference `scatter_oracle`, which is right wherever one frame with straight motion determines the result.
 
 use frame::{Efficiency, Frame, Image, Picture, Raster, Shutter, ShutterProfile, Vectors};
 use metrics::scatter_oracle;
@@ -8,7 +8,7 @@ fn scene(objects: Vec<Object>) -> Scene {
     crate::scene([48, 24], objects)
 }
 
-/// Makes a frame of one bright block of columns at depth 2 before black, moving right by whole pixels per frame.
+/// Makes a frame of one bright block of columns at depth 2 in front of black, moving right by whole pixels per frame.
 fn block(columns: std::ops::Range<u32>, speed: f32) -> Frame {
     let inside = |x: u32| columns.contains(&x);
     let mut frame = scene(Vec::new()).frame();
@@ -62,8 +62,7 @@ fn a_mover_leaves_ramps_and_shows_its_background() {
 
 #[test]
 fn near_surfaces_hide_far_ones_and_holes_show_the_background() {
-    // Dark green lies ahead of the block. Blue is the background, and right of it a green wall lies farther away than
-    // the block.
+    // Dark green is ahead of the block. Blue is the background, and right of it a green wall is farther away than the block.
     let mut frame = block(20..30, 8.0);
     for y in 0..24 {
         for x in 0..48 {
@@ -81,7 +80,7 @@ fn near_surfaces_hide_far_ones_and_holes_show_the_background() {
     }
     let picture = oracle(&frame, trailing());
     for x in 13..17 {
-        // Hidden behind what is nearer.
+        // Hidden behind a nearer surface.
         assert_eq!(picture.color.at(x, 12), &[0.0, 0.5, 0.0]);
     }
     // For most of the shutter the block was not yet at its right end: of the block and the wall, the wall is farther.
@@ -94,8 +93,8 @@ fn near_surfaces_hide_far_ones_and_holes_show_the_background() {
 #[test]
 fn a_gradual_shutter_weights_instants_and_a_rolling_one_shifts_them() {
     let frame = block(20..30, 8.0);
-    // Efficiency rises from 0.6 to 0.8 of the interval and stays: areas 0.1 and 0.2, on the last 3.2 pixels of the way.
-    // Column 19 is covered until half a pixel before the end, at 0.9375.
+    // Efficiency rises from 0.6 to 0.8 of the interval and stays: areas 0.1 and 0.2, on the last 3.2 pixels of the path. Column 19 is
+    // covered until half a pixel before the end, at 0.9375.
     let profile = ShutterProfile {
         efficiency: Efficiency::Table(vec![0.0, 0.0, 0.0, 0.0, 1.0, 1.0]),
         ..ShutterProfile::default()

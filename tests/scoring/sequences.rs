@@ -19,7 +19,7 @@ fn assert_near(found: f64, expected: f64, tolerance: f64) {
     crate::assert_near("score", found, expected, tolerance);
 }
 
-/// Motion per frame in pixels: whole ones, so that taking a picture along is exact.
+/// Motion per frame in pixels: whole ones, so that moving a picture along is exact.
 const SPEED: [f64; 2] = [4.0, 2.0];
 /// Frames of most sequences.
 const FRAMES: u32 = 5;
@@ -28,7 +28,7 @@ const NOISE: f32 = 0.2;
 /// Its variance.
 const VARIANCE: f64 = (NOISE * NOISE) as f64 / 3.0;
 
-/// A disc that slides over a picture of 96x64 pixels; the shutter is open for half a frame.
+/// Makes a disc that slides over a picture of 96x64 pixels; the shutter is open for half a frame.
 fn disc_at(frame: u32, speed: [f64; 2]) -> Scene {
     let center = [0, 1].map(|axis| [30.0, 26.0][axis] + f64::from(frame) * speed[axis]);
     let disc = Object::sliding(Shape::Disc(14.0), center, speed.map(|speed| 0.5 * speed));
@@ -45,7 +45,7 @@ fn instant_of(scene: &Scene, samplings: [Sampling; 2]) -> Instant {
     )
 }
 
-/// Scenes, their instants without noise, and their true pictures.
+/// Makes scenes, their instants without noise, and their true pictures.
 fn slide(speed: [f64; 2]) -> (Vec<Instant>, Vec<Image>) {
     let scenes = (0..FRAMES).map(|frame| disc_at(frame, speed));
     let instants = scenes.map(|scene| instant_of(&scene, [Sampling::CLEAN; 2]));
@@ -55,7 +55,7 @@ fn slide(speed: [f64; 2]) -> (Vec<Instant>, Vec<Image>) {
     (instants, truths)
 }
 
-/// Adds noise to every picture, by the seed of its frame.
+/// Adds noise to every picture, with a seed from its frame.
 fn add_noise(pictures: &[Image], seed: impl Fn(u64) -> u64) -> Vec<Image> {
     let noisy = |(frame, picture): (u64, &Image)| {
         Raster::from_fn(picture.width, picture.height, |x, y| {
@@ -125,17 +125,17 @@ fn noise_that_changes_flickers_and_noise_that_stands_is_dirt() {
     for metric in [Flicker, FlickerAlong] {
         assert_near(value(&changing, metric), 2.0 * VARIANCE, 3.0 * scatter);
     }
-    // The eye that follows the disc sees new noise on it, and none on the wall around.
+    // An eye that follows the disc sees new noise on it, and none on the wall around.
     let along = value(&standing, FlickerAlong);
     assert!((0.5 * VARIANCE..1.8 * VARIANCE).contains(&along), "{along}");
     // Rounding to 32 bits only.
     assert_near(value(&standing, Flicker), 0.0, 1e-10);
-    // The mean of 25 pixels is taken away.
+    // The mean of 25 pixels is subtracted.
     let fine = 0.96 * VARIANCE;
     assert_near(value(&standing, FixedPattern), fine, scatter);
     assert_near(value(&changing, FixedPattern), 0.0, scatter);
-    // Temporal antialiasing takes changing noise away: a tenth of each new picture counts, and histories begin anew with the sequence
-    // and where a disc uncovers the wall.
+    // Temporal antialiasing removes changing noise: a tenth of each new picture counts, and histories begin anew with the sequence and
+    // where a disc uncovers the wall.
     for (before, after, part) in [
         (FlickerAlong, FlickerAfterTaa, 0.5),
         (Error, ErrorAfterTaa, 1.0),

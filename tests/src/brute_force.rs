@@ -4,9 +4,9 @@ use tracer::{Ray, Scene, Stage};
 
 use crate::random::Numbers;
 
-/// Sends `count` rays through a scene at times in `[open, close]`: from among its objects and from far away, towards
-/// whatever lies within `size` metres of the origin. Every search method must find the same hit as a test of every
-/// triangle. At least a tenth of the rays must hit something.
+/// Sends `count` rays through a scene at times in `[open, close]`: from among its objects and from far away, towards everything within
+/// `size` metres of the origin. Every search method must find the same hit as a test of every triangle. At least a tenth of the rays
+/// must hit something.
 pub fn expect_what_every_triangle_gives(
     scene: &Scene,
     [open, close]: [f64; 2],
@@ -34,7 +34,7 @@ pub fn expect_what_every_triangle_gives(
         hits += u32::from(expected.is_some());
         for stage in &stages {
             let said = || format!("{}, time {time}, {ray:?}", stage.traversal());
-            // Asked anew each time, since known poses change the way to the hit.
+            // Computed anew each time, since known poses change the way to the hit.
             assert_eq!(stage.closest(poses.at(time), &ray), expected, "{}", said());
             let mut is_blocked = |reach: f64| stage.is_blocked(poses.at(time), &ray, reach);
             match expected {
@@ -46,6 +46,6 @@ pub fn expect_what_every_triangle_gives(
             }
         }
     }
-    // Rays that miss everything show little.
+    // Rays that miss everything prove little.
     assert!(hits > count / 10, "only {hits} of {count} rays hit");
 }

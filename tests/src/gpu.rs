@@ -1,4 +1,4 @@
-//! Adapters with compiled kernels, which the tests of a program hand on to one another.
+//! Adapters with compiled kernels, which the tests of a program pass on to one another.
 
 use std::collections::BTreeMap;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -7,13 +7,13 @@ use filters::{Blur, Filter, Gpu, Kernels, Settings};
 
 use crate::open_gpu;
 
-/// An adapter, and the kernels that it has compiled.
+/// An adapter and its compiled kernels.
 struct Device {
     gpu: &'static Gpu,
     kernels: Mutex<BTreeMap<String, Kernels<'static>>>,
 }
 
-/// A device that belongs to one thread until that ends. No two threads may catch errors of a device at the same time.
+/// A device that one thread owns until its end. No two threads may catch errors of a device at the same time.
 struct Lent(&'static Device);
 
 static IDLE: Mutex<Vec<&'static Device>> = Mutex::new(Vec::new());
@@ -44,12 +44,12 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Returns an adapter that this thread has for itself, and later tests have again.
+/// Returns an adapter for this thread alone, which later tests reuse.
 pub fn shared_gpu() -> &'static Gpu {
     LENT.with(|lent| lent.0.gpu)
 }
 
-/// Makes a built-in filter ready for pictures of a size, in pixels. Its kernels are compiled once per adapter.
+/// Prepares a built-in filter for pictures of a size, in pixels. Its kernels are compiled once per adapter.
 pub fn ready_blur(
     filter: &Filter,
     settings: &Settings,

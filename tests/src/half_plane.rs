@@ -27,9 +27,9 @@ fn uniform_sum(limit: f64, widths: &[f64]) -> f64 {
     sum / (factorial * widths.iter().product::<f64>())
 }
 
-/// Returns the part of pixel x shutter in which `normal . p <= offset + speed t`.
+/// Returns the part of pixel x shutter where `normal . p <= offset + speed t`.
 pub fn half_plane(pixel: DVec2, normal: DVec2, offset: f64, speed: f64, shutter: Shutter) -> f64 {
-    // normal . p - speed t as its least value plus three uniform numbers.
+    // normal . p - speed t as its smallest value plus three uniform numbers.
     let least = |along: f64, from: f64, to: f64| (along * from).min(along * to);
     let start = least(normal.x, pixel.x, pixel.x + 1.0)
         + least(normal.y, pixel.y, pixel.y + 1.0)
@@ -38,7 +38,7 @@ pub fn half_plane(pixel: DVec2, normal: DVec2, offset: f64, speed: f64, shutter:
     uniform_sum(offset - start, &[normal.x, normal.y, moved].map(f64::abs))
 }
 
-/// Returns the part of a pixel in which `normal . p <= offset`.
+/// Returns the part of a pixel where `normal . p <= offset`.
 pub fn area(pixel: DVec2, normal: DVec2, offset: f64) -> f64 {
     let least = |along: f64, from: f64| (along * from).min(along * (from + 1.0));
     let start = least(normal.x, pixel.x) + least(normal.y, pixel.y);

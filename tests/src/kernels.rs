@@ -1,6 +1,6 @@
 //! Taps of every filter on a surface that moves evenly, in closed form, from the published descriptions.
 //!
-//! All taps lie on one surface there, so that a filter is only the places and weights of its taps.
+//! All taps are on one surface there, so a filter consists only of the positions and weights of its taps.
 
 mod babylon;
 mod gathers;
@@ -26,7 +26,7 @@ pub struct Steady {
     pub size: [u32; 2],
 }
 
-/// A pixel that enters an average.
+/// A pixel in an average.
 #[derive(Clone, Copy, Debug)]
 pub struct Tap {
     /// Offset from the averaged pixel, in pixels.
@@ -46,7 +46,7 @@ impl Steady {
     }
 }
 
-/// Predicts the ramp that a filter's preset makes of an edge across the motion; its middle is relative to the edge.
+/// Predicts a filter preset's ramp of an edge across the motion; its middle is relative to the edge.
 pub fn expected_ramp(filter: &str, preset: &str, steady: &Steady) -> Ramp {
     // Noise is uniform in [0, 1).
     let steps = 1000;
@@ -54,14 +54,14 @@ pub fn expected_ramp(filter: &str, preset: &str, steady: &Steady) -> Ramp {
         let noise = (f64::from(step) + 0.5) / f64::from(steps);
         let taps = place_taps(filter, preset, steady, noise);
         let total: f64 = taps.iter().map(|tap| tap.weight).sum();
-        // A tap at an offset brings the edge here from there: the ramp lies on the other side.
+        // A tap at an offset brings the edge here from there: the ramp is on the other side.
         taps.into_iter()
             .map(move |tap| (-along_motion(steady, tap.offset), tap.weight / total))
     });
     Ramp::spread(averages.flatten())
 }
 
-/// Returns the taps of one pixel whose noise has this value in [0, 1).
+/// Returns the taps of one pixel with this noise value in [0, 1).
 pub fn place_taps(filter: &str, preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     match filter {
         "identity" => vec![own(1.0)],

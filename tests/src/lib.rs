@@ -1,4 +1,4 @@
-//! Code that several integration tests share.
+//! Code shared by several integration tests.
 
 pub mod brute_force;
 pub mod filter_folder;
@@ -26,12 +26,12 @@ use filters::Gpu;
 pub use gpu::{ready_blur, shared_gpu};
 use tracer::Progress;
 
-/// Watches a render and lets it go on.
+/// Watches a render and lets it continue.
 pub fn unwatched(_: Progress) -> ControlFlow<()> {
     ControlFlow::Continue(())
 }
 
-/// Opens the adapter that tests run filters on, for a test that changes it, leaves it at work, or has no other.
+/// Opens the tests' adapter for filters, for a test that changes it, leaves it busy, or has no other.
 pub fn open_gpu() -> Gpu {
     Gpu::new(None).expect("these tests run filters")
 }

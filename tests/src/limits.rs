@@ -1,4 +1,4 @@
-//! Limits that follow from sound filters.
+//! Limits derived from sound filters.
 
 use std::fs;
 

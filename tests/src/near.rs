@@ -13,7 +13,7 @@ pub fn assert_near(found: impl Into<f64>, expected: impl Into<f64>, tolerance: f
     );
 }
 
-/// Fails unless a number lies in a range.
+/// Fails unless a number is in a range.
 #[track_caller]
 pub fn assert_within(found: impl Into<f64>, range: impl RangeBounds<f64> + Debug) {
     let found = found.into();

@@ -93,7 +93,7 @@ impl Picture {
         )
     }
 
-    /// Gives the pixels of these columns and rows greys of their own, from 0 to 1.
+    /// Gives the pixels of these columns and rows their own greys, from 0 to 1.
     pub fn speckled(mut self, seed: u64, is_speckled: impl Fn(u32, u32) -> bool) -> Self {
         let mut random = Random::new(seed);
         self.color = Raster::from_fn(self.color.width, self.color.height, |x, y| {
@@ -111,6 +111,8 @@ impl Picture {
         Input {
             color,
             velocity: &self.velocity,
+            velocity_next: None,
+            velocity_z: None,
             depth: &self.depth,
             exposure: self.exposure,
             frames_per_second: None,
@@ -120,7 +122,7 @@ impl Picture {
         }
     }
 
-    /// Runs a filter with parameters set to other values, such as `samples=9`, and returns its output.
+    /// Runs a filter with overridden parameters, such as `samples=9`, and returns its output.
     pub fn blur(&self, filter: &str, preset: &str, overrides: &str) -> Image {
         self.run(filter, Some(preset), overrides).1
     }
@@ -139,7 +141,7 @@ impl Picture {
     }
 }
 
-/// Makes a built-in filter ready with parameters set to values: `samples=9 jitter=none`.
+/// Prepares a built-in filter with overridden parameters: `samples=9 jitter=none`.
 pub fn make_blur(
     filter: &str,
     preset: Option<&str>,
@@ -151,7 +153,7 @@ pub fn make_blur(
     ready_blur(&filter, &settings, size)
 }
 
-/// Makes the settings of a preset, or of the first one, with other values: `samples=9 jitter=none`.
+/// Makes the settings of a preset, or of the first one, with overrides: `samples=9 jitter=none`.
 pub fn change_preset(filter: &Filter, preset: Option<&str>, overrides: &str) -> Settings {
     let mut settings = filter.settings(preset).unwrap();
     for change in overrides.split_whitespace() {
@@ -166,6 +168,8 @@ pub fn frame_input<'a>(frame: &'a Frame, color: &'a [&'a Image]) -> Input<'a> {
     Input {
         color,
         velocity: &frame.velocity,
+        velocity_next: frame.velocity_next.as_ref(),
+        velocity_z: frame.velocity_z.as_ref(),
         depth: &frame.depth,
         reprojection: Some(frame.reprojection.moved(f64::from(frame.guard_band))),
         camera: frame.camera,
@@ -175,7 +179,7 @@ pub fn frame_input<'a>(frame: &'a Frame, color: &'a [&'a Image]) -> Input<'a> {
     }
 }
 
-/// Returns the mean grey value of a column over all rows, which turns noise into its distribution.
+/// Returns the mean grey value of a column over all rows, which averages noise.
 pub fn column(image: &Image, x: u32) -> f64 {
     let sum: f64 = (0..image.height)
         .map(|y| f64::from(image.at(x, y)[0]))
@@ -198,7 +202,7 @@ pub fn moving_edge(width: u32, height: u32, velocity: [f32; 2]) -> Picture {
     Picture::halves(width, height, ahead.gray(0.0), ahead)
 }
 
-/// Makes a black picture. Its lower half moves fast in front, and its upper half has something white that moves slower.
+/// Makes a black picture. Its lower half moves fast in front, and its upper half has a white object that moves slower.
 pub fn slow_above_fast(slow: f32, fast: f32) -> Picture {
     Picture::new(320, 64, |x, y| match (x, y) {
         (_, 32..) => white(fast).gray(0.0),
@@ -207,7 +211,7 @@ pub fn slow_above_fast(slow: f32, fast: f32) -> Picture {
     })
 }
 
-/// Measures the light in the rows just above the fast half, at these distances in pixels left of the slow thing.
+/// Measures the light in the rows just above the fast half, at these distances in pixels left of the slow object.
 pub fn light_above(output: &Image, distances: std::ops::Range<u32>) -> f32 {
     let pixels = distances.flat_map(|distance| (24..32).map(move |y| (159 - distance, y)));
     pixels.map(|(x, y)| output.at(x, y)[0]).sum()

@@ -24,7 +24,7 @@ pub fn gain(filter: &Filter, settings: &Settings) -> f32 {
     }
 }
 
-/// Names a preset as messages of tests do.
+/// Names a preset for messages of tests.
 pub fn preset_name(filter: &Filter, settings: &Settings) -> String {
     format!("{} with preset {}", filter.name, settings.preset)
 }

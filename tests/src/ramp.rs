@@ -1,4 +1,4 @@
-//! Ramp that a blur makes of an edge.
+//! A blur's ramp of an edge.
 
 /// Change from one side of an edge to the other, along the motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -10,8 +10,7 @@ pub struct Ramp {
 }
 
 impl Ramp {
-    /// Measures an edge from (position, brightness) at rising positions, in pixels. Slopes count with their sign, so
-    /// that noise cancels.
+    /// Measures an edge from (position, brightness) at rising positions, in pixels. Slopes count with their sign, so that noise cancels.
     pub fn of(profile: &[(f64, f64)]) -> Self {
         let slopes: Vec<(f64, f64)> = profile
             .windows(2)

@@ -1,4 +1,4 @@
-//! Random numbers by formula, which are the same on every machine.
+//! Random numbers by formula, the same on every machine.
 
 use glam::DVec3;
 

@@ -161,7 +161,7 @@ pub fn rectangle(width: f32, height: f32) -> Mesh {
 /// Makes a disc in the plane z = 0 around the origin, as a fan of `sides` triangles of the disc's exact area.
 pub fn disc(radius: f32, sides: u32) -> Mesh {
     let angle = std::f64::consts::TAU / f64::from(sides);
-    // A regular polygon of the disc's area lies half outside and half inside the circle.
+    // A regular polygon of the disc's area is half outside and half inside the circle.
     let reach = f64::from(radius) * (angle / angle.sin()).sqrt();
     let rim = (0..sides).map(|side| {
         let (sine, cosine) = (angle * f64::from(side)).sin_cos();

@@ -1,6 +1,6 @@
 //! Pictures by formula: flat shapes that move over a still background.
 //!
-//! No tracer takes part, so that the right value of a metric is known in advance.
+//! No tracer is used, so the right value of a metric is known in advance.
 
 use std::sync::Mutex;
 
@@ -22,10 +22,10 @@ use sampling::{pixel_offsets, sequence};
 
 use crate::vector::minus;
 
-/// Exposure of every synthetic frame, in frames. It is not 1, so that a forgotten factor shows.
+/// Exposure of every synthetic frame, in frames. It is not 1, so that a forgotten factor is noticed.
 pub const EXPOSURE: f64 = 0.5;
 
-/// Viewing conditions in which display white is radiance 1.
+/// Viewing conditions where display white is radiance 1.
 pub const VIEWING: Viewing = Viewing {
     stops: DISPLAY.stops,
     flip_start: DISPLAY.flip.start,
@@ -54,7 +54,7 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Renders the picture that a blur makes of the scene.
+    /// Renders a blur's picture of the scene.
     pub fn render(&self, blur: &Blur, sampling: Sampling) -> Picture {
         let mut coverage: Vec<Plane> =
             vec![Raster::filled(self.width, self.height, 0.0); self.objects.len() + 1];
@@ -92,7 +92,7 @@ impl Scene {
         Picture { color, coverage }
     }
 
-    /// Makes the frame that a filter gets, with clean colour and coverage.
+    /// Makes the input frame of a filter, with clean colour and coverage.
     pub fn frame(&self) -> Frame {
         let instant = self.render(&Blur::IDENTITY, Sampling::CLEAN);
         let center = |x: u32, y: u32| [f64::from(x) + 0.5, f64::from(y) + 0.5];
@@ -122,6 +122,8 @@ impl Scene {
             objects: self.names(),
             color: instant.color,
             velocity,
+            velocity_next: None,
+            velocity_z: None,
             depth: seen.map(|id| if *id == 0 { FAR_DEPTH } else { *id as f32 }),
             object_id: seen.map(|id| *id as u32),
             coverage: instant.coverage,
@@ -259,7 +261,7 @@ impl Scene {
     }
 }
 
-/// Returns the id and radiance seen at a point.
+/// Returns the id and radiance visible at a point.
 fn sees(
     objects: &[&(usize, Posed)],
     point: [f64; 2],
@@ -275,7 +277,7 @@ fn sees(
     (0, ground(pixel))
 }
 
-/// Makes a picture whose colour and labels are everywhere the mean of another's.
+/// Makes a picture with colour and labels everywhere at another's mean.
 pub fn constant(picture: &Picture) -> Picture {
     let count = picture.color.pixels.len() as f64;
     let mean =
@@ -305,13 +307,13 @@ fn texture(local: [f64; 2]) -> [f64; 3] {
     }
 }
 
-/// Returns the radiance of the background: constant within a pixel, so that it carries no sampling noise.
+/// Returns the radiance of the background: constant within a pixel, so it has no sampling noise.
 fn ground(pixel: [u32; 2]) -> [f64; 3] {
     let value = 0.2 + 0.15 * f64::from((pixel[0] / 5 + pixel[1] / 7) % 3);
     [0.7 * value, value, 1.1 * value]
 }
 
-/// Makes layers in which everything is known and stands still, for truths whose scores do not read them.
+/// Makes layers in which everything is known and still, for truths with scores that do not read them.
 fn nothing_unknown(color: &Image) -> AtInstant {
     AtInstant {
         frozen: color.clone(),

@@ -8,12 +8,12 @@ pub fn assert_contains(text: &str, parts: &[&str]) {
     }
 }
 
-/// Joins the words of a text by single spaces: lines break at the width of the terminal.
+/// Joins the words of a text with single spaces: lines break at the width of the terminal.
 pub fn squeeze(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// Finds the first block of code of a page that begins with this text and its line of back quotes.
+/// Finds a page's first block of code that begins with this text, including its line of back quotes.
 pub fn code_block<'a>(page: &'a str, start: &str) -> &'a str {
     let (_, rest) = page.split_once(start).expect(start);
     rest.split("```").next().unwrap_or_default()

@@ -28,7 +28,7 @@ pub fn scaled(a: Vec2, factor: f64) -> Vec2 {
     a.map(|component| component * factor)
 }
 
-/// Scales a vector to length 1; `otherwise` is the direction of one without length.
+/// Scales a vector to length 1; `otherwise` is the direction of a zero vector.
 pub fn direction(a: Vec2, otherwise: Vec2) -> Vec2 {
     match length(a) {
         0.0 => otherwise,

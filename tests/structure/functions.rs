@@ -41,7 +41,7 @@ fn no_function_is_longer_than_a_screen() {
     assert!(unused.is_empty(), "take {unused:?} from EXCEPTIONS");
 }
 
-/// Words that may stand before `fn`.
+/// Words allowed before `fn`.
 const WORDS: &str = "pub pub(crate) pub(super) async const unsafe extern \"C\"";
 
 /// Finds the line, name and length of each function with a body; rustfmt puts its last bracket below its beginning.

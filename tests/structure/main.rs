@@ -8,7 +8,7 @@ mod uses;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Lists the folders of sources, one of each crate.
+/// Lists the folders of sources, one per crate.
 fn sources() -> Vec<PathBuf> {
     let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates");
     let entries = fs::read_dir(crates).expect("the repository has crates");

@@ -1,4 +1,4 @@
-//! The modules of a crate and what each uses of the others.
+//! The modules of a crate and their uses of one another.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -10,7 +10,7 @@ use crate::uses::find_uses;
 /// Path of a module below its crate's root, in parts. The root has none.
 pub type Module = Vec<String>;
 
-/// Pairs of modules: one that uses another, and that one.
+/// Pairs of modules: a user, and the module that it uses.
 pub type Pairs = BTreeSet<(Module, Module)>;
 
 /// Sources of a crate by module.
@@ -28,8 +28,8 @@ pub fn read_modules(sources: &Path) -> Texts {
     rust_files(sources).into_iter().map(read).collect()
 }
 
-/// Finds what each module uses. A name that another module re-exports counts as a use of the module that it comes from; the
-/// re-export itself is no use.
+/// Finds what each module uses. A name that another module re-exports counts as a use of its original module; the re-export itself is no
+/// use.
 pub fn find_pairs(texts: &Texts) -> Pairs {
     let (mut exports, mut uses) = (BTreeMap::new(), Vec::new());
     for (module, text) in texts {
@@ -66,7 +66,7 @@ fn resolve(texts: &Texts, module: &Module, path: &[String]) -> Option<Module> {
     }
 }
 
-/// Finds the module that a path leads to, along the re-exports of its names.
+/// Finds the module that a path leads to, following re-exports of its names.
 fn find_owner(
     texts: &Texts,
     exports: &BTreeMap<(Module, String), Module>,
@@ -86,7 +86,7 @@ fn find_owner(
     }
 }
 
-/// Returns which folder, or file beside the root, uses which other.
+/// Returns which folder, or file next to the root, uses which other.
 pub fn find_folder_pairs(pairs: &Pairs) -> Pairs {
     let inner = |(module, used): &&(Module, Module)| !module.is_empty() && !used.is_empty();
     let folders = |(module, used): &(Module, Module)| (module[..1].to_vec(), used[..1].to_vec());

@@ -1,17 +1,17 @@
-//! The paths that a source names, found in its text.
+//! Paths named in a source text.
 
 /// A name of another module that a module uses or re-exports.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Use {
-    /// The path as it is written, in parts.
+    /// The path as written, in parts.
     pub path: Vec<String>,
-    /// The name that it has here.
+    /// Its name here.
     pub name: String,
     /// Whether it is a re-export: `pub use`.
     pub is_export: bool,
 }
 
-/// Finds all uses, except in code that only tests have.
+/// Finds all uses, except in code for tests only.
 pub fn find_uses(text: &str) -> Vec<Use> {
     let text = strip(text);
     let mut uses = Vec::new();
@@ -68,7 +68,7 @@ fn expand(tree: &str) -> Vec<String> {
         .collect()
 }
 
-/// Removes comments, and what follows `#[cfg(test)]` up to its end.
+/// Removes comments, and everything from `#[cfg(test)]` to its end.
 fn strip(text: &str) -> String {
     let mut kept = String::from("\n");
     let mut end: Option<usize> = None;

@@ -1,13 +1,13 @@
-//! The catalogue of scenes inside the program, so that it needs no folder beside it.
+//! The catalogue of scenes inside the program, so that it needs no folder of scenes.
 
 use std::io::Read;
 
 use flate2::read::DeflateDecoder;
 use tracer::Bundle;
 
-/// A file as the build script packs it.
+/// A file packed by the build script.
 struct Packed {
-    /// Path below the folder of scenes, with `/` between its parts.
+    /// Path below the folder of scenes, with `/` as separator.
     path: &'static str,
     /// Bytes of the file itself.
     size: usize,
@@ -15,7 +15,7 @@ struct Packed {
     deflated: &'static [u8],
 }
 
-// FILES: all packed files, in the order of their paths.
+// FILES: all packed files, by path.
 include!(concat!(env!("OUT_DIR"), "/files.rs"));
 
 /// The shipped scenes and their bounds.

@@ -1,5 +1,4 @@
-//! Tests that hold pages to the command line, which nobody outside of this crate can see: the page of all commands, and every command
-//! that a guide shows.
+//! Tests that compare pages with the command line, which is private to this crate: the page of all commands, and every command in a guide.
 
 use std::fs;
 use std::iter::once;
@@ -14,7 +13,7 @@ use crate::arguments::{
 use crate::output::OutputArgs;
 use crate::program::Cli;
 
-/// Columns of the help on the page of all commands.
+/// Columns of help on the page of all commands.
 const WIDTH: usize = 100;
 
 #[test]
@@ -26,7 +25,7 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// Reads all pages that show commands.
+/// Reads all pages with commands.
 fn read_pages() -> Vec<String> {
     let root = root();
     let mut paths: Vec<PathBuf> = ["README.md", "scenes/README.md", "shaders/README.md"]
@@ -44,8 +43,7 @@ fn read_pages() -> Vec<String> {
     pages.collect()
 }
 
-/// Lists the commands of a page, each split into words: lines of their own, and those in backquotes. Commands with shell
-/// variables are left out.
+/// Lists the commands of a page as words: lines of their own, and text in backquotes. Skips commands with shell variables.
 fn find_commands(page: &str) -> Vec<Vec<String>> {
     let joined = page.replace("\\\n", " ");
     let is_command = |text: &&str| {
@@ -56,7 +54,7 @@ fn find_commands(page: &str) -> Vec<Vec<String>> {
     let quoted = joined
         .lines()
         .flat_map(|line| line.split('`').skip(1).step_by(2))
-        // A command by its name alone is spoken of, and not shown.
+        // A bare command name is a mention, not an example.
         .filter(|text| text.split_whitespace().count() > 3);
     (lines.chain(quoted))
         .filter(is_command)
@@ -64,7 +62,7 @@ fn find_commands(page: &str) -> Vec<Vec<String>> {
         .collect()
 }
 
-/// Splits a line as a shell does, without the file that the output goes to.
+/// Splits a line as a shell does, without output redirection.
 fn split_words(line: &str) -> Vec<String> {
     let words = shlex::split(line).unwrap_or_else(|| panic!("{line}: no words"));
     words.into_iter().take_while(|word| word != ">").collect()
@@ -77,7 +75,7 @@ fn every_command_that_the_guides_show_is_one() {
         .collect();
     assert!(all.len() > 40, "only {} commands were found", all.len());
     for command in all {
-        // Help and the version end parsing as well.
+        // Help and the version also end parsing.
         if let Err(error) = Cli::try_parse_from(&command)
             && error.use_stderr()
         {
@@ -89,7 +87,7 @@ fn every_command_that_the_guides_show_is_one() {
 /// Adds the arguments of a group to a command.
 type Group = fn(Command) -> Command;
 
-/// Arguments that commands share: their heading on the page, and their group. A group comes after those that it includes.
+/// Arguments that commands share: their heading on the page, and their group. A group comes after the groups that it includes.
 const SHARED: [(&str, Group); 9] = [
     ("Every command", OutputArgs::augment_args),
     ("Scene folder", RootArgs::augment_args),
@@ -102,7 +100,7 @@ const SHARED: [(&str, Group); 9] = [
     ("Candidate", CandidateArgs::augment_args),
 ];
 
-/// Makes the page of all commands: its own introduction, the help of each command, and the arguments that commands share.
+/// Makes the page of all commands: its own introduction, each command's help, and the shared arguments.
 fn commands_page(written: &str) -> String {
     let program = Cli::command_line();
     let mut text = written.split("\n## ").next().unwrap().to_owned();
@@ -123,7 +121,7 @@ fn commands_page(written: &str) -> String {
     text
 }
 
-/// Lists the groups that a command has as a whole, each with its arguments that are in no group before.
+/// Lists the complete groups of a command, each with the arguments that no earlier group has.
 fn list_shared(command: &Command) -> Vec<(&'static str, Vec<Id>)> {
     let has = |arg: &Arg| {
         let is_same = |own: &Arg| own.get_id() == arg.get_id() && own.get_help() == arg.get_help();
@@ -143,7 +141,7 @@ fn list_shared(command: &Command) -> Vec<(&'static str, Vec<Id>)> {
     found
 }
 
-/// Describes a command: its purpose, its own arguments, and links to those that it shares.
+/// Describes a command: its purpose, its own arguments, and links to shared ones.
 fn describe(command: &Command) -> String {
     let name = command.get_bin_name().unwrap_or("shuttertruth");
     let heading = format!("\n## {name}\n\n{}.\n", command.get_about().unwrap());

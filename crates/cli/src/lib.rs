@@ -1,6 +1,6 @@
 //! The program `shuttertruth`: its arguments, its commands, and what they print.
 
-/// Returns from a function with an error about the use of the program.
+/// Returns a usage error from a function.
 macro_rules! refuse {
     ($($text:tt)*) => {
         return Err(suite::Error::Usage(format!($($text)*)))
@@ -63,8 +63,8 @@ pub fn run_program() -> ExitCode {
     }
 }
 
-/// Chooses the exit code: 1 where a check fails, 2 for usage and bad input, 3 where there is no adapter, 4 where a truth stayed noisier
-/// than asked for or than a check needs, 128 and the number of the signal after one.
+/// Chooses the exit code: 1 for a failed check, 2 for usage and bad input, 3 without an adapter, 4 if a truth stayed noisier than
+/// requested or than a check needs, 128 plus the number of a signal.
 fn exit_code(error: &Error) -> u8 {
     match error {
         error if error.is_interruption() => interrupted_code(),
@@ -75,7 +75,7 @@ fn exit_code(error: &Error) -> u8 {
     }
 }
 
-/// Names the options that are the way out of an error of a library, which knows none.
+/// Names the options that solve a library's error; libraries know no options.
 fn way_out(error: &Error) -> Option<&'static str> {
     match error {
         Error::Truth(TruthError::Foreign { .. }) => {
@@ -88,13 +88,13 @@ fn way_out(error: &Error) -> Option<&'static str> {
     }
 }
 
-/// Prints the error in the command line, or the help that it asks for.
+/// Prints an error of the command line, or the requested help.
 fn refuse_arguments(error: &clap::Error) -> ! {
     if let Some(place) = find_new_place(error) {
         print_failure(&Error::Usage(place));
         std::process::exit(error.exit_code())
     }
-    // Words may be names of files with control codes, which the message is to show as escapes.
+    // Words may be file names with control codes, which the message must show as escapes.
     let words = std::env::args_os().map(|word| printable(&word.to_string_lossy()).into_owned());
     let shown = Cli::parse_words(words).err();
     shown.as_ref().unwrap_or(error).exit()

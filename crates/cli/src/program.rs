@@ -1,4 +1,4 @@
-//! The command line: its words, and the work behind each.
+//! The command line: its words, and the work of each.
 
 use std::ffi::OsString;
 
@@ -22,7 +22,7 @@ pub struct Cli {
     pub command: Command,
     #[command(flatten)]
     pub output: OutputArgs,
-    /// Arguments of the command as the command line gives them.
+    /// Arguments of the command as given on the command line.
     #[arg(skip)]
     pub given: ArgMatches,
 }
@@ -145,7 +145,7 @@ pub enum PeopleCommand {
 }
 
 impl Cli {
-    /// Makes the command line, whose help lists the commands that people start with.
+    /// Makes the command line with help that lists the commands for beginners.
     pub fn command_line() -> clap::Command {
         let mut program = Self::command();
         program.build();
@@ -176,7 +176,7 @@ impl Cli {
     }
 }
 
-/// Names the new place of a command that was moved into a group; none if the error is about something else.
+/// Names the new place of a command that moved into a group; none for other errors.
 pub fn find_new_place(error: &clap::Error) -> Option<String> {
     let program = Cli::command();
     match error.get(ContextKind::InvalidSubcommand) {
@@ -187,7 +187,7 @@ pub fn find_new_place(error: &clap::Error) -> Option<String> {
                 group.get_name()
             ))
         }),
-        // An option in place of a command of `tune`.
+        // An option without the command of `tune`.
         _ if error.get(ContextKind::InvalidArg).is_some() => {
             let mut words = std::env::args().skip_while(|word| word != "tune").skip(1);
             let is_option = words.next()?.starts_with("--");
@@ -197,7 +197,7 @@ pub fn find_new_place(error: &clap::Error) -> Option<String> {
     }
 }
 
-/// Does the work of a command, on as many threads as it asks for.
+/// Does a command's work on the requested number of threads.
 pub fn execute(program: &Cli) -> Result<Ending, Error> {
     if let Ok(Some(threads)) = program.given.try_get_one::<usize>("threads") {
         rayon::ThreadPoolBuilder::new()

@@ -1,11 +1,11 @@
-//! Files of a user, and those written for one.
+//! Files from a user, and files for one.
 
 use std::path::Path;
 
 use frame::{FileError, write_atomically};
 use serde::Serialize;
 
-/// Refuses a file or a folder; the reason, a format and its values, says what was found, and what is allowed.
+/// Refuses a file or a folder; the reason, a format and its values, names what was found and what is allowed.
 macro_rules! refuse {
     ($path:expr, $($reason:tt)*) => {
         Err(Error::Usage(format!("{}: {}", $path.display(), format_args!($($reason)*))))

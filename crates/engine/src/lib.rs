@@ -1,4 +1,4 @@
-//! What engines draw, and what they draw from: scenes exported and imported, captures read, ingested and audited.
+//! Exchange with engines: scenes exported and imported, captures read, ingested and audited.
 
 mod audit;
 mod capture;

@@ -24,9 +24,9 @@ pub enum FilterError {
         path: PathBuf,
         /// Line in that file, from 1.
         line: Option<usize>,
-        /// Column, from 1, where naga names one.
+        /// Column, from 1, if naga names one.
         column: Option<usize>,
-        /// Fault, and what is allowed; of naga, with the line itself and a mark below.
+        /// Fault, and what is allowed; naga adds the line itself and a mark below.
         reason: String,
     },
     /// A parameter that the filter does not have, or a value that it does not allow.

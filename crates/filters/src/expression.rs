@@ -1,4 +1,4 @@
-//! Arithmetic on values of the frame, of the convention and on parameters.
+//! Arithmetic on parameters and on values of the frame and the convention.
 
 /// An expression: numbers, names, `+ - * / ^`, brackets, `floor(..)`, `ceil(..)`, `min(.., ..)` and `max(.., ..)`.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,7 +14,7 @@ pub(crate) enum Expression {
 /// Functions, with the number of their arguments.
 const FUNCTIONS: [(&str, usize); 4] = [("floor", 1), ("ceil", 1), ("min", 2), ("max", 2)];
 
-/// Operators with two sides, those that bind the least first.
+/// Operators with two sides, the weakest first.
 const OPERATORS: [[&str; 2]; 2] = [["+", "-"], ["*", "/"]];
 
 /// Upper limit on the characters of an expression, which limits its depth as well.
@@ -160,7 +160,7 @@ impl Parser<'_> {
             .ok_or("has a bracket without the other".into())
     }
 
-    /// Takes one of the marks if it is next.
+    /// Consumes one of the marks if it is next.
     fn take(&mut self, wanted: &[&'static str]) -> Option<&'static str> {
         let rest = self.rest.trim_start();
         let mark = *wanted.iter().find(|mark| rest.starts_with(**mark))?;

@@ -1,10 +1,10 @@
 //! Motion blur filters: a filter is a folder with `filter.toml` and one WGSL file, with shaders of an engine, or with the command
 //! of a program that blurs files.
 //!
-//! `shaders/README.md` says how to write one. The conventions of images, velocity, depth and time are those of the
+//! `shaders/README.md` says how to write one. Images, velocity, depth and time follow the conventions of the
 //! [`frame`] crate.
 //!
-//! | room | holds |
+//! | module | contents |
 //! |---|---|
 //! | `filter` | a filter as data: parameters, presets, passes, and the settings that it runs with |
 //! | `shader` | declarations and costs of WGSL kernels, found without an adapter |

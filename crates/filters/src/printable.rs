@@ -1,11 +1,11 @@
-//! Text of others, made fit for terminals, logs and pages.
+//! Text from others, made safe for terminals, logs and pages.
 
 use frame::is_hidden;
 
 /// Refuses a one-line text that should not be shown to people.
 ///
 /// Refused are control characters, which move cursors and begin lines; marks that reverse the direction of writing; and words
-/// that a CI service takes for a command, as GitHub takes `::error::`.
+/// that a CI service reads as a command, such as GitHub's `::error::`.
 pub(crate) fn check_line(text: &str) -> Result<(), String> {
     if let Some(found) = text.chars().find(|c| is_invisible(*c)) {
         return Err(format!(

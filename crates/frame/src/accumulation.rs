@@ -17,8 +17,8 @@ pub struct Accumulation {
     pub halves: [Picture; 2],
 }
 
-/// Accumulations of 1, 2, 4 .. sub-frames over the same shutter. All of them take much memory: measuring holds one at a time, as a
-/// ladder of one rung.
+/// Accumulations of 1, 2, 4 .. sub-frames over the same shutter. Together they take much memory, so measuring keeps one at a
+/// time, as a ladder of one rung.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ladder {
     /// Origin of the accumulations.
@@ -36,10 +36,10 @@ pub struct Ladder {
 }
 
 impl Ladder {
-    /// Writes the ladder as OpenEXR: layers `n<N>.A` and `n<N>.B` per rung. Takes the ladder, since a copy of the largest thing that
-    /// measuring holds would double its memory.
+    /// Writes the ladder as OpenEXR: layers `n<N>.A` and `n<N>.B` per rung. Consumes the ladder, because a copy would
+    /// double the memory of measuring.
     pub fn write(self, path: &Path) -> Result<(), FileError> {
-        // Away from motion all rungs hold the truth's mean.
+        // Away from motion all rungs equal the truth's mean.
         write_small_exr(path, self.into_exr())
     }
 
@@ -105,7 +105,7 @@ impl Ladder {
         ladder.ok_or_else(|| FileError::foreign(path, "holds no rung n<N>.exr".to_owned()))
     }
 
-    /// Reads a file of one rung, and refuses another one than that of the number of `subframes`.
+    /// Reads a file of one rung; refuses a rung of another number of sub-frames.
     pub fn read_rung(path: &Path, subframes: u32) -> Result<Self, FileError> {
         let ladder = Self::read_file(path)?;
         match ladder.rungs.as_slice() {

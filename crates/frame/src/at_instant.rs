@@ -10,27 +10,27 @@ use crate::{FileError, Image, Plane, Raster, Vectors};
 /// samples of the shutter and the pixel's area, so that means of several renders are exact. All rasters have the same size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AtInstant {
-    /// Radiance if each visible point sent what it sent at `t = 0`: visibility moves, shading stands still. It lacks shadows,
+    /// Radiance if each visible point sent what it sent at `t = 0`: visibility changes, shading does not. It lacks shadows,
     /// reflections and lights that move, which no frame of the instant shows. It is the truth plus an unbiased estimate of a
-    /// difference, so noise may take it below 0.
+    /// difference, so noise may push it below 0.
     pub frozen: Image,
-    /// Fraction whose visible point the frame of the instant does not show: it lay outside the picture, behind something, or
+    /// Fraction with a visible point that the instant's frame does not show: it was outside the picture, hidden, or
     /// showed its other side.
     pub unknowable: Plane,
-    /// Fraction whose visible point has a place at the instant: all that was not behind the camera. Divide the next fields by it
-    /// to get means over that fraction.
+    /// Fraction with a visible point that has a place at the instant: all that was not behind the
+    /// camera. Divide the next fields by it to get means over that fraction.
     pub placed: Plane,
     /// Offset from the pixel's centre to the visible point's place at the instant, in pixels, +x right, +y down; zero for a point
-    /// without a place. A replicate holds halves: see [`AtInstant::rounded`].
+    /// without a place. A replicate stores half floats: see [`AtInstant::rounded`].
     pub offset: Vectors,
-    /// Products xx, xy and yy of that offset, in square pixels; likewise.
+    /// Products xx, xy and yy of that offset, in square pixels; the same applies.
     pub spread: Raster<[f32; 3]>,
 }
 
 const SPREAD: [&str; 3] = ["xx", "xy", "yy"];
 
 impl AtInstant {
-    /// Makes the state of surfaces of which nothing is known: none has a place at the instant.
+    /// Makes the state of unknown surfaces: none has a place at the instant.
     pub fn unknown(width: u32, height: u32) -> AtInstant {
         let nothing = Plane::filled(width, height, 0.0);
         AtInstant {
@@ -42,9 +42,9 @@ impl AtInstant {
         }
     }
 
-    /// Rounds offsets and their products to halves, which have 11 significant bits: by at most 1 part in 4096, far less than the noise
-    /// of a replicate. That takes a third off its file. What is larger than any half stays as it is. Means of replicates are not
-    /// rounded.
+    /// Rounds offsets and their products to half floats, which have 11 significant bits: the error is at most 1 part in
+    /// 4096, far below the noise of a replicate, and its file shrinks by a third. Values larger than any half float stay.
+    /// Means of replicates are not rounded.
     pub fn rounded(self) -> AtInstant {
         AtInstant {
             offset: self.offset.map(|offset| offset.map(nearest_half)),
@@ -96,7 +96,7 @@ impl AtInstant {
     }
 }
 
-/// Returns the nearest half; a value that is larger than any stays as it is.
+/// Returns the nearest half float; a value larger than any stays as it is.
 fn nearest_half(value: f32) -> f32 {
     let half = f16::from_f32(value);
     if half.is_finite() {

@@ -51,7 +51,7 @@ fn check_stops(what: &str, stops: f32) -> Result<(), String> {
 }
 
 impl FlipExposures {
-    /// Refuses too many stops, an empty range, and a count that FLIP does not take.
+    /// Refuses too many stops, an empty range, and a count that FLIP does not accept.
     pub fn check(&self) -> Result<(), String> {
         let Self { start, stop, count } = self;
         if !(2..=MAX_FLIP_EXPOSURES).contains(count) {
@@ -108,7 +108,7 @@ fn encode_srgb(linear: f32, stops: f32) -> f32 {
     }
 }
 
-/// Converts an image to what a display shows: photographic exposure of `stops`, then sRGB in [0, 1].
+/// Converts an image to display values: photographic exposure of `stops`, then sRGB in [0, 1].
 pub fn display_srgb(image: &Image, stops: f32) -> Image {
     image.map(|pixel| pixel.map(|component| encode_srgb(component, stops)))
 }

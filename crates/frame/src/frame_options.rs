@@ -1,11 +1,11 @@
-//! Choice of what a frame holds.
+//! Options of a frame.
 
 use serde::{Deserialize, Serialize};
 
 use crate::words::words;
 use crate::{ExrFile, FileError};
 
-/// Choice of what a frame holds. Files name its parts as the fields are named.
+/// Options of a frame. Files name them as the fields are named.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FrameOptions {
     /// Kind of motion in the velocity buffer.
@@ -51,7 +51,7 @@ pub enum VelocityKind {
     /// The derivative at `t = 0`, in pixels per frame.
     #[default]
     Instantaneous,
-    /// `x(0) - x(-1)`, the motion since the frame before, which engines hand over.
+    /// `x(0) - x(-1)`, the motion since the frame before, which engines provide.
     PreviousFrame,
     /// The motion since the frame before as if everything stood still in the world, from depth and both frames' cameras alone:
     /// all that is known without a velocity buffer.

@@ -3,7 +3,7 @@
 //!
 //! # The contract
 //!
-//! Every crate of the project keeps to these conventions, and nothing states them again.
+//! Every crate of the project keeps to these conventions. They are stated only here.
 //!
 //! | thing | convention |
 //! |---|---|
@@ -14,11 +14,12 @@
 //! | time | in frames; the frame's instant is `t = 0` |
 //! | shutter | [`Shutter`]`{ open, close }`, frames relative to the instant. Exposure `m = close - open`, 1 being 360 degrees. Trailing is `[-m, 0]`, centred `[-m/2, m/2]`, leading `[0, m]`. The frame never moves; the truth's interval does. [`ShutterProfile`] says how it opens and closes within the interval, and when each row is exposed |
 //! | velocity | screen motion of the surface point seen at the pixel centre over one frame interval, in pixels, +x right, +y down; see [`VelocityKind`]. A background at infinity has the camera's rotational velocity |
+//! | further velocities | only where a filter asks for them: `velocity_next`, the motion from the instant to one frame later, and `velocity_z`, the change of depth in metres per frame over the interval of `velocity`, positive away from the camera |
 //! | depth | distance along the view axis in metres; the background holds [`FAR_DEPTH`] |
 //! | coverage | per object: the fraction of (shutter x pixel area) in which that object is the visible surface; sums to 1 with the background. A translucent surface counts by the share of the light that it stops or reflects |
-//! | lens | a camera may have one. Colour and coverage of frames, and all of a truth, are then means over the points of its disc; velocity, depth and object id are those of a pinhole at its centre. What a truth knows of the instant is seen from the same point of the lens: it tells of motion alone |
-//! | translucent surfaces | in colour and coverage; velocity, depth and object id are those of the first opaque surface behind them, unless their material says otherwise |
-//! | noise | a truth is R independent, complete replicates; two halves A and B and the standard error travel with it |
+//! | lens | a camera may have one. Colour and coverage of frames, and all of a truth, are then means over the points of its disc; velocity, depth and object id belong to a pinhole at its centre. A truth's state at the instant is seen from the same point of the lens, so that it shows motion alone |
+//! | translucent surfaces | in colour and coverage; velocity, depth and object id come from the first opaque surface behind them, unless their material says otherwise |
+//! | noise | a truth is R independent, complete replicates; its file has two halves A and B and the standard error |
 //! | support | the pixels where the open shutter sees an object at all: a function of scene, shutter and size, which the noise of a truth does not change; see [`Support`] |
 //! | determinism | the same inputs give the same bytes on any number of threads |
 

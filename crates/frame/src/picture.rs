@@ -64,7 +64,7 @@ impl Picture {
     /// Averages at least one picture, all of one size; sums in `f64`, in their order.
     pub fn mean<'a>(pictures: impl IntoIterator<Item = &'a Picture>) -> Picture {
         let pictures: Vec<&Picture> = pictures.into_iter().collect();
-        let first = pictures.first().expect("a mean is of at least one picture");
+        let first = pictures.first().expect("a mean needs at least one picture");
         Picture {
             color: mean_vectors(pictures.iter().map(|picture| &picture.color)),
             coverage: (0..first.coverage.len())

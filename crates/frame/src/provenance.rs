@@ -3,7 +3,7 @@
 use crate::FileError;
 use crate::exr::ExrFile;
 
-/// Scene, program and inputs of a rendered file, which is written into it.
+/// Scene, program and inputs of a rendered file, written into it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Provenance {
     /// Scene name, with its variant: `sliding_panel` or `sliding_panel@64px_45deg`.
@@ -20,12 +20,13 @@ pub struct Provenance {
     pub traversal: String,
     /// Hash of scene, meshes, textures, settings and the tracer, in hexadecimal: equal hashes mean equal pixels.
     pub content_hash: String,
-    /// Engine that drew the pictures, whose sub-frames count as samples then; none where rays were traced.
+    /// Engine that drew the pictures; its sub-frames then count as samples. None if rays were traced.
     pub engine: Option<String>,
 }
 
 impl Provenance {
-    /// Tells whether a file was rendered of the inputs with this hash. One that says that an engine drew it was not, whatever hash it has.
+    /// Returns whether a file was rendered from the inputs with this hash. False for a file that an
+    /// engine drew, whatever its hash.
     pub fn is_rendered_of(&self, content_hash: &str) -> bool {
         self.content_hash == content_hash && self.engine.is_none()
     }

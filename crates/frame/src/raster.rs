@@ -45,7 +45,7 @@ impl<T: Clone> Raster<T> {
         })
     }
 
-    /// Makes squares of `factor` pixels a side out of the pixels.
+    /// Enlarges each pixel to a square of `factor` pixels a side.
     pub fn enlarged(&self, factor: u32) -> Raster<T> {
         let (width, height) = (self.width * factor, self.height * factor);
         Raster::from_fn(width, height, |x, y| {
@@ -172,7 +172,7 @@ pub(crate) fn mean_vectors<'a, const N: usize>(
 
 /// Makes a raster of the size of all `rasters` from the pixels' indices.
 fn mean<T>(rasters: &[&Raster<T>], value: impl FnMut(usize) -> T) -> Raster<T> {
-    let first = rasters.first().expect("a mean is of at least one raster");
+    let first = rasters.first().expect("a mean needs at least one raster");
     assert!(
         rasters.iter().all(|raster| raster.same_size(first)),
         "a mean is of rasters of one size"

@@ -10,7 +10,7 @@ pub enum Region {
     Moving,
     /// The same without the margin, which would dilute the errors of a thin smear.
     Support,
-    /// Pixels where nothing moved: the picture there is that of the instant. `static` in names and files.
+    /// Pixels where nothing moved: the picture there equals the instant's. `static` in names and files.
     Still,
     /// The whole picture. It is reported because readers expect it; a filter that does nothing looks good here.
     Full,
@@ -73,7 +73,7 @@ impl Regions {
         }
     }
 
-    /// Takes the values of `map` inside a region, in row order.
+    /// Returns the values of `map` inside a region, in row order.
     pub fn select<T: Copy>(&self, region: Region, map: &Raster<T>) -> Vec<T> {
         assert!(
             self.moving.same_size(map),
@@ -89,7 +89,7 @@ impl Regions {
     }
 }
 
-/// Marks every pixel whose centre lies within `radius` pixels of that of a pixel of `set`.
+/// Marks every pixel with its centre within `radius` pixels of the centre of a pixel of `set`.
 fn dilate(set: &Raster<bool>, radius: u32) -> Raster<bool> {
     let mut disc = Raster::filled(set.width, set.height, false);
     let rows: Vec<&[bool]> = set.pixels.chunks_exact(set.width as usize).collect();

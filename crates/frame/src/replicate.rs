@@ -1,4 +1,5 @@
-//! Replicates: complete, independent renders of a shutter interval, in which truths are rendered, kept and shared.
+//! Replicates: complete, independent renders of a shutter interval. Truths are rendered,
+//! stored and shared as replicates.
 
 use std::path::Path;
 

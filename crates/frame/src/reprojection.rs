@@ -1,4 +1,4 @@
-//! Reprojection of surfaces that stand still into the frame before.
+//! Reprojection of still surfaces into the frame before.
 
 use crate::FileError;
 use crate::exr::ExrFile;
@@ -8,12 +8,12 @@ use crate::exr::ExrFile;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reprojection {
     /// Three rows that act on (x, y, 1, 1 / depth), in pixels from the picture's top left and metres. They give (x', y', 1) times a
-    /// number, which is positive if the point lay before the last frame's camera.
+    /// number, which is positive if the point was in front of the last frame's camera.
     pub rows: [[f64; 4]; 3],
 }
 
 impl Reprojection {
-    /// Reprojection of a camera that stands still.
+    /// Reprojection of a still camera.
     pub const STILL: Reprojection = Reprojection {
         rows: [
             [1.0, 0.0, 0.0, 0.0],
@@ -22,7 +22,7 @@ impl Reprojection {
         ],
     };
 
-    /// Finds the place at which the frame before showed a point that stands still; `None` behind the camera.
+    /// Finds the place at which the frame before showed a still point; `None` behind the camera.
     pub fn place(&self, [x, y]: [f64; 2], depth: f64) -> Option<[f64; 2]> {
         let [x, y, common] = self
             .rows

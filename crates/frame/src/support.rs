@@ -1,4 +1,4 @@
-//! Support: pixels where an open shutter sees things, whatever noise a truth has.
+//! Support: pixels where an open shutter sees things, independent of a truth's noise.
 
 use crate::exr::ExrFile;
 use crate::{FileError, Plane, Raster, Tile};
@@ -35,7 +35,7 @@ impl Support {
         }
     }
 
-    /// Adds `support.seen.<object>`, `support.moving` and `support.unknowable`, 1 where the mask holds and 0 elsewhere.
+    /// Adds `support.seen.<object>`, `support.moving` and `support.unknowable`, 1 inside the mask and 0 elsewhere.
     pub(crate) fn push(&self, file: &mut ExrFile, objects: &[String]) {
         let mut push = |name: &str, mask: &Raster<bool>| {
             file.push_plane(&channel(name), &mask.map(|holds| f32::from(*holds)));

@@ -24,7 +24,7 @@ impl Tile {
         }
     }
 
-    /// Makes a square tile around a place, moved and cut where a picture of `size` ends.
+    /// Makes a square tile around a place, moved and cut to fit a picture of `size`.
     pub fn around(place: [u32; 2], side: u32, size: (u32, u32)) -> Self {
         let whole = [size.0, size.1];
         let [width, height] = whole.map(|whole| whole.min(side));
@@ -45,7 +45,7 @@ impl Tile {
             .collect()
     }
 
-    /// Returns the index in the tile of a pixel of such a picture; none outside of the tile.
+    /// Returns the index in the tile of a pixel of such a picture; none outside the tile.
     pub fn index_of(&self, pixel: u32, columns: u32) -> Option<usize> {
         let [x, y] = [
             (pixel % columns).checked_sub(self.x)?,

@@ -31,13 +31,13 @@ pub struct Truth {
     pub samples: Plane,
     /// Standard error of [`Truth::mean`], from the spread of the replicates.
     pub standard_error: Image,
-    /// Fraction of (shutter x pixel area) whose visible surface moves on screen while the shutter is open.
+    /// Fraction of (shutter x pixel area) in which the visible surface moves on screen while the shutter is open.
     pub motion: Plane,
     /// Pixels that scores are pooled over; unlike the other rasters it has no noise.
     pub support: Support,
 }
 
-/// Replicates that make no truth: what was found, and what is allowed.
+/// Replicates that cannot form a truth: what was found, and what is allowed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TruthError {
     /// An odd number has no two halves.
@@ -80,7 +80,7 @@ pub enum TruthError {
 }
 
 impl Truth {
-    /// Averages `replicates`, an even number in the order of their indices from 0, and halves of them.
+    /// Averages `replicates`, and each half of them. They are an even number, in the order of their indices from 0.
     pub fn of(replicates: &[Replicate]) -> Result<Self, TruthError> {
         if replicates.is_empty() || !replicates.len().is_multiple_of(2) {
             return Err(TruthError::Count(replicates.len()));
@@ -135,7 +135,7 @@ impl Truth {
         (self.motion.width, self.motion.height)
     }
 
-    /// Averages over all replicates what was seen, as it was at the instant.
+    /// Averages the state at the instant over all replicates.
     pub fn at_instant_mean(&self) -> AtInstant {
         AtInstant::mean(&self.at_instant)
     }
@@ -222,19 +222,19 @@ impl Truth {
 
 /// Derives the regions from the truth's [`Support`], which its noise does not change.
 ///
-/// Support: where anything moves. Moving: that dilated by [`motion_margin`]. Static: the rest. Moving pixels are knowable
-/// where the support saw nothing that the frame does not show.
+/// Support: pixels where anything moves. Moving: the support dilated by [`motion_margin`]. Static: the
+/// rest. Moving pixels are knowable where the support saw nothing that the frame does not show.
 pub fn regions(truth: &Truth) -> Regions {
     Regions::new(&truth.support, motion_margin(truth.motion.height))
 }
 
-/// Returns the margin around motion in which blur is looked for, in pixels: a fifteenth of a picture's height, because bleed leaves the
-/// support. The moving region and accumulations include it.
+/// Returns the margin around motion that is searched for blur, in pixels: a fifteenth of a picture's height, because bleed
+/// leaves the support. The moving region and accumulations include it.
 pub fn motion_margin(height: u32) -> u32 {
     (f64::from(height) / 15.0).round() as u32
 }
 
-/// Derives the content hash of a truth from that of its first `count` replicates.
+/// Derives a truth's content hash from the hash of its first `count` replicates.
 pub fn truth_hash(replicate_hash: &str, count: u32) -> String {
     format!("{replicate_hash}x{count}")
 }
@@ -255,7 +255,7 @@ fn estimate_error(replicates: &[Replicate]) -> Image {
     })
 }
 
-/// Sums the coverage of what moves.
+/// Sums the coverage of moving objects.
 fn sum_motion(mean: &Picture, moving: &[bool]) -> Plane {
     let still = Plane::filled(mean.color.width, mean.color.height, 0.0);
     mean.coverage

@@ -1,6 +1,6 @@
 //! Words for the values of an enum, in names, in files and on the command line.
 
-/// Gives an enum its values in order and their words; one that is `read` finds its values by them.
+/// Gives an enum its values in order and their words; with `read`, text parses as a value.
 macro_rules! words {
     ($Type:ident $(read as $what:literal)? { $($Value:ident => $word:literal,)+ }) => {
         impl $Type {

@@ -1,4 +1,4 @@
-//! Limits that follow from the scores of several runs.
+//! Limits derived from the scores of several runs.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -19,10 +19,10 @@ use crate::outcome::badness_within;
 const DEVIATIONS: f64 = 3.0;
 /// Smallest margin as a fraction of the worst score: rounding and another compiler may change as much.
 const LEAST_PART: f64 = 0.05;
-/// Factor above the strictest limit that the truth's noise carries, since that scatters too.
+/// Factor above the strictest limit that the truth's noise allows, since that varies too.
 const ABOVE_STRICTEST: f64 = 1.2;
 
-/// Metrics that react to small changes of a kernel. No filter has default bounds on them: what a good one scores differs from scene to
+/// Metrics that react to small changes of a kernel. No filter has default bounds on them, since a good filter's scores differ from scene to
 /// scene.
 const SENSITIVE: [Metric; 4] = [
     Metric::StaticContamination,
@@ -31,17 +31,18 @@ const SENSITIVE: [Metric; 4] = [
     Metric::Label(LabelMetric::P95),
 ];
 
-/// Smallest limit on an error, by its unit: a tenth of a pixel, half a hundredth of anything else. If a score is 0 in every run,
-/// its spread says nothing, and another adapter need not agree to the last bit.
-const LEAST_LIMITS: [(&str, f64); 2] = [("px", 0.1), ("", 0.005)];
+/// Smallest limit on an error, by its unit: a tenth of a pixel, half a hundredth of a number without a unit. If a score is 0 in every
+/// run, its spread says nothing, and another adapter need not agree to the last bit. `static_contamination` compares still pixels with
+/// the frame and knows no noise: a filter that leaves them alone changes them by rounding, less than 1e-6 of white.
+const LEAST_LIMITS: [(&str, f64); 3] = [("px", 0.1), ("white", 1e-5), ("", 0.005)];
 
-/// The score that has a perfect value to which higher values come nearer.
+/// The score that rises to a perfect value.
 const JOD: Metric = Metric::Sequence(SequenceMetric::Jod);
 
 /// Scores of several runs, per scene and filter.
 #[derive(Default)]
 pub struct Calibration {
-    /// Score in every run to which it applies, per scene, `filter:preset` and metric.
+    /// Score in every run that it applies to, per scene, `filter:preset` and metric.
     scores: BTreeMap<SceneId, BTreeMap<String, BTreeMap<Metric, Vec<Sample>>>>,
     /// Columns and rows of the pictures.
     size: (u32, u32),
@@ -57,8 +58,8 @@ struct Sample {
     interval: Option<Interval>,
 }
 
-/// Gathers scores from several runs of the same scenes, size, frames and filters: those of `metrics`, or [`default_metrics`] and all
-/// scores of sequences if none are given.
+/// Gathers scores from several runs of the same scenes, size, frames and filters: `metrics`, or [`default_metrics`] and all scores of
+/// sequences if none are given.
 pub fn calibrate<'a>(
     runs: &[Run],
     bounds: impl Fn(&Case) -> &'a SceneBounds,
@@ -104,18 +105,18 @@ pub fn calibrate<'a>(
     calibration
 }
 
-/// Lists the metrics that a filter preset gets limits on if none are named: those that have bounds in the scene, and those that react to
-/// changes of a kernel which these let pass.
+/// Lists the metrics to limit for a filter preset if none are named: the scene's bounded ones, and those that react to kernel changes which
+/// these let pass.
 pub fn default_metrics(bounds: &SceneBounds, filter: &str, preset: &str) -> Vec<Metric> {
     let bounded = bounds.of(filter, preset).into_keys();
     let metrics: BTreeSet<Metric> = bounded.chain(SENSITIVE).collect();
     metrics.into_iter().collect()
 }
 
-/// Proposes the limit that follows from the scores of one metric, and says why in one line. It is the worst value that any interval
-/// reaches, since a check asks that of a score, plus a margin: three standard deviations between runs, or a twentieth of the worst
-/// score if that is more. It is at least 1.2 times as far from perfect as the strictest limit that the truth's noise carries, and at least
-/// a tenth of a pixel or half a hundredth. It is rounded to two digits, away from perfect. Parts of JOD are parts of its distance from 10.
+/// Proposes a limit from the scores of one metric, with its reason in one line. It is the worst value in any interval, as a check demands,
+/// plus a margin: three standard deviations between runs, or a twentieth of the worst score if that is more. It is at least 1.2 times as
+/// far from perfect as the strictest limit that the truth's noise allows, and at least one of [`LEAST_LIMITS`]. It is
+/// rounded to two digits, away from perfect. Parts of JOD are parts of its distance from 10.
 fn propose(metric: Metric, samples: &[Sample]) -> (f64, String) {
     let ideal = metric.ideal();
     let worst_of = |values: &[f64]| values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -175,14 +176,14 @@ fn standard_deviation(values: &[f64]) -> f64 {
     (squares / (count - 1.0).max(1.0)).sqrt()
 }
 
-/// Rounds to two significant digits, by a rounding of the last one.
+/// Rounds to two significant digits, with `rounding` for the last one.
 fn round_away(value: f64, rounding: fn(f64) -> f64) -> f64 {
     if value == 0.0 {
         return 0.0;
     }
     let digits = 1 - value.abs().log10().floor() as i32;
     let rounded = rounding(value * 10f64.powi(digits));
-    // Through text, so that 0.12 is not 0.12000000000000001.
+    // By way of text, so that 0.12 is not 0.12000000000000001.
     (format!("{rounded}e{}", -digits).parse()).expect("a number as text is a number")
 }
 
@@ -211,7 +212,7 @@ impl Calibration {
         text
     }
 
-    /// Writes the keys of a limit that say for which frames it holds; empty for a score of single frames.
+    /// Formats the keys of a limit that name its frames; empty for a score of single frames.
     fn length(&self, metric: Metric) -> String {
         let Frames { count, per_second } = self.frames;
         match metric {
@@ -248,7 +249,7 @@ mod tests {
         assert_eq!(limit("flip_moving", &[0.12, 0.12], 0.0), 0.13);
         // The ideal is 1: 0.2 * 1.05.
         assert_eq!(limit("extent", &[0.8, 0.8], 0.0), 0.21);
-        // The higher the better: 30 dB less a twentieth, rounded down.
+        // Higher is better: 30 dB less a twentieth, rounded down.
         assert_eq!(limit("psnr_moving", &[30.0, 30.0], 80.0), 28.0);
         assert_eq!(limit("n_eq", &[4.0, 5.0], 64.0), 1.8);
         // A twentieth of the 2 JOD from perfect: 8 - 0.1.
@@ -288,5 +289,6 @@ mod tests {
     fn a_perfect_score_leaves_some_room() {
         assert_eq!(limit("bleed_leading", &[0.0, 0.0], 0.0), 0.1);
         assert_eq!(limit("label_tv", &[0.0, 0.0], 0.0), 0.005);
+        assert_eq!(limit("static_contamination", &[6.2e-9, 6.2e-9], 0.0), 1e-5);
     }
 }

@@ -1,4 +1,4 @@
-//! Check of a finished run: its findings and the decision that follows.
+//! Check of a finished run: its findings and the resulting decision.
 
 use std::collections::HashSet;
 
@@ -19,7 +19,7 @@ pub struct Check {
     pub format: u32,
     /// Program name and version.
     pub program: String,
-    /// Decision that follows.
+    /// Resulting decision.
     pub decision: Decision,
     /// Cases that failed and have no scores.
     pub failures: Vec<Failure>,
@@ -29,8 +29,7 @@ pub struct Check {
     pub comparisons: Vec<BaselineComparison>,
 }
 
-/// Decides on a finished run by the findings about it and, if there is a baseline, the comparisons with it. Pure: reads nothing,
-/// prints nothing.
+/// Decides on a finished run by its findings and, with a baseline, by the comparisons with it. Pure: reads nothing, prints nothing.
 pub fn check(run: &Run, findings: Vec<Finding>, comparisons: Vec<BaselineComparison>) -> Check {
     let applies =
         |finding: &Finding| !matches!(finding.outcome, Outcome::NotApplicable | Outcome::NotJudged);

@@ -1,4 +1,4 @@
-//! Evidence of bounds that are not met: the worst place of a picture, and the wrong blur that it resembles most.
+//! Evidence for bounds that are not met: the worst place of a picture, and the wrong blur most like it.
 
 use std::path::Path;
 
@@ -30,7 +30,7 @@ pub fn add_evidence(run: &Run, findings: &mut [Finding], folder: &Path) -> Resul
     Ok(())
 }
 
-/// Adds evidence to the findings of cases that have one scene and alignment in common.
+/// Adds evidence to the findings of cases with the same scene and alignment.
 fn add_evidence_of_truth(
     cases: &mut [(&Case, Vec<&mut Finding>)],
     folder: &Path,

@@ -14,7 +14,7 @@ use crate::numbers::number;
 use crate::outcome::{Decision, Outcome, limit_as_badness};
 use crate::worst::Worst;
 
-/// A score, its bound, and how they stand to each other.
+/// A score, its bound, and the outcome.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Finding {
     /// Outcome of the bound.
@@ -24,7 +24,7 @@ pub struct Finding {
     pub level: Level,
     /// Scene.
     pub scene: SceneId,
-    /// `filter:preset`, and the form of its input if that is not the usual one.
+    /// `filter:preset`, and the form of its input if unusual.
     pub filter: String,
     /// Metric of the score.
     pub metric: Metric,
@@ -32,21 +32,21 @@ pub struct Finding {
     pub unit: String,
     /// Score; none if the metric does not apply.
     pub value: Option<f64>,
-    /// 95 % confidence interval of the score against a truth without noise; none if that cannot be told.
+    /// 95 % confidence interval of the score against a truth without noise; none if unknown.
     pub interval: Option<Interval>,
     /// Limit of the bound.
     pub limit: f64,
     /// Noise floor of the score; none if the metric does not apply.
     pub floor: Option<f64>,
-    /// Strictest limit that the floor can carry.
+    /// Strictest limit that the floor allows.
     pub strictest: Option<f64>,
-    /// Frames of the sequence that the limit holds for; none for a score of a single frame.
+    /// Frames of the sequence that the limit is for; none for a score of a single frame.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frames: Option<u32>,
-    /// Frames per second that the limit holds for; none for a score that does not depend on them.
+    /// Frames per second that the limit is for; none for a score that does not depend on them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fps: Option<f64>,
-    /// Frame of the sequence that is worst in the score, from 0; none for a score that no single frame has a share in.
+    /// Frame of the sequence with the worst score, from 0; none for a score that single frames have no share in.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub worst_frame: Option<u32>,
     /// Reason for the limit.
@@ -57,19 +57,19 @@ pub struct Finding {
     pub reason: Option<String>,
     /// Samples per pixel that would settle an inconclusive score.
     pub settled_by: Option<u64>,
-    /// Sub-frames of an engine's truth; none where the truth was rendered.
+    /// Sub-frames of an engine's truth; none if the truth was rendered.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub subframes: Option<u32>,
     /// Place of the largest error; none without evidence.
     pub worst: Option<Worst>,
-    /// Wrong blur that the picture resembles most; none if it resembles none, or without evidence.
+    /// Wrong blur most like the picture; none if it resembles none, or without evidence.
     pub resembles: Option<Resemblance>,
-    /// Folder of the case's pictures, of a sequence those of its worst frame; relative to `run.json`.
+    /// Folder of the case's pictures, for a sequence its worst frame's; relative to `run.json`.
     pub pictures: PathBuf,
 }
 
-/// Estimates the samples per pixel that would settle the score: doubles the run's until the interval, whose width falls as the root
-/// of the samples, leaves the limit outside. Assumes that its middle stays.
+/// Estimates the samples per pixel that would settle the score: doubles the run's until the interval, which shrinks with the root of the
+/// samples, excludes the limit. Assumes that its middle stays.
 fn samples_to_settle(run: &Run, metric: Metric, interval: &Interval, limit: f64) -> u64 {
     let middle = metric.ideal().badness((interval.low + interval.high) / 2.0);
     let apart = (middle - limit_as_badness(metric.ideal(), limit)).abs();
@@ -87,7 +87,7 @@ fn samples_to_settle(run: &Run, metric: Metric, interval: &Interval, limit: f64)
 pub const MAX_SAMPLES: u64 = tracer::MAX_SAMPLES as u64;
 
 impl Finding {
-    /// Makes the finding about a judged score of a case, or of the sequence that it is the first frame of, without evidence.
+    /// Makes the finding about a judged score of a case, or of the sequence that starts with it, without evidence.
     pub(super) fn new(
         run: &Run,
         case: &Case,
@@ -148,7 +148,7 @@ impl Finding {
         self.frames.is_some()
     }
 
-    /// Returns the decision that follows from this finding alone.
+    /// Returns the decision from this finding alone.
     pub fn decision(&self) -> Decision {
         match (self.outcome, self.level) {
             (Outcome::TooNoisy, _) => Decision::Misconfigured,

@@ -1,6 +1,6 @@
 //! Groups of equal keys.
 
-/// Groups items by a key; groups and the items in them keep the order in which they came.
+/// Groups items by a key; groups and their items keep their original order.
 pub fn group_by<T, K: PartialEq>(
     items: impl IntoIterator<Item = T>,
     key: impl Fn(&T) -> K,

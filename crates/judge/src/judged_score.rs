@@ -23,7 +23,7 @@ pub struct JudgedScore {
 }
 
 impl JudgedScore {
-    /// Compares a score with its limit: by its interval if `intervals` are given, by its value alone otherwise.
+    /// Compares a score with its limit: by its interval if `intervals` are given, otherwise by its value.
     fn new(
         metric: Metric,
         bound: &Bound,
@@ -40,8 +40,8 @@ impl JudgedScore {
     }
 }
 
-/// Compares every bounded score of one picture with its limit: by its interval if `intervals` are given, by its value alone
-/// otherwise. Leaves limits on sequences alone.
+/// Compares every bounded score of one picture with its limit: by its interval if `intervals` are given, otherwise by its value. Ignores
+/// limits on sequences.
 pub fn judge_scores(
     scores: &Scores,
     intervals: Option<&Intervals>,
@@ -53,8 +53,8 @@ pub fn judge_scores(
         .collect()
 }
 
-/// Compares every bounded score of one sequence with its limit, as [`judge_scores`] does those of a picture. `frames` are those of the
-/// run; limits on sequences of another length are not judged. `sequence` is none where a frame failed.
+/// Compares every bounded score of one sequence with its limit, like [`judge_scores`] for a picture. `frames` are the run's; limits on
+/// sequences of another length are not judged. `sequence` is none if a frame failed.
 pub(crate) fn judge_sequence(
     sequence: Option<&Sequence>,
     frames: Frames,
@@ -81,7 +81,7 @@ pub(crate) fn judge_sequence(
     judged.collect()
 }
 
-/// Says why a limit on a sequence was not judged.
+/// Explains why a limit on a sequence was not judged.
 fn not_judged(length: String, frames: Frames) -> String {
     match frames.count {
         1 => format!("its limit holds for {length}, and single frames were measured"),

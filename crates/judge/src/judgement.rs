@@ -1,4 +1,4 @@
-//! Findings about a run, as a file beside it.
+//! Findings about a run, in a file next to it.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use crate::Finding;
 
 /// Version of the layout of `judgement.json`.
 const JUDGEMENT_FORMAT: u32 = 1;
-/// Name of the file, beside `run.json`.
+/// Name of the file, next to `run.json`.
 pub const JUDGEMENT_FILE: &str = "judgement.json";
 
 /// All findings about a run.
@@ -28,7 +28,7 @@ pub struct Judgement {
 }
 
 impl Judgement {
-    /// Makes the judgement of the run in `folder`, whose `run.json` is written.
+    /// Makes the judgement of the run in `folder` after its `run.json` is written.
     pub fn new(folder: &Path, findings: Vec<Finding>) -> Result<Self, Error> {
         Ok(Self {
             format: JUDGEMENT_FORMAT,
@@ -47,8 +47,8 @@ impl Judgement {
         )?)
     }
 
-    /// Reads the judgement of `run`, whose `run.json` lies in `folder`; none if the run was never judged. Refuses a judgement of
-    /// another run, and one that names places or files elsewhere.
+    /// Reads the judgement of `run`, with its `run.json` in `folder`; none if the run was never judged. Refuses a judgement of another run,
+    /// and one that names places or files elsewhere.
     pub fn read(run: &Run, folder: &Path) -> Result<Option<Self>, Error> {
         let path = folder.join(JUDGEMENT_FILE);
         if !path.exists() {
@@ -80,7 +80,7 @@ impl Judgement {
     }
 }
 
-/// Refuses a finding with a place outside of the run's pictures or folder.
+/// Refuses a finding with a place outside the run's pictures or folder.
 fn check_finding(finding: &Finding, run: &Run) -> Result<(), String> {
     match &finding.worst {
         Some(worst) if worst.x >= run.render.width || worst.y >= run.render.height => Err(format!(

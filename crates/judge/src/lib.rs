@@ -55,9 +55,8 @@ pub use worst::{BLOCK, CROP, Worst, worst_block};
 /// The bounds of a run's scenes.
 pub type RunBounds = BTreeMap<SceneId, SceneBounds>;
 
-/// Compares every bounded score of a run with its limit: one finding per filter, scene and bound, in the order of the run's cases, and
-/// behind those of a case the ones of its sequence.
-/// References have no bounds. Pure: reads nothing, writes nothing.
+/// Compares every bounded score of a run with its limit: one finding per filter, scene and bound, in the order of the run's cases, each
+/// followed by its sequence's findings. References have no bounds. Pure: reads nothing, writes nothing.
 pub fn judge(run: &Run, bounds: &RunBounds) -> Vec<Finding> {
     let filters = run.cases.iter().filter(|case| !case.is_reference);
     filters
@@ -75,7 +74,7 @@ pub fn judge(run: &Run, bounds: &RunBounds) -> Vec<Finding> {
         .collect()
 }
 
-/// Finds the sequence that a case is the first frame of.
+/// Finds the sequence that starts with a case.
 pub(crate) fn find_sequence<'a>(run: &'a Run, case: &Case) -> Option<&'a Sequence> {
     run.sequences.iter().find(|own| own.is_of(case))
 }

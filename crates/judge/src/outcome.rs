@@ -7,13 +7,13 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
-    /// The whole interval of the score lies on the right side of the limit; without an interval, its value does.
+    /// The whole interval of the score is on the right side of the limit, or its value without an interval.
     Kept,
-    /// The whole interval lies on the wrong side.
+    /// The whole interval is on the wrong side.
     Broken,
-    /// The interval holds the limit, or parts of the truth cannot tell the score.
+    /// The interval contains the limit, or the truth's parts cannot determine the score.
     Inconclusive,
-    /// The limit is stricter than the truth's noise can carry, which is three floors: neither kept nor broken.
+    /// The limit is stricter than three floors, the least that the truth's noise allows: neither kept nor broken.
     TooNoisy,
     /// The metric does not apply to this scene.
     NotApplicable,
@@ -22,7 +22,7 @@ pub enum Outcome {
 }
 
 impl Outcome {
-    /// Returns true for an outcome whose cause a person will want to see.
+    /// Returns true for an outcome that people will want explained.
     pub fn is_notable(self) -> bool {
         match self {
             Outcome::Broken | Outcome::Inconclusive | Outcome::TooNoisy => true,
@@ -37,16 +37,16 @@ impl Outcome {
 pub enum Decision {
     /// Every required bound is met.
     Pass,
-    /// For some the truth is too noisy to decide.
+    /// The truth is too noisy to decide some.
     Inconclusive,
-    /// A bound is stricter than the truth's noise can carry, or no bound applies to a case.
+    /// A bound is stricter than the truth's noise allows, or no bound applies to a case.
     Misconfigured,
-    /// A required bound is broken, or a case failed. The noise of another bound does not undo it.
+    /// A required bound is broken, or a case failed. The noise of another bound does not change that.
     Broken,
 }
 
-/// Compares a score with a limit: by its interval if `interval` is given, by its value otherwise. `Some(None)` is a score whose
-/// interval the truth cannot tell.
+/// Compares a score with a limit: by its interval if `interval` is given, otherwise by its value. `Some(None)` is an interval that the
+/// truth cannot determine.
 pub fn judge_score(
     metric: Metric,
     measured: &Measured,
@@ -75,7 +75,7 @@ pub fn judge_score(
     }
 }
 
-/// Converts a limit to badness. A limit on a distance from an ideal is one already.
+/// Converts a limit to badness. A limit on the distance from an ideal is badness already.
 pub(crate) fn limit_as_badness(ideal: Ideal, limit: f64) -> f64 {
     match ideal {
         Ideal::Highest => -limit,
@@ -83,7 +83,7 @@ pub(crate) fn limit_as_badness(ideal: Ideal, limit: f64) -> f64 {
     }
 }
 
-/// Returns the least and the largest badness within an interval.
+/// Returns the smallest and the largest badness within an interval.
 pub fn badness_within(ideal: Ideal, interval: &Interval) -> (f64, f64) {
     let [low, high] = [interval.low, interval.high].map(|end| ideal.badness(end));
     match ideal {

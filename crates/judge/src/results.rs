@@ -1,4 +1,4 @@
-//! Results: the scores of runs in short, as a file for version control.
+//! Results: the essential scores of runs, as a file for version control.
 
 use std::collections::{BTreeMap, HashSet};
 use std::path::Path;
@@ -28,13 +28,13 @@ pub struct Results {
     pub format: u32,
     /// Program name and version.
     pub program: String,
-    /// Adapter that the kernels ran on; none where every filter is a command.
+    /// Adapter that the kernels ran on; none if every filter is a command.
     pub adapter: Option<String>,
     /// Columns and rows.
     pub size: [u32; 2],
     /// Mean samples per pixel of the truths.
     pub samples_per_pixel: u32,
-    /// Number of the sealed variants that the scenes were taken in; none for the scenes themselves.
+    /// Number of the scenes' sealed variants; none for the scenes themselves.
     pub seal: Option<u64>,
     /// One per scene and filter preset.
     pub scores: Vec<ResultScores>,
@@ -50,22 +50,22 @@ pub struct ResultScores {
     pub family: Option<Family>,
     /// Name of the filter alone.
     pub filter: String,
-    /// `jump_flood:paper`, followed by what is not as usual.
+    /// `jump_flood:paper`, followed by everything unusual.
     pub name: String,
     /// Shutter alignment that it is scored against.
     pub alignment: Alignment,
     /// Noise floor of its FLIP.
     pub floor: f64,
-    /// Scores of [`Metric::OF_MEANS`] by name, of five digits; those that do not apply are missing.
+    /// Scores of [`Metric::OF_MEANS`] by name, with five digits; omits those that do not apply.
     pub scores: BTreeMap<Metric, f64>,
 }
 
 impl Results {
-    /// Joins runs of different scenes with the same settings. References, forms of the input other than the full one, and scenes at
-    /// another frame rate than that of their files are left out.
+    /// Joins runs of different scenes with the same settings. Leaves out references, input forms other than the full one, and scenes at
+    /// another frame rate than their files'.
     ///
     /// # Errors
-    /// There is no run, a case failed, two runs differ in size, samples, adapter or seal, or a case is there twice.
+    /// There is no run, a case failed, two runs differ in size, samples, adapter or seal, or a case appears twice.
     pub fn from_runs(runs: &[Run]) -> Result<Self, Error> {
         let Some(first) = runs.first() else {
             return Err(Error::Usage("no run to take results from".to_owned()));
@@ -94,7 +94,7 @@ impl Results {
         Ok(results)
     }
 
-    /// Describes a run whose scenes have a seal.
+    /// Describes a run of scenes with a seal.
     fn without_scores(run: &Run, seal: Option<u64>) -> Self {
         Self {
             format: RESULTS_FORMAT,
@@ -127,10 +127,10 @@ impl Results {
         }
     }
 
-    /// Puts newer scores into these: those of a case that is here already take its place, others join their scene.
+    /// Adds newer scores: each replaces an older one of its case, or joins its scene.
     ///
     /// # Errors
-    /// The newer results are of another size, adapter or seal, or of truths with other samples.
+    /// The newer results have another size, adapter or seal, or truths with other samples.
     pub fn update(&mut self, newer: Self) -> Result<(), Error> {
         let settings = |own: &Self| (own.file_name(), own.samples_per_pixel);
         let [(own, samples), (other, others)] = [settings(self), settings(&newer)];
@@ -182,7 +182,7 @@ impl Results {
         files.iter().map(|path| Self::read(path)).collect()
     }
 
-    /// Formats a file of results: a line per case, so that a change of one is a change of one line.
+    /// Formats a file of results: a line per case, so that a changed case changes one line.
     pub fn text(&self) -> String {
         to_lines(self) + "\n"
     }
@@ -203,8 +203,8 @@ impl Results {
         scenes.map(|scores| &scores[0].scene).collect()
     }
 
-    /// Finds the worst score by FLIP of a preset, among the scenes where one frame knows enough for a gain: those with a skill. Without
-    /// any of them it is the worst of all; none where no FLIP is known.
+    /// Finds a preset's worst score by FLIP, among the scenes where one frame contains enough for a gain: those with a skill. Without any
+    /// of them, the worst of all; none if no FLIP is known.
     pub fn worst_of(&self, name: &str) -> Option<&ResultScores> {
         let error = |own: &&ResultScores| {
             let has_skill = own.score(Metric::SKILL).is_some();
@@ -215,8 +215,8 @@ impl Results {
             .max_by(|a, b| error(a).partial_cmp(&error(b)).expect("scores are numbers"))
     }
 
-    /// Ranks the filter presets of each shutter by FLIP. The filter that does nothing is ranked in both: its FLIP* is that against a
-    /// centred shutter, if any filter declares one.
+    /// Ranks the filter presets of each shutter by FLIP. The filter that does nothing is ranked in both: its FLIP* is against a centred
+    /// shutter, if any filter declares one.
     pub fn ranking(&self) -> Vec<Vec<RankedFilter>> {
         let centred = Alignment::Centred;
         let has_centred = self.scores.iter().any(|own| own.alignment == centred);

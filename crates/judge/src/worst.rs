@@ -14,13 +14,13 @@ pub struct Worst {
     pub x: u32,
     /// Row of the middle.
     pub y: u32,
-    /// Error map that was searched, as errors.exr calls it.
+    /// Searched error map, as named in errors.exr.
     pub map: String,
     /// Truth, output and error around it, side by side; relative to `run.json`.
     pub picture: PathBuf,
 }
 
-/// Side of the blocks whose sums are compared, in pixels: larger than the noise of pixels, smaller than most movers.
+/// Side of the compared blocks, in pixels: larger than the noise of pixels, smaller than most movers.
 pub const BLOCK: u32 = 16;
 /// Side of the crop around the worst block, in pixels.
 pub const CROP: u32 = 64;
@@ -56,8 +56,8 @@ pub fn worst_block(metric: Metric, map: &Plane, regions: &Regions) -> (u32, u32)
     )
 }
 
-/// Writes truth, output and error around a place, enlarged, from left to right; the brightness of the error is relative to the
-/// largest of the crop.
+/// Writes truth, output and error around a place, enlarged, from left to right; the error's brightness is relative to the largest in the
+/// crop.
 pub fn write_crop(
     path: &Path,
     (x, y): (u32, u32),

@@ -1,6 +1,6 @@
 //! Errors of measuring.
 
-/// Inputs that do not belong together, or that hold no numbers.
+/// Inputs that do not belong together, or that are not finite.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MeasureError {
     /// Two rasters that should have one size.
@@ -16,7 +16,7 @@ pub enum MeasureError {
         /// The truth's columns and rows.
         truth: (u32, u32),
     },
-    /// More pixels than FLIP takes.
+    /// More pixels than can be measured.
     #[error(
         "the truth is {}x{}; at most {limit} pixels can be measured: render it smaller",
         truth.0, truth.1
@@ -51,7 +51,7 @@ pub enum MeasureError {
         /// Column and row.
         at: (u32, u32),
     },
-    /// Radiance that no comparison can square.
+    /// Radiance too large to be squared.
     #[error(
         "the colour of {what} holds {found} at pixel {at:?}; at the scene's exposures at most {limit:e} can be compared: \
          lower the light, or [display] stops"

@@ -20,29 +20,29 @@ pub struct Interval {
 }
 
 impl Interval {
-    /// Tells whether the interval holds the measured value. The truth's noise moves a score, and the interval is about a truth
-    /// without.
+    /// Returns whether the interval contains the measured value. It may not: noise moves the score, and the
+    /// interval is for a truth without noise.
     pub fn holds(&self, value: f64) -> bool {
         (self.low..=self.high).contains(&value)
     }
 }
 
-/// Estimates the interval of a score. `whole` is its value by all of the truth's replicates; `without` are its values by all but one
-/// group of replicates each, with groups of equal size. `None` for fewer than two groups.
+/// Estimates the interval of a score. `whole` is its value from all of the truth's replicates; each value of `without` leaves
+/// out one of several equal groups of them. `None` for fewer than two groups.
 ///
 /// This is the grouped jackknife (Quenouille 1956, Tukey 1958; Efron and Tibshirani, "An Introduction to the Bootstrap", 1993,
-/// chapter 11). It takes the score for a smooth function of the truth, not for a linear one. For G groups, m being the mean of
+/// chapter 11). It assumes that the score is a smooth, not a linear, function of the truth. For G groups, m being the mean of
 /// `without`:
 ///
 /// - the squared standard error is (G - 1) / G times the sum of (without - m)^2,
-/// - the centre is `whole` + (G - 1)(`whole` - m): noise raises a score less with more replicates. If it raises it by their inverse,
-///   what it still adds is G - 1 times what leaving a group out added,
+/// - the centre is `whole` + (G - 1)(`whole` - m): more replicates raise a score less. If the rise goes with the inverse of their number,
+///   the remaining rise is G - 1 times that of leaving a group out,
 /// - the half width is the standard error times the quantile of Student's t of G - 1 degrees of freedom.
 ///
-/// The noise of a truth falls with the root of its replicates. A mean of absolute errors is raised by the inverse of their number if
-/// few errors are smaller than the noise, but as much as the noise itself where the picture is perfect. That is an inverse root, and
-/// the noise still adds 1 / (root(G / (G - 1)) - 1) times what leaving a group out added. Most scores lie in between. So the interval
-/// reaches from the one centre to the other, and a half width beyond both.
+/// The noise of a truth falls with the root of the number of its replicates. A mean of absolute errors rises by the inverse of
+/// that number if few errors are smaller than the noise, but by as much as the noise, its inverse root, if the picture is
+/// perfect. The remaining rise is then 1 / (root(G / (G - 1)) - 1) times that of leaving a group out. Most scores are in
+/// between, so the interval reaches from one centre to the other, and a half width beyond both.
 pub fn jackknife(whole: f64, without: &[f64]) -> Option<Interval> {
     let mut found = jackknife_by_inverse(whole, without)?;
     let count = without.len() as f64;
@@ -54,9 +54,9 @@ pub fn jackknife(whole: f64, without: &[f64]) -> Option<Interval> {
     Some(found)
 }
 
-/// Estimates the interval of a percentile. A percentile is no smooth function of the truth: leaving groups out estimates its noise
-/// poorly, and its bias worse. So the interval has one centre, that by the inverse, and is wider by the score's noise floor at either
-/// end.
+/// Estimates the interval of a percentile. A percentile is not a smooth function of the truth: leaving groups out
+/// estimates its noise poorly, and its bias worse. So the interval has one centre, by the inverse, and is wider by the
+/// score's noise floor at each end.
 pub fn jackknife_of_percentile(whole: f64, without: &[f64], floor: f64) -> Option<Interval> {
     let mut found = jackknife_by_inverse(whole, without)?;
     found.low -= floor;

@@ -5,7 +5,7 @@ use frame::{Plane, Raster};
 use crate::math::raster::index_pixels;
 
 /// Maps half the sum over objects of `|a - a*|`, in [0, 1] for mattes that sum to 1: the fraction of the shutter during which a
-/// pixel shows another object than it should. Texture does not matter.
+/// pixel shows the wrong object. Texture does not matter.
 pub fn label_variation(output: &[Plane], truth: &[Plane]) -> Raster<f64> {
     let first = truth.first().expect("a truth has a background");
     index_pixels(first, |at| {

@@ -67,7 +67,7 @@ maps! {
         AbsoluteError => absolute_error "absolute_error"
         /// `absolute_error` over the mean of both values, in [0, 2]; SMAPE is pooled from it.
         SymmetricError => symmetric_error "symmetric_error"
-        /// Structural similarity of what a display shows, mean over the channels, in [-1, 1].
+        /// Structural similarity of display values, mean over the channels, in [-1, 1].
         Ssim => ssim "ssim"
         /// LDR-FLIP, in [0, 1].
         Flip => flip "flip"
@@ -79,7 +79,7 @@ maps! {
         Bleed => bleed "bleed"
         /// Sum over moving objects of the squared difference of their mattes' gradient magnitudes, per square pixel.
         GradientError => gradient_error "gradient_error"
-        /// `squared_error` against the truth whose shading is frozen at the instant.
+        /// `squared_error` against the truth with frozen shading.
         FrozenSquaredError => frozen_squared_error "frozen_squared_error"
         /// `|F - I|` at the viewing exposure, mean over the channels, I being the instant; 0 where anything moves.
         StaticChange => static_change "static_change"
@@ -87,7 +87,7 @@ maps! {
     probes {
         /// Difference of the sum of weights from 1.
         Unity => unity "unity"
-        /// Distance between the middle of what was gathered and the middle of what should have been, in pixels; 0 where undefined.
+        /// Distance between the centres of the gathered and the true origins, in pixels; 0 where undefined.
         GatherOffset => offset "gather_offset"
         /// Difference of the spreads, in pixels; 0 where undefined.
         GatherSpread => spread "gather_spread"

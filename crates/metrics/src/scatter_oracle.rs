@@ -80,7 +80,7 @@ fn light_at(knots: &[[f64; 2]], part: f64) -> f64 {
     }
 }
 
-/// A place that nothing came to.
+/// A place that no pixel reached.
 const HOLE: u32 = u32::MAX;
 
 /// Finds, per pixel, which pixel of the frame is there at a time: the nearest to the camera.
@@ -107,7 +107,7 @@ fn scatter(frame: &Frame, time: f64, row_delay: impl Fn(u32) -> f64) -> Vec<u32>
     seen
 }
 
-/// Fills the places that nothing came to.
+/// Fills the places that no pixel reached.
 fn fill_holes(frame: &Frame, mut seen: Vec<u32>) -> Vec<u32> {
     let [width, height] = [frame.color.width, frame.color.height].map(|side| side as usize);
     let mut fills: Vec<Option<Fill>> = vec![None; seen.len()];

@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 pub struct Score {
     /// The score, in its metric's unit.
     pub value: f64,
-    /// Noise floor: the score that the truth's own noise makes, which a picture without error scores about. If high values are good,
-    /// it is the highest value that the truth can vouch for; if a target is good, it is the distance from the target.
+    /// Noise floor: the score of the truth's own noise, near which a picture without error scores. If high values are good,
+    /// it is the highest value that the truth supports; if a target is good, it is the distance from the target.
     pub floor: f64,
 }
 

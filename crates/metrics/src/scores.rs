@@ -23,7 +23,7 @@ pub struct Scores {
     pub knowable: ImageScores,
     /// Errors of colour where the frame of the instant hides a part of that.
     pub unknowable: ImageScores,
-    /// Errors against the truth whose shading stands still.
+    /// Errors against the truth with frozen shading.
     pub frozen: FrozenScores,
     /// Mean absolute change of the instant's colour where nothing moves, in display-scaled radiance.
     pub static_contamination: Measured,
@@ -40,8 +40,8 @@ pub struct Scores {
 }
 
 impl Scores {
-    /// Returns the score of a metric. A score per object is that of the worst object among those that move (or, for occluder
-    /// contamination, that stand still).
+    /// Returns the score of a metric. A score per object is the worst of the objects that move (or, for
+    /// occluder contamination, that do not).
     pub fn get(&self, metric: Metric) -> Measured {
         match metric {
             Metric::Image(metric, region) => self.of_region(region).get(metric).clone(),
@@ -61,7 +61,7 @@ impl Scores {
         }
     }
 
-    /// Returns the metric behind a score: for bleed that of the side with the most.
+    /// Returns the metric behind a score: for bleed, the side that has the most.
     pub fn behind(&self, metric: Metric) -> Metric {
         let Metric::Bleed = metric else {
             return metric;
@@ -73,7 +73,7 @@ impl Scores {
     /// Writes a score, or an estimate of it, as tables do: `0.063`, `4.80>`, `<1`, `n/a`.
     pub fn text(&self, metric: Metric, value: Option<f64>) -> String {
         match (metric, value) {
-            // Counts of sub-frames have ends that no estimate has.
+            // Counts of sub-frames have open ends, estimates have none.
             (Metric::SUBFRAMES, _) => self.equivalent_subframes.mse.to_string(),
             (_, None) => "n/a".to_owned(),
             (Metric::Bleed, Some(value)) => metric.number(value) + self.bleed_mark(),
@@ -108,7 +108,7 @@ impl Scores {
         })
     }
 
-    /// Finds the name of the object whose score is worst, and that score; `None` for metrics that are not per object.
+    /// Finds the name of the object with the worst score, and that score; `None` for metrics that are not per object.
     pub fn worst_object(&self, metric: Metric) -> Option<(&str, Score)> {
         let (object, moves) = match metric {
             Metric::Object(object) => (object, true),

@@ -7,7 +7,7 @@ use crate::{Measured, SkillScores};
 const NO_ENDS: &str =
     "no sharp picture of the shutter's middle was given: the ladder's rung of 1 sub-frame is one";
 
-/// Errors over the moving region of the two pictures that skill lies between.
+/// Errors over the moving region of the two pictures that skill is measured between.
 #[derive(Clone, Copy, Debug)]
 pub struct Ends {
     /// Errors of the sharp picture of the shutter's middle: skill 0.
@@ -30,12 +30,12 @@ pub fn score_skill(moving: &Found, ends: Option<&Ends>) -> SkillScores {
     }
 }
 
-/// Divides the error that the picture takes away by what the one-frame oracle takes away. The floor is the skill of a picture
-/// without error: the highest that the truth's noise can vouch for.
+/// Divides the error that the picture removes by the error that the one-frame oracle removes. The floor is the skill of a
+/// picture without error: the highest that the truth's noise supports.
 fn measure_skill(error: fn(&Pooled) -> f64, own: &Pooled, noise: &Pooled, ends: &Ends) -> Measured {
     let [sharp, best, own, noise] = [&ends.sharp, &ends.best, own, noise].map(error);
     let way = sharp - best;
-    // A shorter way is one that the truth's noise could have made.
+    // The truth's noise alone could make a shorter way.
     if way <= noise {
         return Measured::not_applicable(format!(
             "the one-frame oracle takes {way:.1e} of the error of no blur away, which is no more than the truth's noise \

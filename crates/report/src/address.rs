@@ -2,7 +2,7 @@
 
 use suite::{CaseId, FilterId};
 
-/// Writes the name of a filter, which no other shares, as a part of an address: `bevy:high`, `identity@trailing`.
+/// Formats a filter's unique name as a part of an address: `bevy:high`, `identity@trailing`.
 pub fn anchor(filter: &FilterId) -> String {
     match filter.is_reference {
         true => format!("{}@{}", escape(&filter.name), filter.alignment),
@@ -10,12 +10,12 @@ pub fn anchor(filter: &FilterId) -> String {
     }
 }
 
-/// Writes the address of the filter's own section: `filter:bevy:high`.
+/// Formats the address of the filter's own section: `filter:bevy:high`.
 pub fn section_anchor(filter: &FilterId) -> String {
     format!("filter:{}", anchor(filter))
 }
 
-/// Writes the address of a case: `railing/bevy:high`.
+/// Formats the address of a case: `railing/bevy:high`.
 pub fn case_anchor(case: &CaseId) -> String {
     format!(
         "{}/{}",
@@ -24,7 +24,7 @@ pub fn case_anchor(case: &CaseId) -> String {
     )
 }
 
-/// Replaces what an address may not hold, or what ends a name in it: a space becomes `~20`.
+/// Escapes characters that an address may not contain, or that end a name in it: a space becomes `~20`.
 fn escape(name: &str) -> String {
     let escaped = name.chars().map(|letter| match letter {
         'a'..='z' | 'A'..='Z' | '0'..='9' | '_' | '-' | '.' | ':' | '@' => letter.to_string(),

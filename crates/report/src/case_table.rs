@@ -10,9 +10,9 @@ pub struct CaseTable<'a> {
     pub run: &'a Run,
     /// Costs of the filters; none if nothing was timed.
     pub bench: Option<Bench>,
-    /// Filters and references in the order they ran.
+    /// Filters and references in the order of their runs.
     pub filters: Vec<FilterId>,
-    /// Scenes in the order they ran.
+    /// Scenes in the order of their runs.
     pub scenes: Vec<&'a SceneId>,
     /// Filter of each case.
     own_filters: Vec<FilterId>,
@@ -56,7 +56,7 @@ impl<'a> CaseTable<'a> {
         cases.filter(|(_, case)| case.scene == *scene)
     }
 
-    /// Finds the number of a filter's case of one scene.
+    /// Finds the number of a filter's case on one scene.
     pub fn case_on(&self, filter: &FilterId, scene: &SceneId) -> Option<usize> {
         self.places.get(&(filter.clone(), scene)).copied()
     }

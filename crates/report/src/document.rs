@@ -15,8 +15,8 @@ const STYLES: [&str; 9] = [
     include_str!("assets/media.css"),
 ];
 
-/// Permissions of a page: a browser may show what it holds, and fetch nothing but the files next to it that it may load. Browsers
-/// differ in what they call files next to a page on a disk.
+/// Permissions of a page: a browser may show its contents, and fetch only the allowed files next to it. Browsers differ in what counts as
+/// files next to a page on a disk.
 fn policy(siblings: Siblings) -> String {
     let [pictures, scripts] = [Siblings::Pictures, Siblings::Numbers].map(|kind| match kind {
         _ if kind == siblings => " 'self' file:",
@@ -37,14 +37,14 @@ pub enum Siblings {
     Pictures,
 }
 
-/// Writes JSON that scripts read from the element `id`.
+/// Writes JSON for scripts into the element `id`.
 pub fn script_data(id: &str, json: &str) -> Markup {
-    // No text may end the script that holds it.
+    // No text may end the enclosing script.
     let text = json.replace('<', "\\u003c");
     html! { script id=(id) type="application/json" { (PreEscaped(text)) } }
 }
 
-/// A page before it is text.
+/// A page before conversion to text.
 pub struct Document<'a> {
     /// Name in the browser's window.
     pub title: &'a str,
@@ -53,7 +53,7 @@ pub struct Document<'a> {
     /// Words next to the heading.
     pub subtitle: &'a str,
     pub body: Markup,
-    /// Scripts in the order in which they run, after that of the theme.
+    /// Scripts in the order in which they run, after the theme's.
     pub scripts: &'a [&'a str],
     pub siblings: Siblings,
 }

@@ -1,4 +1,4 @@
-//! Section of a filter: what it is, its source, its cost, its parameters, and the scenes that it is weakest on.
+//! Section of a filter: description, source, cost, parameters, and the scenes where it is weakest.
 
 use filters::{Filter, Source};
 use maud::{Markup, html};
@@ -13,7 +13,7 @@ use crate::overview::costs::cost_text;
 use crate::table::Column::{Plain, Text};
 use crate::table::{Column, scroll_table};
 
-/// Scores beside the error in the table of scenes.
+/// Scores next to the error in the table of scenes.
 const SCORES: [(Metric, &str); 6] = [
     (Metric::FLIP, "FLIP"),
     (Metric::SKILL, "skill"),
@@ -29,7 +29,7 @@ pub fn filter_section(table: &CaseTable, filter: &FilterId, thumbnails: &[String
     let Some(first) = cases.first() else {
         return html! {};
     };
-    // A folder of the same name and other parameters is not the built-in filter.
+    // A folder of the same name with other parameters is not the built-in filter.
     let own = Filter::builtin(&first.filter).ok();
     let own = own.filter(|own| {
         own.parameters

@@ -1,10 +1,10 @@
-//! A finding in words: its status, its score and the way out.
+//! A finding in words: its status, its score and the remedy.
 
 use judge::{Finding, Length, Level, MAX_SAMPLES, Outcome, badness_within, number};
 use maud::{Markup, Render, html};
 use metrics::{Ideal, Interval};
 
-/// Status of a score against its bound, shown by colour, sign and word: never by the colour alone.
+/// Status of a score against its bound, shown by colour, sign and word, never by colour alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Status {
     /// Class in the style sheet, and word for a reader.
@@ -14,7 +14,7 @@ pub struct Status {
 }
 
 impl Status {
-    /// Names the status of an outcome; none where the metric does not apply.
+    /// Returns the status of an outcome; none if the metric does not apply.
     pub fn of(outcome: Outcome) -> Option<Self> {
         let (word, sign) = match outcome {
             Outcome::Kept => ("met", "✓"),
@@ -70,7 +70,7 @@ impl Tally {
     }
 }
 
-/// Writes a finding in one line: `BROKEN flip_moving 0.0921 (95 % CI 0.0893 to 0.0950); limit 0.0500, floor 0.0021`
+/// Formats a finding in one line: `BROKEN flip_moving 0.0921 (95 % CI 0.0893 to 0.0950); limit 0.0500, floor 0.0021`
 pub fn finding_line(finding: &Finding) -> String {
     format!("{} {}", finding_status(finding), finding_score(finding))
 }
@@ -89,8 +89,8 @@ pub fn finding_status(finding: &Finding) -> &'static str {
     }
 }
 
-/// Writes the score beside its limit: `flip_moving 0.0921 (95 % CI 0.0893 to 0.0950); limit 0.0500, floor 0.0021`. Of a score whose
-/// limit is on its distance from an ideal, it writes the distance: `extent 0.0385 from 1 (95 % CI 0.0354 to 0.0416); limit 0.0400`.
+/// Formats the score with its limit: `flip_moving 0.0921 (95 % CI 0.0893 to 0.0950); limit 0.0500, floor 0.0021`. For a limit on the
+/// distance from an ideal, formats the distance: `extent 0.0385 from 1 (95 % CI 0.0354 to 0.0416); limit 0.0400`.
 pub fn finding_score(finding: &Finding) -> String {
     let ideal = finding.metric.ideal();
     let limited = |value: f64| match ideal {
@@ -122,7 +122,7 @@ pub fn finding_score(finding: &Finding) -> String {
     text
 }
 
-/// Writes the limit of a score that stands beside it: `0.0500`, or `0.0400 from 1` for a limit on the distance from an ideal.
+/// Formats the limit for display next to its score: `0.0500`, or `0.0400 from 1` for a limit on the distance from an ideal.
 pub fn limit_text(finding: &Finding) -> String {
     let limit = number(finding.limit);
     match finding.metric.ideal() {
@@ -131,8 +131,7 @@ pub fn limit_text(finding: &Finding) -> String {
     }
 }
 
-/// Writes the length of the sequence that the limit holds for, `4 frames` or `4 frames at 60 per second`; none for a score of a
-/// single frame.
+/// Formats the length of the limit's sequence, `4 frames` or `4 frames at 60 per second`; none for a score of a single frame.
 pub fn length_text(finding: &Finding) -> Option<String> {
     let length = Length {
         frames: finding.frames?,
@@ -141,13 +140,12 @@ pub fn length_text(finding: &Finding) -> Option<String> {
     Some(length.text())
 }
 
-/// Writes the frame of a sequence that is worst in the score: `worst in frame 2`.
+/// Formats the frame with a sequence's worst score: `worst in frame 2`.
 pub fn worst_frame_text(finding: &Finding) -> Option<String> {
     Some(format!("worst in frame {}", finding.worst_frame?))
 }
 
-/// Writes `95 % CI 0.05198 to 0.05332, measured 0.05364`; the measured value only where the truth's noise moved it out of the
-/// interval.
+/// Formats `95 % CI 0.05198 to 0.05332, measured 0.05364`; the measured value only if the truth's noise moved it out of the interval.
 pub fn interval_text(interval: &Interval, measured: f64) -> String {
     let [low, high] = [interval.low, interval.high].map(number);
     let raw = match interval.holds(measured) {
@@ -157,7 +155,7 @@ pub fn interval_text(interval: &Interval, measured: f64) -> String {
     format!("95 % CI {low} to {high}{raw}")
 }
 
-/// Tells what to do about a score that was not judged.
+/// Suggests what to do about a score that was not judged.
 pub fn way_out(finding: &Finding) -> Option<String> {
     match finding.outcome {
         Outcome::TooNoisy => Some(format!(

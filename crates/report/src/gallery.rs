@@ -1,4 +1,4 @@
-//! Pictures of a run as files: the gallery of best and worst filters, a contact sheet of all truths, and the strip of a case.
+//! Picture files of a run: the gallery of best and worst filters, a contact sheet of all truths, and the strip of a case.
 
 use std::path::{Path, PathBuf};
 
@@ -24,8 +24,7 @@ struct Extremes<'a> {
     worst: &'a Case,
 }
 
-/// Writes `README.md`, the contact sheet and a picture per scene below `out`, from the files of a run in `folder`. Returns the path of
-/// the page.
+/// Writes `README.md`, the contact sheet and a picture per scene below `out`, from the files of a run in `folder`. Returns the page's path.
 pub fn write_gallery(run: &Run, folder: &Path, out: &Path) -> Result<PathBuf, Error> {
     let scenes = find_extremes(run);
     if scenes.is_empty() {
@@ -54,7 +53,7 @@ pub fn write_gallery(run: &Run, folder: &Path, out: &Path) -> Result<PathBuf, Er
     Ok(path)
 }
 
-/// Finds the best and the worst filter of each shutter, scene by scene, in the order of the run.
+/// Finds the best and the worst filter of each shutter for each scene, in the order of the run.
 fn find_extremes(run: &Run) -> Vec<Vec<Extremes<'_>>> {
     let cases: Vec<&Case> = (run.cases.iter())
         .filter(|case| !case.is_reference && case.filter != IDENTITY)
@@ -73,7 +72,7 @@ fn find_extremes(run: &Run) -> Vec<Vec<Extremes<'_>>> {
 }
 
 impl<'a> Extremes<'a> {
-    /// Ranks the filters of one shutter by FLIP; none where nothing moves.
+    /// Ranks the filters of one shutter by FLIP; none if nothing moves.
     fn of(cases: &[&'a Case], alignment: Alignment) -> Option<Self> {
         let mut ranked: Vec<(f64, &Case)> = (cases.iter())
             .filter(|case| case.alignment == alignment)
@@ -130,7 +129,7 @@ fn rows(folder: &Path, extremes: &Extremes) -> Result<Vec<Image>, Error> {
         .collect())
 }
 
-/// Reads truth, output and FLIP of a case, and labels them; words follow the truth's label and the score.
+/// Reads truth, output and FLIP of a case, and labels them; `truth` and `score` follow the truth's and the error's labels.
 fn strip(case: &Case, folder: &Path, truth: &str, score: &str) -> Result<[Image; 3], Error> {
     let flip = read_png(&folder.join(&case.folder).join("flip.png"))?;
     let output = read_png(&folder.join(&case.folder).join("output.png"))?;
@@ -145,7 +144,7 @@ fn strip(case: &Case, folder: &Path, truth: &str, score: &str) -> Result<[Image;
     ])
 }
 
-/// Writes truth, output and FLIP of a case side by side to the PNG file `out`; `folder` is that of its run.json.
+/// Writes truth, output and FLIP of a case side by side to the PNG file `out`; `folder` is its run.json's.
 ///
 /// # Errors
 /// A picture of the case cannot be read, or the file cannot be written.
@@ -154,7 +153,7 @@ pub fn write_case_strip(case: &Case, folder: &Path, out: &Path) -> Result<(), Er
     Ok(write_png(out, &tile_pictures(&pictures, 3, GAP, [1.0; 3]))?)
 }
 
-/// Reads the truth that a case is scored against.
+/// Reads a case's truth.
 fn read_truth(folder: &Path, case: &Case) -> Result<Image, Error> {
     let name = RenderFile::Truth(case.alignment).picture();
     Ok(read_png(&folder.join(case.scene.folder()).join(name))?)

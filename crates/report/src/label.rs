@@ -2,20 +2,20 @@
 
 use frame::{Image, Raster};
 
-/// The signs that the letters below are for, in their order.
+/// The characters of the letters below, in order.
 const SIGNS: &str = " .:-_0123456789abcdefghijklmnopqrstuvwxyzFILP";
-/// Five columns of each sign as hexadecimal bytes, whose lowest bit is the upper row.
+/// Five columns of each sign as hexadecimal bytes; the lowest bit is the upper row.
 const COLUMNS: &str = "\
 000000000000606000000036360000080808080840404040403E5149453E00427F400042615149462141454B311814127F1027454545393C4A494930\
 01710905033649494936064949291E20545454787F484444383844444420384444487F3854545418087E09010218A4A4A47C7F0804047800447D4000\
 4080847D007F1028440000417F40007C041804787C080404783844444438FC2424241818242424FC7C080404084854545420043F4440203C4040207C\
 1C2040201C3C4030403C44281028441CA0A0A07C4464544C447F0909090100417F41007F404040407F09090906";
-/// Rows and columns of a letter, with the gap to the next.
+/// Rows and columns of a letter, including the gap to the next.
 const PITCH: [u32; 2] = [6, 10];
-/// Width of a picture for which a dot of a letter is one pixel.
+/// Picture width at which a dot of a letter is one pixel.
 const DOT_WIDTH: u32 = 160;
 
-/// Adds a bar with a text above a picture. Other signs than those of presets and scores leave a gap.
+/// Adds a bar with a text above a picture. Characters that presets and scores do not use leave a gap.
 pub fn label(picture: &Image, text: &str) -> Image {
     let dot = (picture.width / DOT_WIDTH).max(1);
     let bar = PITCH[1] * dot;
@@ -25,7 +25,7 @@ pub fn label(picture: &Image, text: &str) -> Image {
     })
 }
 
-/// Tells whether a dot of a bar belongs to a letter.
+/// Returns whether a dot of a bar belongs to a letter.
 fn is_ink(text: &str, x: u32, y: u32) -> bool {
     let sign = text.chars().nth((x / PITCH[0]) as usize);
     let found = sign.and_then(|sign| SIGNS.chars().position(|own| own == sign));

@@ -46,14 +46,14 @@ pub use sequence::{SEQUENCES_PAGE, sequences_page};
 use suite::{Case, Error, Run};
 pub use tuning::{TuneFolder, tuning_page};
 
-/// Bytes of the tables of a case, about.
+/// Approximate bytes of the tables of a case.
 const CASE_BYTES: usize = 25_000;
 
-/// Writes the page of the run in `folder` to `html`; returns its path, then those of the files next to it.
+/// Writes the page of the run in `folder` to `html`; returns its path, then the paths of the files next to it.
 ///
-/// Costs come from a bench.json in the folder. Without `findings` the page shows no bounds. If the page would have more than
-/// `largest` bytes, [`LARGEST_PAGE`] for instance, its numbers go into files, and if its tables alone are larger, they do too. The
-/// same run makes the same bytes. The page is written last: one that exists is whole.
+/// Costs come from a bench.json in the folder. Without `findings` the page shows no bounds. If the page would have more than `largest`
+/// bytes, such as [`LARGEST_PAGE`], its numbers go into files; if its tables alone are larger, so do they. The same run makes the same
+/// bytes. The page is written last: an existing page is complete.
 ///
 /// # Errors
 /// A file of the run is missing or broken, or a file of the report cannot be written.
@@ -95,13 +95,13 @@ pub fn write_report(
     Ok(std::iter::once(html.to_owned()).chain(files).collect())
 }
 
-/// Parts of a page, which grow scene by scene.
+/// Parts of a page in progress.
 struct Parts<'a> {
-    /// True if the sections of cases hold their tables, and the page need not load them.
+    /// True if the sections of cases contain their tables, so that the page need not load them.
     has_tables: bool,
     /// Numbers of the pictures.
     numbers: SceneTexts,
-    /// Tables that the sections do not hold.
+    /// Tables that are not in the sections.
     tables: SceneTexts,
     /// Sections of the cases, in the order of the run.
     sections: Vec<Markup>,
@@ -123,7 +123,7 @@ impl<'a> Parts<'a> {
         }
     }
 
-    /// Reads the files of the scene of this number, and adds what the page shows of it.
+    /// Reads the files of the scene of this number, and adds its contents to the page.
     fn add_scene(
         &mut self,
         scene: usize,

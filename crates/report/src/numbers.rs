@@ -2,10 +2,10 @@
 
 use filters::Value;
 
-/// Writes a change in three digits: `+0.0123`.
+/// Formats a change with three digits: `+0.0123`.
 pub fn signed(value: f64) -> String {
     match value {
-        // What rounding makes of no change.
+        // Rounding of no change.
         value if value.abs() < 1e-9 => "0".to_owned(),
         value if value.abs() < 1e-4 => format!("{value:+.0e}"),
         value => {
@@ -15,12 +15,12 @@ pub fn signed(value: f64) -> String {
     }
 }
 
-/// Writes a mean log of errors as a change of the error: `-18.6 %`.
+/// Formats a mean log of errors as a change of the error: `-18.6 %`.
 pub fn percent(log: f64) -> String {
     format!("{:+.1} %", 100.0 * log.exp_m1())
 }
 
-/// Writes the value of a parameter; six digits are as many as anybody sets.
+/// Formats the value of a parameter; nobody sets more than six digits.
 pub fn value_text(value: &Value) -> String {
     match value {
         Value::Real(value) => {
@@ -31,7 +31,7 @@ pub fn value_text(value: &Value) -> String {
     }
 }
 
-/// Writes `1 scene`, `2 scenes`.
+/// Formats `1 scene`, `2 scenes`.
 pub fn counted(count: usize, noun: &str) -> String {
     match count {
         1 => format!("1 {noun}"),
@@ -39,7 +39,7 @@ pub fn counted(count: usize, noun: &str) -> String {
     }
 }
 
-/// Writes a number with three digits that count.
+/// Formats a number with three significant digits.
 pub fn three_digits(value: f64) -> String {
     let digits = (2.0 - value.abs().log10().floor()).clamp(0.0, 9.0) as usize;
     match value {
@@ -48,7 +48,7 @@ pub fn three_digits(value: f64) -> String {
     }
 }
 
-/// Averages numbers; none of none.
+/// Averages numbers; none without any.
 pub fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
     let (count, sum) = values.fold((0, 0.0), |(count, sum), value| (count + 1, sum + value));
     (count > 0).then(|| sum / f64::from(count))

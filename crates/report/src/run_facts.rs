@@ -12,7 +12,7 @@ use crate::case_table::CaseTable;
 use crate::table::Column::{Plain, Text};
 use crate::table::scroll_table;
 
-/// Lists command, program, adapter, settings, and per scene the hashes of its truths.
+/// Lists command, program, adapter, settings, and the hashes of each scene's truths.
 pub fn provenance(table: &CaseTable) -> Markup {
     let caption = "Truths; a hash covers scene, meshes, textures, settings and the tracer, or all that an engine drew";
     html! {
@@ -66,7 +66,7 @@ pub fn facts(run: &Run) -> Vec<(&'static str, String)> {
     ]
 }
 
-/// Writes the same in one line, for every case.
+/// Formats the same in one line, for every case.
 pub fn provenance_line(run: &Run) -> String {
     let adapter = match &run.adapter {
         Some(own) => format!("{}, driver {}", own.name, own.driver),
@@ -86,7 +86,7 @@ pub fn provenance_line(run: &Run) -> String {
 /// Most letters of a command line that every case repeats; a merge may name thousands of parts.
 const LONGEST_COMMAND: usize = 500;
 
-/// Cuts a command line that is too long to be repeated.
+/// Shortens a command line that is too long to repeat.
 fn shorten(command: String) -> String {
     match command.char_indices().nth(LONGEST_COMMAND) {
         None => command,
@@ -94,7 +94,7 @@ fn shorten(command: String) -> String {
     }
 }
 
-/// Writes name, kind, backend and driver of an adapter.
+/// Formats name, kind, backend and driver of an adapter.
 pub fn adapter_text(adapter: &AdapterDescription) -> String {
     let AdapterDescription {
         name,
@@ -105,14 +105,14 @@ pub fn adapter_text(adapter: &AdapterDescription) -> String {
     format!("{name} ({kind}, {backend}, driver {driver})")
 }
 
-/// Writes the words of the command line, the program's by its name alone.
+/// Formats the words of the command line, with the program's name instead of its path.
 pub fn command(run: &Run) -> String {
     let words = run.command.iter().skip(1).map(String::as_str);
     let words: Vec<&str> = std::iter::once("shuttertruth").chain(words).collect();
     words.join(" ")
 }
 
-/// Says what a truth is: `path traced`, or `mean of 32 sub-frames that three.js 0.187.0 drew`.
+/// Describes a truth: `path traced`, or `mean of 32 sub-frames that three.js 0.187.0 drew`.
 pub fn truth_text(case: &Case) -> String {
     (case.drawn.as_ref()).map_or("path traced".to_owned(), |drawn| drawn.truth_text())
 }

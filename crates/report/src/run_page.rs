@@ -23,7 +23,7 @@ const SCRIPTS: [&str; 8] = [
     include_str!("assets/address.js"),
 ];
 
-/// What the page of a run holds.
+/// Contents of a run's page.
 pub struct PageContent<'a> {
     /// All scenes and filters at a glance.
     pub overview: &'a Markup,
@@ -31,13 +31,13 @@ pub struct PageContent<'a> {
     pub sections: &'a [Markup],
     /// Numbers of the pictures.
     pub numbers: &'a Place,
-    /// True where the sections of cases hold their tables.
+    /// True if the sections of cases contain their tables.
     pub has_tables: bool,
-    /// True where the page lies beside that of the sequences.
+    /// True if the page is next to the page of sequences.
     pub links_sequences: bool,
 }
 
-/// Writes the whole page, which lies at `html`.
+/// Writes the whole page for the path `html`.
 pub fn run_page(run: &Run, content: &PageContent, html: &Path) -> String {
     let document = Document {
         title: "Shuttertruth report",
@@ -92,7 +92,7 @@ fn failures(run: &Run) -> Markup {
     }
 }
 
-/// Says what needs scripts.
+/// Describes what needs scripts.
 fn script_note(has_tables: bool) -> &'static str {
     match has_tables {
         true => "The numbers need no script; pictures, sorting and keys do.",
@@ -102,7 +102,7 @@ fn script_note(has_tables: bool) -> &'static str {
     }
 }
 
-/// Embeds the numbers, or names their folder: base64 holds no character that HTML escapes.
+/// Embeds the numbers, or names their folder: base64 contains no character that HTML escapes.
 fn scene_numbers(numbers: &Place, page: &Path) -> Markup {
     let folder = match numbers {
         Place::Page(_) => None,

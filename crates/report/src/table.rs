@@ -1,4 +1,4 @@
-//! Tables that scroll sideways where they are wider than the page.
+//! Tables that scroll sideways if they are wider than the page.
 
 use maud::{Markup, html};
 
@@ -9,7 +9,7 @@ pub enum Column<'a> {
     Plain(&'a str),
     /// Words.
     Text(&'a str),
-    /// Charts of one line.
+    /// One-line charts.
     Chart(&'a str),
 }
 

@@ -11,8 +11,8 @@ use crate::folder::walk_error;
 use crate::record::CASE_RECORD;
 use crate::render_file::RenderFile;
 
-/// Removes frame, truths, replicates and ladders of a scene's folder, with the records of these and of its cases. Refuses links to
-/// folders: nothing outside is removed.
+/// Removes frame, truths, replicates and ladders from a scene's folder, with their records and its cases' records. Refuses links
+/// to folders: nothing outside is removed.
 ///
 /// # Errors
 /// A folder is a link, or a file cannot be removed.
@@ -36,7 +36,7 @@ pub fn clear_scene(folder: &Path) -> Result<(), Error> {
     Ok(())
 }
 
-/// Tells whether a file below a scene's folder is a rendered one, or a record.
+/// Returns whether a file below a scene's folder is a rendered one, or a record.
 fn is_made(below: &Path) -> bool {
     let rendered = match below.extension() == Some(OsStr::new("json")) {
         true => below.with_extension("exr"),

@@ -7,10 +7,10 @@ use tracer::Scene;
 
 use crate::Error;
 
-/// Upper limit on the bytes of the name of a folder that is made for a scene or a case. File systems allow 255, and some files are named
-/// after it with an ending.
+/// Upper limit on the bytes of a folder's name, of a scene or a case. File systems allow 255, and some names of files add an ending
+/// to it.
 pub const LONGEST_FOLDER_NAME: usize = 240;
-/// Characters of a name that is too long which an error shows.
+/// Number of characters of a too long name that an error shows.
 const SHOWN: usize = 40;
 
 /// Names the folder of a scene's files below `out`.
@@ -18,7 +18,7 @@ pub fn scene_folder(out: &Path, scene: &Scene) -> PathBuf {
     out.join(scene.id.folder())
 }
 
-/// Refuses a folder that holds a scene itself: our pictures may have the names of its textures.
+/// Refuses a folder that contains a scene: our pictures may have the names of its textures.
 pub fn refuse_scene(folder: &Path) -> Result<(), Error> {
     match folder.join("scene.toml").exists() {
         false => Ok(()),
@@ -29,7 +29,7 @@ pub fn refuse_scene(folder: &Path) -> Result<(), Error> {
     }
 }
 
-/// Refuses folders, each below the one before, of which one has a name that file systems may not hold.
+/// Refuses a path with a folder name that is too long for file systems.
 pub fn refuse_long_names(folders: &Path) -> Result<(), Error> {
     let names = folders.iter().map(|name| name.to_string_lossy());
     match names.max_by_key(|name| name.len()) {
@@ -43,15 +43,14 @@ pub fn refuse_long_names(folders: &Path) -> Result<(), Error> {
     }
 }
 
-/// Names the folder that cannot be read on the way through those below it.
+/// Names the folder that a walk of folders cannot read.
 pub(crate) fn walk_error(error: walkdir::Error) -> FileError {
     let path = error.path().unwrap_or(Path::new("")).to_owned();
     let source = error.into_io_error();
     FileError::io(&path, "read", source.expect("links are not followed"))
 }
 
-/// Tells whether a path leads below the folder that it starts from, by names without control characters. Nothing is read or written
-/// elsewhere.
+/// Returns whether a path stays below its first folder and has no control characters. Nothing is read or written elsewhere.
 pub fn is_below(path: &Path) -> bool {
     let mut parts = path.components().peekable();
     parts.peek().is_some()

@@ -19,19 +19,19 @@ const LOCK_FILE: &str = ".shuttertruth.lock";
 pub enum Sharing {
     /// None: run.json, a journal or cases are written.
     Alone,
-    /// Those that render frames and truths, each of which is whole and known by its content.
+    /// Those that render frames and truths: each file is written whole and identified by its content.
     Together,
 }
 
-/// A lock on a folder. The system takes it back when the process ends, however it ends.
+/// A lock on a folder. The system releases it when the process ends, however it ends.
 #[derive(Debug)]
 #[must_use]
 pub struct FolderLock {
     _lock: Option<File>,
 }
 
-/// Locks `out`, and makes it if it does not exist. Refuses a folder that holds one of the scenes, one that another
-/// process has locked, and scenes whose names no folder can have. A process that is alone removes what killed ones left half written.
+/// Locks `out`, and makes it if it does not exist. Refuses a folder that contains one of the scenes, one that another process
+/// has locked, and names of scenes that no folder can have. A process that is alone removes what killed ones left half written.
 pub fn lock_folder<'a>(
     out: &Path,
     scenes: impl IntoIterator<Item = &'a Scene>,
@@ -57,7 +57,7 @@ pub fn lock_folder<'a>(
     Ok(lock)
 }
 
-/// Refuses an output folder that is a file, or lies below one.
+/// Refuses an output folder that is a file, or is below one.
 fn refuse_file(out: &Path) -> Result<(), Error> {
     match out.ancestors().find(|path| path.is_file()) {
         None => Ok(()),
@@ -68,7 +68,7 @@ fn refuse_file(out: &Path) -> Result<(), Error> {
     }
 }
 
-/// Locks the folder; none where the file system knows no locks.
+/// Locks the folder; none if the file system has no locks.
 fn lock(out: &Path, sharing: Sharing) -> Result<Option<File>, Error> {
     let path = out.join(LOCK_FILE);
     let fail = |source: std::io::Error| -> Error {

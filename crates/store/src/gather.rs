@@ -1,4 +1,4 @@
-//! Files that one folder takes from others.
+//! Files that one folder gets from others.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -16,10 +16,10 @@ pub const MAX_TAKEN_BYTES: u64 = 1 << 32;
 /// The source of each file, by its path below the parts.
 pub type Files = BTreeMap<PathBuf, PathBuf>;
 
-/// Gathers the files of several folders, of each by their paths below it. Several may hold the same file, if its bytes are equal.
+/// Gathers the files of several folders by their paths below each. Several may have the same file, if its bytes are equal.
 ///
 /// # Errors
-/// Two files of one path differ, or cannot be read.
+/// Two files of one path differ, or a file cannot be read.
 pub fn gather<'a>(
     parts: impl IntoIterator<Item = (&'a Path, Vec<PathBuf>)>,
 ) -> Result<Files, Error> {
@@ -36,7 +36,7 @@ pub fn gather<'a>(
     Ok(files)
 }
 
-/// Refuses two files of one name with other bytes.
+/// Refuses two files of one name with different bytes.
 fn check_same(one: &Path, other: &Path) -> Result<(), Error> {
     let read = |path: &Path| read_bounded(path, MAX_TAKEN_BYTES);
     if is_same_file(one, other).is_ok_and(|same| same) || read(one)? == read(other)? {
@@ -53,16 +53,16 @@ fn check_same(one: &Path, other: &Path) -> Result<(), Error> {
 /// Places gathered files below a folder.
 ///
 /// # Errors
-/// A file is no regular one, or cannot be read or written.
+/// A file is not a regular one, or cannot be read or written.
 pub fn place_files(files: &Files, out: &Path) -> Result<(), FileError> {
     (files.iter()).try_for_each(|(below, file)| place_file(file, &out.join(below)))
 }
 
-/// Places the file `from` at `to` as well, in place of what lies there: as a second name of the same file, or as a copy where the
-/// file system has no such names. Files of this program are replaced as a whole, and so neither name changes the other.
+/// Links the file `from` at `to`, replacing any file there, or copies it if the file system has no hard links. This program
+/// replaces files as a whole, so neither name changes the other.
 ///
 /// # Errors
-/// Fails if `from` is no regular file, if a folder lies at `to`, or if a file cannot be read or written.
+/// Fails if `from` is not a regular file, if `to` is a folder, or if a file cannot be read or written.
 pub fn place_file(from: &Path, to: &Path) -> Result<(), FileError> {
     let found = fs::symlink_metadata(from).map_err(|source| FileError::io(from, "read", source))?;
     if !found.is_file() {
@@ -84,7 +84,7 @@ pub fn place_file(from: &Path, to: &Path) -> Result<(), FileError> {
     }
     match fs::hard_link(from, to) {
         Ok(()) => Ok(()),
-        // Another disk, or a system without such names.
+        // Another disk, or a system without hard links.
         Err(_) => write_atomically(to, &read_bounded(from, MAX_TAKEN_BYTES)?),
     }
 }

@@ -6,13 +6,13 @@ use tracer::Location;
 /// Upper limit on the bytes of a baseline, bench.json, a journal and other files of numbers.
 pub const MAX_JSON_BYTES: u64 = 1 << 28;
 
-/// Upper limit on the bytes of run.json, and of the judgement of it.
+/// Upper limit on the bytes of run.json, and of its judgement.
 pub const MAX_RUN_BYTES: u64 = 1 << 30;
 
 /// Reads the text of a regular file of at most [`MAX_JSON_BYTES`].
 ///
 /// # Errors
-/// The file cannot be read, is larger, or holds something else than UTF-8.
+/// The file cannot be read, is larger, or is not UTF-8.
 pub fn read_text(file: impl Into<Location>) -> Result<String, FileError> {
     read_text_within(file, MAX_JSON_BYTES)
 }

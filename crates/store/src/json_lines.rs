@@ -5,10 +5,10 @@ use serde::Serialize;
 /// Depth down to which every value has a line of its own: the keys of the outer object, and the entries of their lists.
 const LINES: usize = 2;
 
-/// Writes plain data: an object with a line per key, and where the value of a key is a list or an object, a line per entry.
+/// Writes plain data: an object with a line per key, and a line per entry of a key's list or object.
 ///
 /// # Panics
-/// A map has keys that are no strings.
+/// A map has keys that are not strings.
 pub fn to_lines(value: &impl Serialize) -> String {
     let compact = serde_json::to_string(value).expect("plain data can be written");
     let mut text = String::with_capacity(2 * compact.len());

@@ -1,5 +1,5 @@
-//! The folder of finished work: who writes there, the names of what is rendered, records of what was made of which inputs, and files
-//! that come from other folders and from archives.
+//! The folder of finished work: who writes there, names of rendered files, records of results with their inputs, and files
+//! from other folders and from archives.
 
 mod archive;
 mod clear;

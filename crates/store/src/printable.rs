@@ -6,7 +6,7 @@ use std::path::Path;
 
 use frame::is_hidden;
 
-/// Mark before every line of a message but the first, so that none begins with what a log takes for a command.
+/// Mark before every line of a message but the first, so that no line begins with what a log reads as a command.
 const CONTINUED: &str = "  | ";
 
 /// Puts text on one line: control characters, line breaks among them, and characters that change the direction of writing
@@ -26,8 +26,8 @@ pub fn printable_path(path: &Path) -> String {
     printable(&path.to_string_lossy()).into_owned()
 }
 
-/// Escapes each line of a message as [`printable`] does, and puts a mark before all but the first. Lines of a compiler, which quote
-/// a source behind a mark of their own, get none.
+/// Escapes each line of a message as [`printable`] does, and puts a mark before all but the first. Lines of a compiler that quote
+/// a source after a mark of their own get none.
 pub fn printable_lines(text: &str) -> String {
     let mut lines = text.split('\n').map(printable);
     let mut message = lines.next().unwrap_or_default().into_owned();
@@ -41,7 +41,7 @@ pub fn printable_lines(text: &str) -> String {
     message
 }
 
-/// Tells whether a line is a compiler's: `11 │     let trail = ..`.
+/// Returns whether a line is a compiler's: `11 │     let trail = ..`.
 fn is_quoted(line: &str) -> bool {
     line.trim_start_matches(|letter: char| letter == ' ' || letter.is_ascii_digit())
         .starts_with(['┌', '│'])

@@ -11,21 +11,21 @@ use serde::{Deserialize, Serialize};
 
 use crate::folder::is_below;
 
-/// Name of a case's record, beside its pictures.
+/// Name of a case's record, next to its pictures.
 pub const CASE_RECORD: &str = "case.json";
 
-/// A finished piece of work, as its file holds it.
+/// A finished piece of work, as its file stores it.
 #[derive(Serialize, Deserialize)]
 struct Record<T> {
     /// Hash of everything that determines it.
     inputs: String,
-    /// Files that belong to it, by their names beside this one, each with the hash of its bytes.
+    /// Files that belong to it, by their names next to this one, each with the hash of its bytes.
     files: BTreeMap<String, String>,
     /// Result of the work.
     made: T,
 }
 
-/// Writes what was `made` of such inputs to `path`, after the `files` beside it have been written.
+/// Writes what was `made` of these inputs to `path`, after the `files` next to it have been written.
 pub fn put<T: Serialize>(
     path: &Path,
     inputs: String,
@@ -45,19 +45,19 @@ pub fn put<T: Serialize>(
     write_atomically(path, text.as_bytes())
 }
 
-/// Reads what was made of such inputs. None where there is no such record, where it is broken, or where any of its files is
-/// missing or altered.
+/// Reads what was made of these inputs. None if there is no such record, if it is broken, or if any of its files is missing
+/// or altered.
 pub fn look_up<T: DeserializeOwned>(path: &Path, inputs: &str) -> Option<T> {
     let record = read_whole::<T>(path, inputs)?;
     record.altered_files(path).is_empty().then_some(record.made)
 }
 
-/// Reads what was made of such inputs, whether or not its files are still there.
+/// Reads what was made of these inputs, whether or not its files are still there.
 pub fn look_up_alone<T: DeserializeOwned>(path: &Path, inputs: &str) -> Option<T> {
     read_whole::<T>(path, inputs).map(|record| record.made)
 }
 
-/// Removes the files of such inputs that were altered: the hash that a file holds may no longer fit its content.
+/// Removes altered files of these inputs: the hash in a file may no longer fit its content.
 pub fn remove_altered_files(path: &Path, inputs: &str) {
     if let Some(record) = read_whole::<()>(path, inputs) {
         for file in record.altered_files(path) {
@@ -67,7 +67,7 @@ pub fn remove_altered_files(path: &Path, inputs: &str) {
     }
 }
 
-/// Reads a whole record of such inputs. One that names a file outside its own folder, or behind a link to a folder, is none: nothing
+/// Reads a whole record of these inputs. None if it names a file outside its own folder, or beyond a link to a folder: nothing
 /// out there is read or removed.
 fn read_whole<T: DeserializeOwned>(path: &Path, inputs: &str) -> Option<Record<T>> {
     let found: Record<T> = serde_json::from_slice(&std::fs::read(path).ok()?).ok()?;
@@ -75,7 +75,7 @@ fn read_whole<T: DeserializeOwned>(path: &Path, inputs: &str) -> Option<Record<T
     (found.inputs == inputs && found.files.keys().all(is_own)).then_some(found)
 }
 
-/// Tells whether a name is that of a file in a folder or in one of its folders, and no path out of it.
+/// Returns whether a name leads to a file in a folder or below it, through no link.
 fn is_file_of(folder: &Path, name: &str) -> bool {
     let name = Path::new(name);
     let mut folders = name.ancestors().skip(1);
@@ -94,19 +94,19 @@ impl<T> Record<T> {
     }
 }
 
-/// Hashes inputs by their debug output, which holds every field, and numbers so that they read back equal: a new field cannot be
-/// forgotten.
+/// Hashes inputs by their debug output, which includes every field, so that a new one is not forgotten, and numbers that read
+/// back equal.
 pub fn hash_inputs(inputs: &dyn Debug) -> String {
     hex(format!("{inputs:?}").as_bytes())
 }
 
-/// Hashes the running program, whose bytes change with sources, dependencies, compiler and options: all that may change a number
-/// and is no other input. None where the bytes cannot be read.
+/// Hashes the running program. Its bytes change with sources, dependencies, compiler and options: everything that may change a
+/// number and is no other input. None if the bytes cannot be read.
 pub fn hash_program() -> Option<String> {
     hash_file(&std::env::current_exe().ok()?).ok()
 }
 
-/// Hashes a file piece by piece: the program, hashed by every run, has a hundred megabytes where it can be debugged.
+/// Hashes a file piece by piece: the program, which every run hashes, has a hundred megabytes with debug information.
 fn hash_file(path: &Path) -> std::io::Result<String> {
     let mut hasher = blake3::Hasher::new();
     hasher.update_reader(std::fs::File::open(path)?)?;

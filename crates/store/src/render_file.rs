@@ -34,12 +34,12 @@ impl RenderFile {
         PathBuf::from(self.to_string())
     }
 
-    /// Names the picture for people of a frame or a truth, beside the file: `truth_trailing.png`.
+    /// Names the viewable picture of a frame or a truth, next to the file: `truth_trailing.png`.
     pub fn picture(self) -> String {
         self.to_string().replace(".exr", ".png")
     }
 
-    /// Parses such a path; none of any other.
+    /// Parses such a path; none for any other.
     pub fn parse(path: &Path) -> Option<Self> {
         let parts: Vec<&str> = path
             .iter()
@@ -69,7 +69,7 @@ impl RenderFile {
         (is_made && found.path() == path).then_some(found)
     }
 
-    /// Returns the index of a replicate, or the number of sub-frames of a rung; 0 of any other.
+    /// Returns the index of a replicate, or the number of sub-frames of a rung; 0 for any other.
     pub fn number(self) -> u32 {
         match self {
             Self::Frame | Self::Truth(_) => 0,
@@ -114,7 +114,7 @@ pub struct RenderPath {
 }
 
 impl RenderPath {
-    /// Parses a path such as `fan/frame.exr` or `fan/0001/truth_trailing.exr`; none of any other.
+    /// Parses a path such as `fan/frame.exr` or `fan/0001/truth_trailing.exr`; none for any other.
     pub fn parse(below: &Path) -> Option<Self> {
         let mut parts = below.iter();
         let scene = parts.next()?.to_str()?;
@@ -143,24 +143,24 @@ impl fmt::Display for RenderPath {
     }
 }
 
-/// A rendered file that is asked for.
+/// A requested rendered file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Wanted {
-    /// Where it lies.
+    /// Its path.
     pub path: RenderPath,
     /// Hash of its inputs, which its header must have.
     pub hash: String,
 }
 
 impl Wanted {
-    /// Tells whether a folder holds it, by the header of the file.
+    /// Returns whether a folder has it, by the header of the file.
     pub fn is_in(&self, folder: &Path) -> bool {
         let path = folder.join(self.path.path());
         read_attribute(&path, "content_hash").as_ref() == Some(&self.hash)
     }
 }
 
-/// Takes files that `out` lacks from another folder, as far as that holds them; returns their number.
+/// Takes files that `out` lacks from another folder that has them; returns their number.
 ///
 /// # Errors
 /// A file cannot be taken.
@@ -185,11 +185,10 @@ pub fn ladder_folder(alignment: Alignment) -> String {
     format!("ladder_{alignment}")
 }
 
-/// Depth of a file below the folder of a run: in those of the scene, of a later frame, and of a case or of replicates.
+/// Greatest depth of a file below a run's folder: in those of scene, later frame, and case or replicates.
 const DEPTH: usize = 4;
 
-/// Lists the rendered files below the folder of a run, scene by scene, and of each frame by frame. Looks nowhere else, and follows no
-/// links.
+/// Lists the rendered files below a run's folder, by scene and frame. Looks nowhere else, and follows no links.
 ///
 /// # Errors
 /// A folder cannot be read.
@@ -203,7 +202,7 @@ pub fn list_renders(root: &Path) -> Result<Vec<RenderPath>, FileError> {
     Ok(found)
 }
 
-/// Lists the files that lie as deep below the folder of a run as its own do, but for hidden ones: a killed process may have left some.
+/// Lists the files at most as deep below a run's folder as its own, except hidden ones: a killed process may have left some.
 /// Follows no links.
 ///
 /// # Errors

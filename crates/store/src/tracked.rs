@@ -7,7 +7,7 @@ use frame::FileError;
 
 use crate::Error;
 
-/// Variables that would send git to another repository than the folder's.
+/// Variables that would point git to a repository other than the folder's.
 const ELSEWHERE: [&str; 4] = [
     "GIT_DIR",
     "GIT_WORK_TREE",
@@ -15,11 +15,10 @@ const ELSEWHERE: [&str; 4] = [
     "GIT_CEILING_DIRECTORIES",
 ];
 
-/// Refuses a file that git tracks, and a folder that holds such files: what a change brings along is no evidence for it. The error ends
-/// with `way_out`, which tells the user what to do instead.
+/// Refuses a file that git tracks, and a folder with such files: a change may not bring its own evidence. The error ends with
+/// `way_out`, which says what to do instead.
 ///
-/// A folder that does not exist, or lies in no work tree, holds none, and no git is needed to know that. Where git cannot
-/// tell, the folder is refused too.
+/// A folder that does not exist or is in no work tree has none, and needs no git. Refuses the folder if git fails.
 pub fn refuse_tracked(out: &Path, way_out: &str) -> Result<(), Error> {
     if !out.exists() || !is_in_work_tree(out)? {
         return Ok(());
@@ -37,7 +36,7 @@ pub fn refuse_tracked(out: &Path, way_out: &str) -> Result<(), Error> {
         ))
     };
     let mut git = Command::new("git");
-    // A checkout may hold what looks like a repository, whose settings name programs.
+    // A checkout may contain what looks like a repository with settings that name programs.
     git.args(["--literal-pathspecs", "-c", "safe.bareRepository=explicit"])
         .args(["-c", "core.fsmonitor=false"])
         .args(["ls-files", "-z", "--cached", "--"])

@@ -9,9 +9,9 @@ use crate::paired_counts::Comparison;
 /// How often two people chose alike.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct PeopleAgreement {
-    /// Share of the pairs of answers that are alike. Choices of neither are half like any other. Coins give 1/2, and u, the coefficient
-    /// of agreement of Kendall and Babington Smith ("On the method of paired comparisons", Biometrika 31, 1940, 324-345), is twice
-    /// the share less 1 where everybody compares everything.
+    /// Share of the pairs of answers that agree; a choice of neither half agrees with any other. Random answers give 1/2. If everybody
+    /// compares everything, the coefficient of agreement u (Kendall and Babington Smith, "On the method of paired comparisons",
+    /// Biometrika 31, 1940, 324-345) is twice the share minus 1.
     pub share: f64,
     /// Number of pairs of answers: two people, one scene, the same two filters.
     pub pairs: usize,

@@ -31,13 +31,13 @@ pub struct AnswerFile {
     pub question: Question,
     /// Seed of the order of pairs and of the sides.
     pub seed: u64,
-    /// What the browser tells of the display, when the file was saved.
+    /// The display as the browser described it when the file was saved.
     pub display: DisplayFacts,
     /// Answers in the order in which they were given.
     pub answers: Vec<Answer>,
 }
 
-/// What a browser tells of a display.
+/// A display as a browser describes it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct DisplayFacts {
@@ -57,7 +57,7 @@ pub struct Answer {
     pub alignment: Alignment,
     /// Filter on the left, [`TRUTH_CLIP`] or [`SHARP_CLIP`].
     pub left: String,
-    /// Filter on the right, likewise.
+    /// Filter on the right, [`TRUTH_CLIP`] or [`SHARP_CLIP`].
     pub right: String,
     /// What was chosen.
     pub choice: Chosen,

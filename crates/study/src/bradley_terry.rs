@@ -1,9 +1,9 @@
-//! Scale of Bradley and Terry: strengths of things of which people chose one of two.
+//! Bradley-Terry scale: strengths of things from choices between two of them.
 //!
 //! A thing of strength a is chosen over one of strength b with the probability 1 / (1 + exp(b - a)) (Bradley and Terry, "Rank
-//! analysis of incomplete block designs: I", Biometrika 39, 1952, 324-345). Thurstone's case V has the normal distribution in place
-//! of the logistic one. Both rank alike and differ little in the middle; here a step of the scale is a ratio of odds, which two counts
-//! give without a table.
+//! analysis of incomplete block designs: I", Biometrika 39, 1952, 324-345). Thurstone's case V uses the normal distribution instead
+//! of the logistic one. Both rank alike and differ little in the middle; here a step of the scale is a ratio of odds, which two
+//! counts give without a table.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -11,7 +11,7 @@ use crate::paired_counts::PairedCounts;
 
 /// Upper limit on the steps of a fit; it takes about ten.
 const MAX_STEPS: usize = 200;
-/// Largest change of a strength in one step: farther away the quadratic model means nothing.
+/// Largest change of a strength in one step: the quadratic model does not hold farther away.
 const LARGEST_STEP: f64 = 2.0;
 /// Change of a strength at which the fit ends.
 const PRECISION: f64 = 1e-10;
@@ -19,13 +19,13 @@ const PRECISION: f64 = 1e-10;
 /// Fits strengths of two things or more, in natural logarithms of odds; their mean is 0. None if some things were never compared
 /// with others, not even through a third one.
 ///
-/// Strengths have the penalty of Jeffreys' prior (Firth, "Bias reduction of maximum likelihood estimates", Biometrika 80, 1993, 27-38):
-/// they are always finite, and less biased than the most likely ones. For two things it adds half a choice to either count.
+/// The penalty of Jeffreys' prior (Firth, "Bias reduction of maximum likelihood estimates", Biometrika 80, 1993, 27-38) keeps
+/// strengths finite, and less biased than the most likely ones. For two things it adds half a choice to each count.
 pub fn fit_strengths(counts: &PairedCounts) -> Option<Vec<f64>> {
     fit_penalized(counts, 1.0)
 }
 
-/// Fits strengths with a part of the penalty. Without any they are the most likely ones: infinite if no thing of one group was ever
+/// Fits strengths with a part of the penalty. Without it they are the most likely ones: infinite if no thing of one group was ever
 /// chosen over one of another.
 fn fit_penalized(counts: &PairedCounts, penalty: f64) -> Option<Vec<f64>> {
     if counts.connected().len() > 1 {
@@ -96,7 +96,7 @@ fn slopes(
 mod tests {
     use super::*;
 
-    /// Counts how often the thing of a row was chosen over that of a column.
+    /// Counts how often the row's thing was chosen over the column's.
     fn counts<const N: usize>(wins: [[u32; N]; N]) -> PairedCounts {
         let wins = DMatrix::from_fn(N, N, |one, other| f64::from(wins[one][other]));
         PairedCounts { wins }

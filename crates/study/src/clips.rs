@@ -32,12 +32,12 @@ struct Item {
     frames: Vec<SequenceFrame>,
 }
 
-/// Makes the study of a run whose pictures lie below `folder`; returns it with the files of each clip: scene by scene the
+/// Makes the study of a run with pictures below `folder`; returns it with the files of each clip: scene by scene the
 /// sharp frames, then per shutter the truth and the filters.
 ///
 /// # Errors
-/// A pattern fits nothing, the filters of a shutter are too few or lack a scene, a picture is missing or has another size, or the truth is
-/// asked for and nothing moves.
+/// A pattern matches nothing, the filters of a shutter are too few or lack a scene, a picture is missing or has another size, or the
+/// question is about the truth and nothing moves.
 pub fn make_study(
     run: &Run,
     folder: &Path,
@@ -98,7 +98,7 @@ pub fn make_study(
 
 fn sharp_frames(items: &[Item], scene: &SceneId, folder: &Path) -> ClipFiles {
     let own = items.iter().find(|item| item.scene == *scene);
-    let frames = &own.expect("it is that of an item").frames;
+    let frames = &own.expect("the scene is an item's").frames;
     list_files(frames, |own| folder.join(&own.scene).join("frame.png"))
 }
 
@@ -153,7 +153,7 @@ fn choose_items(run: &Run, choice: &StudyChoice) -> Result<Vec<Item>, Error> {
     Ok(all.into_iter().filter(is_chosen).collect())
 }
 
-/// Tells whether a pattern fits a name, or a filter's name without its preset.
+/// Returns whether a pattern fits a name, or a filter's name without its preset.
 fn matches(pattern: &Pattern, name: &str) -> bool {
     let own = name.split(':').next().unwrap_or(name);
     pattern.matches(name) || pattern.matches(own)
@@ -187,7 +187,7 @@ fn list_items(run: &Run) -> Vec<Item> {
     .collect()
 }
 
-/// Finds the pictures of a filter on a scene: every filter has a clip of every scene, or the scale would be of other scenes for some.
+/// Finds the pictures of a filter on a scene. Every filter needs a clip of every scene, or scales would cover different scenes.
 fn find_item<'a>(items: &[&'a Item], scene: &SceneId, filter: &str) -> Result<&'a Item, Error> {
     let found = (items.iter()).find(|item| item.scene == *scene && item.filter == filter);
     found.copied().ok_or_else(|| {
@@ -207,7 +207,7 @@ fn hash_pictures(study: &Study, clips: &[Vec<ClipFiles>]) -> Result<String, Erro
     Ok(hasher.finalize().to_hex().to_string())
 }
 
-/// Finds the scenes on which truth and sharp frame differ by half as much as where they differ most, or by more.
+/// Finds the scenes on which truth and sharp frame differ by at least half the largest such difference.
 fn find_blurred_scenes(study: &mut Study, clips: &[Vec<ClipFiles>]) -> Result<(), Error> {
     let size = (study.width, study.height);
     for (shutter, truth) in study.truth_clips().into_iter().enumerate() {

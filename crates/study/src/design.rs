@@ -39,10 +39,10 @@ pub struct ShownPair {
 /// Draws the trials of a session from its seed.
 ///
 /// The filters of a shutter form a circle in random order, one circle per scene. A round compares each filter with the one at a
-/// certain distance, so that each takes part equally often; a round of distance 1 connects them all (David, "The structure of cyclic
-/// paired-comparison designs", Journal of the Australian Mathematical Society 3, 1963, 117-127). Rounds of all distances are all
-/// pairs. A session holds as many rounds as its limit allows, near distances first, scenes in random order. Checks come on top: the
-/// same clip twice; and if the question is about the truth, the truth and the sharp frame.
+/// certain distance, so that each is shown equally often; a round of distance 1 connects them all (David, "The structure of cyclic
+/// paired-comparison designs", Journal of the Australian Mathematical Society 3, 1963, 117-127). Rounds of all distances cover all
+/// pairs. A session has as many rounds as its limit allows, near distances first, scenes in random order. Checks are added to these:
+/// the same clip twice; and if the question is about the truth, the truth and the sharp frame.
 pub fn draw_session(study: &Study, question: Question, seed: u64) -> Vec<ShownPair> {
     let mut random = Random(seed);
     let mut circles: Vec<Vec<Vec<usize>>> = Vec::new();
@@ -77,12 +77,12 @@ pub fn draw_session(study: &Study, question: Question, seed: u64) -> Vec<ShownPa
 }
 
 impl ShownPair {
-    /// Tells whether the trial is a check, which has a right answer.
+    /// Returns whether the trial is a check, which has a right answer.
     pub fn is_check(&self) -> bool {
         self.left == self.right || [self.left, self.right].contains(&Clip::Truth)
     }
 
-    /// Makes the comparison that a choice is; none of a check.
+    /// Converts a choice to a comparison; none for a check.
     pub(crate) fn comparison(&self, choice: Chosen) -> Option<Comparison> {
         let (Clip::Filter(left), Clip::Filter(right)) = (self.left, self.right) else {
             return None;
@@ -100,7 +100,7 @@ impl ShownPair {
     }
 }
 
-/// Draws the rounds of a session: distance, scene and shutter. Every shutter has one at least.
+/// Draws the rounds of a session: distance, scene and shutter. Every shutter has at least one.
 fn draw_rounds(study: &Study, random: &mut Random) -> Vec<[usize; 3]> {
     let counts: Vec<usize> = study.shutters.iter().map(|own| own.filters.len()).collect();
     let farthest = counts.iter().max().map_or(0, |count| count / 2);
@@ -122,7 +122,7 @@ fn draw_rounds(study: &Study, random: &mut Random) -> Vec<[usize; 3]> {
     rounds
 }
 
-/// Draws a check. Whether the truth looks better than the sharp frame is a matter of taste: no check asks for that.
+/// Draws a check. Whether the truth looks better than the sharp frame is a matter of taste, so no check asks for that.
 fn draw_check(study: &Study, question: Question, index: usize, random: &mut Random) -> ShownPair {
     let shutter = random.below(study.shutters.len());
     let own = &study.shutters[shutter];
@@ -186,7 +186,7 @@ mod tests {
         }
     }
 
-    /// Lists what a shutter's pairs compare, whatever the side.
+    /// Lists the comparisons of a shutter, ignoring sides.
     fn comparisons(trials: &[ShownPair], shutter: usize) -> Vec<Comparison> {
         let own = trials.iter().filter(|own| own.shutter == shutter);
         own.filter_map(|own| own.comparison(Chosen::Left)).collect()
@@ -212,8 +212,7 @@ mod tests {
     fn a_short_session_shows_every_filter_equally_often_and_connects_all() {
         let mut firsts_on_the_left = Vec::new();
         for seed in 0..50 {
-            // 3 rounds of both, one more of both, and one more of the first. The next one has 2 pairs: a limit that is 1 higher lets
-            // it in.
+            // 3 rounds of both, one more of both, and one more of the first. The next one has 2 pairs: a limit 1 higher admits it.
             for (limit, pairs) in [(60, 3 * (9 + 4) + (9 + 2) + 9), (61, 61)] {
                 let trials = draw_session(&study(&[9, 4], 3, limit), Question::Better, seed);
                 let [one, other] = [0, 1].map(|shutter| comparisons(&trials, shutter));

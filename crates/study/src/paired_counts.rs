@@ -18,12 +18,12 @@ pub struct Comparison {
 /// How often each of several things was chosen over each other one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PairedCounts {
-    /// How often the thing of a row was chosen over that of a column. Halves are choices of neither.
+    /// How often the row's thing was chosen over the column's. A choice of neither counts half for both.
     pub wins: DMatrix<f64>,
 }
 
 impl PairedCounts {
-    /// Counts the comparisons of so many things.
+    /// Counts the comparisons of `items` things.
     pub fn new<'a>(items: usize, comparisons: impl IntoIterator<Item = &'a Comparison>) -> Self {
         let mut wins = DMatrix::zeros(items, items);
         for own in comparisons {
@@ -55,12 +55,12 @@ impl PairedCounts {
     }
 
     /// Groups things that beat one another, directly or through others. With more than one group the most likely scale is
-    /// infinite: no thing of one of them was ever chosen over a thing of another (Ford 1957).
+    /// infinite: no thing of one group ever beat one of another (Ford 1957).
     pub fn tied(&self) -> Vec<Vec<usize>> {
         self.groups(|one, other| self.wins[(one, other)] > 0.0)
     }
 
-    /// Groups things that a relation leads from one to the other and back, directly or through others.
+    /// Groups things that a relation connects in both directions, directly or through others.
     fn groups(&self, leads: impl Fn(usize, usize) -> bool) -> Vec<Vec<usize>> {
         let all = 0..self.items();
         let mut reaches = DMatrix::from_fn(all.len(), all.len(), leads);

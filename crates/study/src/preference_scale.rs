@@ -6,14 +6,14 @@ use suite::{Random, TWO_SIDED};
 use crate::bradley_terry::fit_strengths;
 use crate::paired_counts::{Comparison, PairedCounts};
 
-/// Fewer people than this are no sample of people: their answers are drawn again in place of them.
+/// Fewest people to resample; with fewer, their answers are resampled instead.
 pub const MIN_PEOPLE: usize = 5;
 /// Number of resamples.
 pub const RESAMPLES: usize = 1000;
-/// Part of the resamples that may lack a scale before there are no intervals.
+/// Largest part of the resamples that may lack a scale; beyond it there are no intervals.
 const MAX_BROKEN: f64 = 0.05;
 
-/// What resamples draw.
+/// Unit of resampling.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Resampled {
@@ -28,7 +28,7 @@ pub enum Resampled {
 pub struct PreferenceScale {
     /// Natural logarithms of odds; their mean is 0.
     pub strengths: Vec<f64>,
-    /// 95 % confidence intervals; none where there are too few answers: more than one resample in twenty compares too little.
+    /// 95 % confidence intervals; none if there are too few answers: more than one resample in twenty lacks a scale.
     pub intervals: Option<Vec<[f64; 2]>>,
     /// What was resampled.
     pub resampled: Resampled,
@@ -40,7 +40,7 @@ pub struct PreferenceScale {
 ///
 /// The interval of a strength is its value plus and minus the bootstrap's standard error times Student's t. The error of n resampled
 /// people is too small by the root of (n - 1) / n (Efron and Tibshirani, "An introduction to the bootstrap", 1993, section 5.3),
-/// which is taken back, and t has n - 1 degrees of freedom. None if the comparisons do not connect all things.
+/// which is corrected; t has n - 1 degrees of freedom. None if the comparisons do not connect all things.
 pub fn scale_preferences(
     people: &[Vec<Comparison>],
     items: usize,
@@ -114,7 +114,7 @@ mod tests {
         (0..12).map(|_| uniform(random)).sum::<f64>() - 6.0
     }
 
-    /// Simulates people who judge every pair so many times. Strengths of one person deviate from the known ones by `spread`.
+    /// Simulates people who judge every pair `times` times. One person's strengths deviate from the known ones by `spread`.
     fn simulate(
         random: &mut Random,
         people: usize,
@@ -140,7 +140,7 @@ mod tests {
         (0..people).map(|_| person()).collect()
     }
 
-    /// Returns the share of intervals that hold the strengths that very many such people have.
+    /// Returns the share of intervals that contain the strengths of very many such people.
     fn coverage(people: usize, times: usize, spread: f64, studies: usize) -> f64 {
         let mut random = Random(7);
         let expected = match spread {
@@ -164,7 +164,7 @@ mod tests {
 
     #[test]
     fn intervals_are_the_scatter_of_resamples_times_student_s_t() {
-        // The 97.5th percentile of Student's t with 4 degrees of freedom, and with the 29 of 30 answers.
+        // The 97.5th percentile of Student's t with 4 degrees of freedom, and with 29 for the 30 answers.
         for (people, factor) in [
             (5, 2.776_445 * f64::sqrt(5.0 / 4.0)),
             (1, 2.045_230 * f64::sqrt(30.0 / 29.0)),
@@ -187,7 +187,7 @@ mod tests {
     #[test]
     fn about_95_of_100_intervals_of_people_hold_the_known_strengths() {
         let found = coverage(5, 2, 0.7, 75);
-        // Over 300 studies it is 0.963; a standard error of 75 is at most 0.022. Resamples that do not scatter as people do hold much
+        // 300 studies gave 0.963; the standard error of 75 is at most 0.022. Resamples that do not scatter as people do give much
         // less.
         assert!(found >= 0.92, "{found}");
     }
@@ -198,7 +198,7 @@ mod tests {
         // Measured 0.955, 0.963, 0.964 and 0.959.
         for (people, times, spread) in [(1, 3, 0.0), (5, 2, 0.7), (10, 1, 0.0), (20, 2, 0.7)] {
             let found = coverage(people, times, spread, 300);
-            // A standard error of 300 studies is at most 0.013.
+            // The standard error of 300 studies is at most 0.013.
             assert!((0.925..=0.985).contains(&found), "{people} people: {found}");
         }
     }
@@ -215,7 +215,7 @@ mod tests {
         let found = scale_preferences(&[vec![comparison]], 2, 100).unwrap();
         assert_eq!(found.intervals, None);
         assert_eq!(found.resampled, Resampled::Answers);
-        // Three things of which two were compared by one person alone: some resamples lack that person.
+        // Only one person compared two of the three things: some resamples lack that person.
         let mut people = vec![vec![comparison]; 9];
         people.push(vec![compare(1, 2)]);
         let found = scale_preferences(&people, 3, 100).unwrap();

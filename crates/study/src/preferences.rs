@@ -43,7 +43,7 @@ pub struct QuestionResult {
     pub scales: Vec<ShutterScale>,
 }
 
-/// What is known about a session.
+/// Facts about a session.
 #[derive(Clone, Debug, Serialize)]
 pub struct SessionFacts {
     /// File that it was read from.
@@ -71,12 +71,12 @@ pub struct ShutterScale {
     pub resampled: Resampled,
     /// Filters, the most preferred first.
     pub filters: Vec<FilterStrength>,
-    /// Groups of filters of which no filter was ever chosen over one of another group, where there is more than one: the distance between
-    /// them is what the prior allows.
+    /// Groups of filters between which all choices went one way, if there is more than one group: only the prior limits the distance
+    /// between them.
     pub separated: Vec<Vec<String>>,
-    /// Agreement between people; none where no two compared the same clips.
+    /// Agreement between people; none if no two compared the same clips.
     pub agreement: Option<PeopleAgreement>,
-    /// Scores of the run compared with the scale; empty where no run was given.
+    /// Scores of the run compared with the scale; empty without a run.
     pub scores: Vec<ScoreAgreement>,
 }
 
@@ -85,9 +85,9 @@ pub struct ShutterScale {
 pub struct FilterStrength {
     /// Name of the filter.
     pub filter: String,
-    /// Place; the mean of all filters is 0. A filter that is 1 higher is chosen by 73 of 100 people.
+    /// Place; the mean of all filters is 0. A filter that is 1 higher is chosen by 75 of 100 people.
     pub scale: f64,
-    /// 95 % confidence interval; none where there are too few answers.
+    /// 95 % confidence interval; none if there are too few answers.
     pub interval: Option<[f64; 2]>,
     /// Probability that it is chosen over a filter at 0.
     pub chosen_over_mean: f64,

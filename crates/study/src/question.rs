@@ -5,9 +5,9 @@ use suite::named;
 named! {
     /// A question about two clips.
     pub enum Question {
-        /// Which of both looks more like the truth, which is shown above them.
+        /// Which of the two looks more like the truth shown above them.
         Truth = "truth",
-        /// Which of both looks better; no truth is shown.
+        /// Which of the two looks better; no truth is shown.
         Better = "better",
     }
 }

@@ -11,7 +11,7 @@ pub fn rank_correlation(one: &[f64], other: &[f64]) -> Option<f64> {
     (scale > 0.0).then(|| one.dot(&other) / scale)
 }
 
-/// Ranks numbers from the least on; the mean of all ranks is 0.
+/// Ranks numbers from the least up; the mean rank is 0.
 fn centered_ranks(values: &[f64]) -> DVector<f64> {
     let rank = |own: &f64| {
         let below = values.iter().filter(|value| *value < own).count();

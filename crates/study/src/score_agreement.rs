@@ -11,7 +11,7 @@ use crate::preference_scale::{MIN_PEOPLE, PreferenceScale};
 use crate::rank_correlation::rank_correlation;
 use crate::study::Study;
 
-/// Scores of single pictures that are compared with people. Of a sequence they are those of the first frame.
+/// Scores of single pictures that are compared with people; for a sequence, scores of its first frame.
 const OF_PICTURES: [Metric; 6] = [
     Metric::FLIP,
     Metric::PSNR,
@@ -20,7 +20,7 @@ const OF_PICTURES: [Metric; 6] = [
     Metric::Bleed,
     Metric::LABEL,
 ];
-/// Fewer filters than this have no order to speak of.
+/// Fewest filters that can be ranked.
 const MIN_RANKED: usize = 3;
 
 /// How well one score predicts people.
@@ -29,7 +29,7 @@ pub struct ScoreAgreement {
     /// Score.
     pub score: Metric,
     /// Rank correlation of its mean over the scenes with the scale: 1 if people rank the filters as the score does. None with fewer than
-    /// three filters, or where the score does not apply.
+    /// three filters, or if the score does not apply.
     pub correlation: Option<f64>,
     /// 2.5th and 97.5th percentile of the correlation over the resamples. It does not cover the choice of filters and scenes.
     pub correlation_interval: Option<[f64; 2]>,
@@ -44,7 +44,7 @@ pub struct ScoreAgreement {
 /// A score of every filter of one shutter.
 struct ScoreTable {
     score: Metric,
-    /// How bad each filter is, scene by scene; none where the score does not apply.
+    /// How bad each filter is, scene by scene; none if the score does not apply.
     badness: Vec<Vec<Option<f64>>>,
 }
 
@@ -86,7 +86,7 @@ fn compare_score(
     }
 }
 
-/// Means over the scenes on which the score applies to every filter, and more is better.
+/// Averages a score over the scenes on which it applies to every filter; more is better.
 fn mean_goodness(table: &ScoreTable) -> Option<Vec<f64>> {
     let scenes: Vec<Vec<f64>> = (table.badness.iter())
         .filter_map(|scene| scene.iter().copied().collect())
@@ -97,7 +97,7 @@ fn mean_goodness(table: &ScoreTable) -> Option<Vec<f64>> {
     Some((0..filters).map(mean).collect())
 }
 
-/// The share of a person's choices that a score predicts, weighted by their number.
+/// Returns the share of a person's choices that a score predicts, weighted by their number.
 fn predicted(table: &ScoreTable, choices: &[Comparison]) -> Option<Weighted> {
     let (mut agreed, mut count) = (0.0, 0.0);
     for own in choices {
@@ -117,7 +117,7 @@ fn predicted(table: &ScoreTable, choices: &[Comparison]) -> Option<Weighted> {
     })
 }
 
-/// Returns the 2.5th and the 97.5th percentile; none of fewer than 40 values.
+/// Returns the 2.5th and the 97.5th percentile; none for fewer than 40 values.
 fn percentiles(mut values: Vec<f64>) -> Option<[f64; 2]> {
     if values.len() < 40 {
         return None;

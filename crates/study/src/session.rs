@@ -35,8 +35,8 @@ pub struct Session {
 /// Reads sessions of one study; returns them with it.
 ///
 /// # Errors
-/// A file is none of answers, of another format or of another study, shows pairs that its seed does not draw, or repeats the seed of
-/// another one.
+/// A file holds no answers, has another format or another study, shows pairs that its seed does not draw, or repeats another one's
+/// seed.
 pub fn read_sessions(paths: &[PathBuf]) -> Result<(Study, Vec<Session>), Error> {
     if !(1..=MAX_SESSIONS).contains(&paths.len()) {
         return Err(Error::Usage(format!(
@@ -83,7 +83,7 @@ impl Session {
             .collect()
     }
 
-    /// Counts the checks that were answered, and those that were answered wrongly.
+    /// Counts the checks that were answered, and the wrong answers among them.
     pub fn checks(&self) -> [usize; 2] {
         let answers = self.answers.iter();
         let right: Vec<bool> = answers
@@ -94,7 +94,7 @@ impl Session {
     }
 }
 
-/// Tells whether a check was answered correctly; none for a pair that is no check.
+/// Returns whether a check was answered correctly; none for other pairs.
 fn is_right(trial: &ShownPair, choice: Chosen) -> Option<bool> {
     let right = match (trial.left, trial.right) {
         (Clip::Truth, _) => Chosen::Left,
@@ -129,7 +129,7 @@ fn parse(text: &str) -> Result<AnswerFile, String> {
     }
 }
 
-/// Holds the answers to the design of their seed.
+/// Matches answers with the design that their seed draws.
 fn match_design(file: &AnswerFile) -> Result<Vec<(ShownPair, Chosen)>, String> {
     let trials = draw_session(&file.study, file.question, file.seed);
     if file.answers.is_empty() || file.answers.len() > trials.len() {
@@ -182,7 +182,7 @@ fn shown(study: &Study, trial: &ShownPair) -> [String; 4] {
     [scene, alignment, name(trial.left), name(trial.right)]
 }
 
-/// Names what differs between two studies.
+/// Names the difference between two studies.
 fn describe_difference(one: &Study, other: &Study) -> String {
     let [one, other] = [one, other].map(|own| {
         let shutters = || own.shutters.iter();
@@ -204,7 +204,7 @@ fn describe_difference(one: &Study, other: &Study) -> String {
     format!("the {what} differ")
 }
 
-/// Refuses a run that is not the one that the study shows: its truths or its pictures differ.
+/// Refuses a run other than the study's: its truths or its pictures differ.
 pub fn refuse_other_run(study: &Study, of_run: &Study, run: &Path) -> Result<(), Error> {
     // The number of pairs in a session does not depend on the run.
     let same = Study {

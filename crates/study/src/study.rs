@@ -1,4 +1,4 @@
-//! A study: which pictures of a run people compare.
+//! A study: the pictures of a run that people compare.
 
 use std::collections::HashSet;
 use std::fmt::Display;
@@ -13,7 +13,7 @@ use tracer::SceneId;
 pub const MAX_ASKED_FILTERS: usize = 64;
 /// Upper limit on the scenes that people see.
 pub const MAX_ASKED_SCENES: usize = 256;
-/// Time that a question takes, in seconds: a guess, for nobody has answered yet.
+/// Time per question, in seconds: a guess, made before anybody answered.
 pub const SECONDS_PER_QUESTION: f64 = 8.0;
 
 /// The pictures that people compare, and their identity. Equal studies ask about equal pictures.
@@ -24,13 +24,13 @@ pub struct Study {
     pub width: u32,
     /// Height of the pictures in pixels.
     pub height: u32,
-    /// Frames of each clip, and how fast they play; of one frame the clip is a picture.
+    /// Frames of each clip, and how fast they play; a clip of one frame is a picture.
     pub frames: Frames,
     /// Scenes, each with clips of every filter.
     pub scenes: Vec<SceneId>,
     /// Shutters, whose filters are compared with one another.
     pub shutters: Vec<StudyShutter>,
-    /// Largest number of pairs in a session; checks come on top.
+    /// Largest number of pairs in a session, checks not counted.
     pub most_pairs: usize,
     /// BLAKE3 hash of all pictures.
     pub pictures: String,
@@ -44,7 +44,7 @@ pub struct StudyShutter {
     pub alignment: Alignment,
     /// Names of the filters, as run.json has them: `jump_flood:paper`.
     pub filters: Vec<String>,
-    /// Hashes of the truths' inputs: per scene those of its frames.
+    /// Hashes of the truths' inputs, per scene and frame.
     pub truth_hashes: Vec<Vec<String>>,
     /// Numbers of the scenes where the truth clearly differs from the sharp frame.
     #[serde(rename = "telling_scenes")]
@@ -71,7 +71,7 @@ impl Study {
         filters.map(|count| round_size(count, 1)).sum()
     }
 
-    /// Refuses what no study is; the error says what is wrong and what is allowed.
+    /// Refuses an invalid study; the error says what is wrong and what is allowed.
     pub fn check(&self) -> Result<(), String> {
         if !(1..=MAX_ASKED_SCENES).contains(&self.scenes.len()) {
             return Err(format!(

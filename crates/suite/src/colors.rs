@@ -2,7 +2,7 @@
 
 use frame::{Frame, Image, Plane};
 
-/// Shows an error in [0, 1] in the colours of magma: black is none.
+/// Shows an error in [0, 1] in the colours of magma; no error is black.
 pub fn magma(error: &Plane) -> Image {
     error.map(|value| {
         let color = colorous::MAGMA.eval_continuous(f64::from(value.clamp(0.0, 1.0)));
@@ -10,7 +10,7 @@ pub fn magma(error: &Plane) -> Image {
     })
 }
 
-/// Shows direction as hue and speed as brightness, which is full at the frame's fastest pixel. Still pixels are black.
+/// Shows direction as hue and speed as brightness, full at the frame's fastest pixel. Still pixels are black.
 pub fn velocity_wheel(frame: &Frame) -> Image {
     let speed = |v: &[f32; 2]| v[0].hypot(v[1]);
     let fastest = frame.velocity.pixels.iter().map(speed).fold(1e-6, f32::max);

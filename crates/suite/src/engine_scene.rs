@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use filters::Filter;
 use frame::{Alignment, FileError, Frame, Ladder, Picture, Provenance, Truth, read_exr};
 use serde::{Deserialize, Serialize};
 use store::{RenderFile, read_text};
@@ -9,7 +10,7 @@ use tracer::SceneId;
 
 use crate::Error;
 
-/// Name of the file that makes a folder an ingested one.
+/// Name of the file that marks a folder as ingested.
 pub const INGESTED_FILE: &str = "ingested.json";
 /// Name of the engine's own blurred picture in that folder.
 pub const BLURRED: &str = "blurred.exr";
@@ -38,14 +39,17 @@ pub struct EngineScene {
     pub exposure: f64,
     /// Alignment of the shutter.
     pub alignment: Alignment,
-    /// Number of sub-frames that the truth is the mean of; 0 where there is no truth.
+    /// Number of sub-frames in the truth's mean; 0 without a truth.
     pub subframes: u32,
-    /// Distance that 99 % of the moving pixels move at most between two sub-frames, in pixels.
+    /// 99th percentile of the moving pixels' motion between two sub-frames, in pixels.
     pub step: f64,
-    /// Counts of sub-frames of the ladder that errors are compared with.
+    /// Numbers of sub-frames in the ladder that errors are compared with.
     pub ladder: Vec<u32>,
     /// True if the folder has the engine's own blurred picture.
     pub has_picture: bool,
+    /// Inputs of the frame that few filters read: `velocity_next`, `velocity_z`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub further_inputs: Vec<String>,
     /// Hash of the capture.
     pub hash: String,
     /// The folder.
@@ -54,12 +58,12 @@ pub struct EngineScene {
 }
 
 impl EngineScene {
-    /// Tells whether a folder is one that `ingest` wrote.
+    /// Returns whether `ingest` wrote a folder.
     pub fn is_in(folder: &Path) -> bool {
         folder.join(INGESTED_FILE).is_file()
     }
 
-    /// Reads what `ingest` wrote into a folder.
+    /// Reads a folder that `ingest` wrote.
     pub fn read(folder: &Path) -> Result<Self, Error> {
         let path = folder.join(INGESTED_FILE);
         let reason = match serde_json::from_str::<Self>(&read_text(&path)?) {
@@ -82,17 +86,27 @@ impl EngineScene {
         )))
     }
 
+    /// Finds what a filter reads and the frame lacks.
+    pub fn find_lacking(&self, filter: &Filter) -> Option<&'static str> {
+        let is_there = |name: &&str| self.further_inputs.iter().any(|own| own == name);
+        let mut further = filter.further_inputs().into_iter();
+        match filter.reads_camera() {
+            true => Some("the camera"),
+            false => further.find(|name| !is_there(name)),
+        }
+    }
+
     /// Returns the content hash of the truth.
     pub(crate) fn truth_hash(&self) -> String {
         frame::truth_hash(&self.hash, HALVES)
     }
 
-    /// Names the engine in one word, as filters are named: `three.js_0.187.0`.
+    /// Names the engine in one word, like filters: `three.js_0.187.0`.
     pub fn filter_name(&self) -> &str {
         self.id.variant.as_deref().unwrap_or_default()
     }
 
-    /// Says what the pictures are.
+    /// Describes the pictures.
     pub fn exposes(&self) -> String {
         match &self.scene {
             Some(scene) => format!("what {} draws of {scene}", engine_name(&self.engine)),
@@ -100,7 +114,7 @@ impl EngineScene {
         }
     }
 
-    /// Refuses a folder without a truth, which pictures cannot be measured against.
+    /// Refuses a folder without a truth, since pictures cannot be measured without one.
     pub fn check_truth(&self) -> Result<(), Error> {
         match self.subframes {
             0 => Err(Error::Usage(format!(
@@ -136,7 +150,7 @@ impl EngineScene {
         Ok(frame)
     }
 
-    /// Reads the truth, and copies its file with that of its ladder into a scene's folder of a run.
+    /// Reads the truth, and copies its file and its ladder's into a scene's folder of a run.
     pub(crate) fn copy_truth(&self, folder: &Path) -> Result<Truth, Error> {
         for rung in &self.ladder {
             self.copy(RenderFile::Rung(self.alignment, *rung), folder)?;
@@ -147,7 +161,7 @@ impl EngineScene {
         Ok(truth)
     }
 
-    /// Refuses a file that is not the one that was ingested.
+    /// Refuses a file that changed since it was ingested.
     fn check_file(
         &self,
         file: RenderFile,
@@ -170,7 +184,7 @@ impl EngineScene {
         Ok(Ladder::read_rung(&folder.join(file.path()), subframes)?)
     }
 
-    /// Reads the engine's own blurred picture; the mattes are those of the frame.
+    /// Reads the engine's own blurred picture, with the frame's mattes.
     pub(crate) fn read_picture(&self, frame: &Frame) -> Result<Picture, Error> {
         let file = read_exr(&self.folder.join(BLURRED))?;
         file.expect_kind("output")?;
@@ -191,12 +205,12 @@ impl EngineScene {
     }
 }
 
-/// Shortens the name of an engine: what stands behind it in brackets is left out, such as its driver.
+/// Shortens an engine's name: removes what follows in brackets, such as its driver.
 pub fn engine_name(engine: &str) -> &str {
     engine.split(" (").next().unwrap_or(engine).trim()
 }
 
-/// Makes one word of a text, which a folder, a table and an address can have: `three.js 0.187.0` becomes `three.js_0.187.0`.
+/// Makes one word of a text for folders, tables and addresses: `three.js 0.187.0` becomes `three.js_0.187.0`.
 pub fn name_in_one_word(text: &str) -> String {
     let letters = text.trim().chars().map(|letter| {
         let is_kept = letter.is_ascii_alphanumeric() || "._-+".contains(letter);
@@ -205,8 +219,7 @@ pub fn name_in_one_word(text: &str) -> String {
     letters.collect()
 }
 
-/// Tells whether a text can be the name of an engine's scene: the folder of the scene has this name, and the folder of the engine's picture
-/// in it that of the engine.
+/// Returns whether a text can be the name of an engine's scene: it names the scene's folder, and its engine names the picture's subfolder.
 fn is_engine_scene(id: &SceneId) -> bool {
     let is_word = |word: &str| !word.is_empty() && name_in_one_word(word) == word;
     let is_engine = |engine: &String| is_word(engine) && !engine.starts_with('.');

@@ -21,10 +21,10 @@ pub enum Error {
     /// Replicates that make no truth.
     #[error(transparent)]
     Truth(#[from] frame::TruthError),
-    /// A truth that has more noise than was asked for; its files are written all the same.
+    /// A truth with more noise than requested; its files are written all the same.
     #[error("{0}")]
     TooNoisy(String),
-    /// Required bounds are broken, scores are worse than the baseline's, or cases failed; the report says which.
+    /// Required bounds are broken, scores are worse than the baseline's, or cases failed; the report lists them.
     #[error("{0}")]
     Broken(String),
     /// The truth is too noisy to decide whether required bounds are met.
@@ -46,7 +46,7 @@ impl From<store::Error> for Error {
 }
 
 impl Error {
-    /// Tells whether the caller interrupted the work.
+    /// Returns whether the caller interrupted the work.
     pub fn is_interruption(&self) -> bool {
         matches!(
             self,

@@ -9,18 +9,18 @@ use filters::{Filter, FilterError, Settings, Value};
 pub struct FilterChoice {
     /// The filter.
     pub filter: Filter,
-    /// The preset that the parameters started from.
+    /// Preset that the parameters started from.
     pub preset: String,
     /// The parameters.
     pub settings: Settings,
-    /// Parameters that were set to a value of their own, in place of the preset's.
+    /// Parameters with values that replace the preset's.
     pub overrides: BTreeMap<String, Value>,
-    /// True if values in pixels stay as the preset has them, whatever the picture's width.
+    /// True if values in pixels stay as in the preset, whatever the picture's width.
     pub as_written: bool,
 }
 
 impl FilterChoice {
-    /// Takes the parameters of a preset, as the filter has them.
+    /// Takes the filter's parameters from a preset.
     pub fn new(filter: Filter, preset: &str) -> Result<Self, FilterError> {
         Ok(Self {
             settings: filter.settings(Some(preset))?,
@@ -31,7 +31,7 @@ impl FilterChoice {
         })
     }
 
-    /// Sets a parameter to a value of its own, which the name shows.
+    /// Sets a parameter to a new value, which then appears in the name.
     pub fn set(&mut self, parameter: &str, text: &str) -> Result<(), FilterError> {
         self.settings.set(&self.filter, parameter, text)?;
         let value = self.settings.values[parameter].clone();
@@ -44,7 +44,7 @@ impl FilterChoice {
         format!("{}:{}", self.filter.name, self.preset) + &overrides_text(&self.overrides)
     }
 
-    /// Keeps values in pixels as the presets have them, if that is asked for.
+    /// Keeps values in pixels as in the presets, if `asked`.
     pub fn as_written(mut self, asked: bool) -> Self {
         if asked {
             self.settings = self.settings.as_written();
@@ -53,7 +53,7 @@ impl FilterChoice {
         self
     }
 
-    /// Scales values in pixels to pictures `width` pixels wide, guard band left out.
+    /// Scales values in pixels to pictures `width` pixels wide, without the guard band.
     pub fn scaled_to(&self, width: u32) -> Self {
         Self {
             settings: self.settings.scaled_to(&self.filter, width),
@@ -71,7 +71,7 @@ impl FilterChoice {
     }
 }
 
-/// Lists parameters with values of their own as names show them: ` samples=8 spread=0.5`.
+/// Formats changed parameters for a name: ` samples=8 spread=0.5`.
 pub(crate) fn overrides_text(overrides: &BTreeMap<String, Value>) -> String {
     let texts = overrides
         .iter()

@@ -1,5 +1,5 @@
-//! Rendering and measuring of filters over scenes, with their inputs as engines have them. Nothing here prints: results are data, progress
-//! goes to a [`Monitor`].
+//! Rendering and measuring of filters over scenes, with inputs as in engines. Nothing here prints: results are data, and progress goes to a
+//! [`Monitor`].
 
 mod bench;
 mod colors;
@@ -84,5 +84,5 @@ pub use verify::scene::{Verified, verify_scene};
 pub use verify::scene_renders::{SceneRenders, list_scene_renders};
 pub use verify::tiles::{TILE_SIDE, Verification};
 
-/// Program name and version, as files and runs record it.
+/// Program name and version, as recorded in files and runs.
 pub const PROGRAM: &str = concat!("shuttertruth ", env!("CARGO_PKG_VERSION"));

@@ -1,21 +1,21 @@
-//! Monitor of long work, through which a caller shows progress and interrupts.
+//! Monitor of long work: a caller's progress display and interruption.
 
 use std::ops::ControlFlow;
 
 use tracer::{Progress, Watch};
 
-/// A step of long work that is under way. It ends when this is dropped.
+/// A running step of long work. It ends when this is dropped.
 pub trait Step: Sync {
     /// Notes how far the step is; called from any thread.
     fn advance(&self, progress: Progress);
 }
 
-/// A caller's way to show and to interrupt long work.
+/// A caller's way to show and interrupt long work.
 #[derive(Clone, Copy)]
 pub struct Monitor {
-    /// Begins to show a step by this label; steps may lie within others.
+    /// Begins to show a step by this label; steps may be nested.
     pub begin: fn(&str) -> Box<dyn Step>,
-    /// Returns true if the work is to end.
+    /// Returns true if the work must end.
     pub interrupted: fn() -> bool,
 }
 
@@ -34,7 +34,7 @@ impl Monitor {
         }
     }
 
-    /// Does a step of long work, shows its progress by a label, and tells it to stop where the caller interrupts.
+    /// Does a step of long work, shows its progress under a label, and tells it to stop if the caller interrupts.
     pub fn watch<T>(&self, label: &str, work: impl FnOnce(Watch) -> T) -> T {
         let step = (self.begin)(label);
         work(&|progress| {

@@ -1,7 +1,6 @@
-//! Enums whose values have names for people: those of run.json and of the command line.
+//! Enums with names for people: in run.json and on the command line.
 
-/// Defines an enum with `ALL` its values, their `name()` and their `help()`, which is their documentation. The first value is
-/// the default.
+/// Defines an enum with `ALL` its values, their `name()`, and their documentation as `help()`. The first value is the default.
 #[macro_export]
 macro_rules! named {
     (
@@ -23,7 +22,7 @@ macro_rules! named {
         }
 
         impl $kind {
-            /// What the values are, in a sentence.
+            /// Description of the values, in a sentence.
             pub const ABOUT: &str = concat!($($about),+).trim_ascii();
 
             /// Every value.
@@ -36,7 +35,7 @@ macro_rules! named {
                 }
             }
 
-            /// Returns what the value stands for, in a sentence.
+            /// Returns the value's description, in a sentence.
             pub fn help(self) -> &'static str {
                 match self {
                     $(Self::$value => concat!($($help),+).trim_ascii(),)+

@@ -1,4 +1,4 @@
-//! Runner of a filter, made of kernels or a program.
+//! Runner of a filter that consists of kernels or a program.
 
 use filters::{Blur, CommandBlur, Filter, FilterError, Gpu, Input, Limits, Settings};
 use frame::Image;
@@ -14,8 +14,8 @@ pub enum Runner<'g> {
     Command(Box<CommandBlur>),
 }
 
-/// Opens the adapter that the filters are to run on; none where all of them are commands and none was asked for by name. Refuses
-/// a filter with kernels that the adapter cannot hold.
+/// Opens the adapter for the filters; none if all of them are commands and none was requested by name. Refuses a filter with kernels that
+/// exceed the adapter's limits.
 pub fn open_gpu(
     choices: &[FilterChoice],
     adapter: Option<&str>,
@@ -32,7 +32,7 @@ pub fn open_gpu(
     Ok(Some(gpu))
 }
 
-/// Opens an adapter whose work ends where the monitor interrupts it.
+/// Opens an adapter whose work ends if the monitor interrupts it.
 pub fn open_adapter(adapter: Option<&str>, monitor: Monitor) -> Result<Gpu, FilterError> {
     let mut gpu = Gpu::new(adapter)?;
     gpu.interrupted = monitor.interrupted;
@@ -40,7 +40,7 @@ pub fn open_adapter(adapter: Option<&str>, monitor: Monitor) -> Result<Gpu, Filt
 }
 
 impl<'g> Runner<'g> {
-    /// Makes a filter ready; `gpu` is what [`open_gpu`] opened for it.
+    /// Prepares a filter; `gpu` is what [`open_gpu`] opened for it.
     pub fn new(
         gpu: Option<&'g Gpu>,
         choice: &FilterChoice,
@@ -56,8 +56,8 @@ impl<'g> Runner<'g> {
         Ok(Self::Kernels(Box::new(blur)))
     }
 
-    /// Makes a filter ready whose colours are rounded nowhere that the suite chooses the format, for numbers that are no colours; none
-    /// where [`Runner::new`] makes that already, and where the adapter cannot.
+    /// Prepares a filter with colours that the suite never rounds, for numbers that are not colours; none if [`Runner::new`] already does
+    /// that, or if the adapter cannot.
     pub fn with_wide_colors(
         gpu: Option<&'g Gpu>,
         choice: &FilterChoice,
@@ -68,7 +68,7 @@ impl<'g> Runner<'g> {
         Some(Self::Kernels(Box::new(blur.ok()?)))
     }
 
-    /// Makes a program ready.
+    /// Prepares a program.
     pub fn command(
         filter: &Filter,
         settings: &Settings,
@@ -79,8 +79,8 @@ impl<'g> Runner<'g> {
         Ok(Self::Command(Box::new(blur)))
     }
 
-    /// Blurs the first colour image of the input once per frame index; none where the index changes nothing. A program shows that
-    /// by its second picture.
+    /// Blurs the first colour image of the input once per frame index; none if the index changes nothing, which a program shows by its
+    /// second picture.
     pub fn run_noise(
         &mut self,
         input: &Input,
@@ -105,7 +105,7 @@ impl<'g> Runner<'g> {
         }
     }
 
-    /// Blurs every colour image of the input with the same weights, in order. Kernels with history read the frame before.
+    /// Blurs every colour image of the input with the same weights, in order. Kernels with history read the previous frame.
     pub fn run_after(&mut self, input: &Input, before: &Input) -> Result<Vec<Image>, FilterError> {
         match self {
             Self::Kernels(blur) => blur.run_after(input, before),
@@ -113,7 +113,7 @@ impl<'g> Runner<'g> {
         }
     }
 
-    /// Blurs every colour image of the input with the same weights, in order; the frame before is the input itself.
+    /// Blurs every colour image of the input with the same weights, in order; the previous frame is the input itself.
     pub fn run(&mut self, input: &Input) -> Result<Vec<Image>, FilterError> {
         self.run_after(input, input)
     }

@@ -22,8 +22,8 @@ pub fn frame_hash(scene: &Scene, settings: &RenderSettings) -> String {
     content_hash(scene, "frame", &own)
 }
 
-/// The content hash of the frame that [`trace_frame_part`](crate::trace_frame_part) would render; on the picture's own pixels it is that
-/// of [`frame_hash`].
+/// The content hash of the frame that [`trace_frame_part`](crate::trace_frame_part) would render; on the picture's own
+/// pixels it equals [`frame_hash`].
 pub(crate) fn grid_hash(scene: &Scene, settings: &RenderSettings, grid: &PixelGrid) -> String {
     let frame = frame_hash(scene, settings);
     if *grid == PixelGrid::of_picture(settings.width, settings.height) {
@@ -60,7 +60,7 @@ pub fn ladder_hash(
     content_hash(scene, "ladder", &(truth, subframes))
 }
 
-/// Lists what changes the pixels of a truth: no setting of the frame does.
+/// Lists the inputs that change the pixels of a truth: settings of the frame do not.
 fn list_truth_inputs(scene: &Scene, settings: &RenderSettings, alignment: Alignment) -> impl Debug {
     let settings = RenderSettings {
         options: FrameOptions::default(),
@@ -91,11 +91,12 @@ pub(crate) fn provenance(
     }
 }
 
-/// Hashes the debug output of the settings. It holds every field, and every number in full: no new setting can be forgotten.
+/// Hashes the debug output of the settings. It has every field, and every number in full, so
+/// that no new setting is forgotten.
 fn content_hash(scene: &Scene, kind: &str, settings: &dyn Debug) -> String {
     let tracer = env!("TRACER_SOURCES");
     let mut text = format!("{PROGRAM}\n{tracer}\n{kind}\n{}\n{settings:?}", scene.hash);
-    // The scene's own hash covers its lens, but not that it was taken away.
+    // The scene's own hash covers its lens, but not its removal.
     if let Some(lens) = scene.camera.lens {
         text += &format!("\n{lens:?}");
     }

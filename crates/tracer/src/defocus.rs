@@ -21,10 +21,10 @@ use crate::stage::Stage;
 
 /// Rays per pixel, a power of two. Time grows with them; noise falls with about their number to the power of 0.75.
 const SAMPLES: u32 = 256;
-/// Seed of the rays, the same for all pictures, so that the pass is one of a scene and a size.
+/// Seed of the rays, the same for all pictures, so that the pass depends on scene and size alone.
 const SEED: u64 = 0;
 
-/// A number that a pixel's rays found, and how many of them.
+/// A number that a pixel's rays found, and how many found it.
 #[derive(Clone, Copy)]
 struct Found {
     /// Index of a pixel, or id of an object.
@@ -44,11 +44,11 @@ struct Recipe {
 
 /// A depth of field that is applied to pictures of a scene's pinhole.
 ///
-/// The rays of a pixel go through all of the lens at the instant. Each reads the picture where the pinhole shows what the ray meets.
-/// Behind edges and outside of the picture a ray may meet what the pinhole does not show: it is traced instead, at the instant. So
-/// the pass of the frame without motion is the lens' own picture of the instant, but for noise and for edges that are read with
-/// the width of a pixel. It knows nothing of motion: what a blur has smeared over a pixel is taken for a part of what the pixel
-/// showed at the instant.
+/// The rays of a pixel go through all of the lens at the instant. Each reads the picture where the pinhole shows the point
+/// that it meets. Behind edges and outside the picture, a ray may meet a point that the pinhole does not show: it is traced
+/// instead, at the instant. So without motion the pass gives the lens' own picture of the instant, except for noise and for
+/// edges, which are read with the width of a pixel. It knows nothing of motion: light that a blur smeared over a pixel counts
+/// as a part of that pixel at the instant.
 pub struct Defocus(Raster<Recipe>);
 
 /// Prepares the pass of a scene, for pictures of the settings' size without a guard band.

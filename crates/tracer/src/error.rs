@@ -1,4 +1,4 @@
-//! The reasons for which nothing is rendered.
+//! Reasons why nothing is rendered.
 
 use frame::ShutterError;
 
@@ -20,13 +20,13 @@ pub enum TraceError {
         /// Rows.
         height: u32,
     },
-    /// An exposure that no shutter has.
+    /// An impossible exposure.
     #[error(transparent)]
     Shutter(#[from] ShutterError),
     /// Replicates that cannot be halved, or too few to have a spread.
     #[error("replicates is {0}; allowed: even numbers from 2, such as 8")]
     Replicates(u32),
-    /// Samples of which no replicate gets a power of two.
+    /// Samples that do not give each replicate a power of two.
     #[error(
         "samples per pixel is {samples_per_pixel} over {replicates} replicates; allowed: {replicates} times a \
          power of two up to {MAX_SAMPLES}, such as {nearest}"
@@ -85,7 +85,7 @@ pub enum TraceError {
         /// Time, in frames.
         time: f64,
     },
-    /// A time of a later frame, or of a scene at another frame rate than that of its file, at which the scene is not defined.
+    /// A time at which the scene is not defined, of a later frame or at another frame rate than its file's.
     #[error(
         "scene {scene}: needs {what} at frame {time}, and the keys {edge}; allowed: motions of two keys, which go on steadily, and \
          others from their first key or shape to their last; take fewer frames, a higher frame rate or a shorter shutter, leave the \

@@ -1,4 +1,4 @@
-//! Frame rates, as names of scenes state them.
+//! Frame rates, as in names of scenes.
 
 use std::hash::{Hash, Hasher};
 
@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::limits::{FASTEST_RATE, FASTEST_SHUTTER, SLOWEST_RATE, SLOWEST_SHUTTER};
 
-/// A frame rate, and the rule by which the shutter follows it. Names have it as the last word behind the scene and its variant:
+/// A frame rate, and the rule by which the shutter follows it. In names it is the last word after the scene and its variant:
 /// `fan@144fps`, `fan@unlit@24fps_1-48s`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FrameRate {
@@ -48,7 +48,7 @@ impl FrameRate {
         }
     }
 
-    /// Says it in words: `144 frames per second, open for 1/48 s`.
+    /// Describes it in words: `144 frames per second, open for 1/48 s`.
     pub fn text(&self) -> String {
         match self.shutters_per_second {
             None => format!("{} frames per second", self.per_second),
@@ -96,7 +96,7 @@ impl FrameRate {
         self.per_second / Self::WRITTEN.per_second
     }
 
-    /// Returns the exposure in frames, where that of the file is `written`.
+    /// Returns the exposure in frames, if the file's is `written`.
     pub fn exposure(&self, written: f64) -> f64 {
         match self.shutters_per_second {
             None => written,

@@ -11,21 +11,27 @@ use crate::film::pilot::{PILOT_REPLICATES, PILOT_SAMPLES, choose_samples};
 use crate::film::render::{Film, PixelMean, Times, assemble_picture};
 use crate::film::sample_counts::SampleCounts;
 use crate::frame_rate::FrameRate;
+use crate::geometry::ray::{Hit, Ray};
 use crate::material::surface::Sight;
-use crate::motion::velocity::{PointMotion, TrackedPoint, camera, camera_velocity, reprojection};
+use crate::motion::poses::Poses;
+use crate::motion::velocity::{
+    ObjectsBefore, PointMotion, TrackedPoint, camera, camera_velocity, reprojection,
+};
 use crate::path::integrator::Integrator;
 use crate::pixel_grid::{PixelGrid, scale_camera, scale_reprojection};
 use crate::progress::{Meter, Watch};
 use crate::sampler::Stream;
 use crate::scene::Scene;
-use crate::settings::RenderSettings;
+use crate::settings::{RenderSettings, check_next_frame};
 use crate::stage::Stage;
 
-/// What a rasteriser writes at the pixels' centres, without colour.
+/// A rasteriser's output at the pixels' centres, without colour.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointLayers {
     /// Screen motion over one frame, in pixels; +x right, +y down.
     pub velocity: Vectors,
+    /// Change of depth over the interval of the velocity, in metres per frame; above 0 moves away.
+    pub velocity_z: Plane,
     /// Distance along the view axis, in metres; [`FAR_DEPTH`] where nothing is seen.
     pub depth: Plane,
     /// The object seen, counted from 1; 0 is the background.
@@ -36,6 +42,7 @@ pub struct PointLayers {
 #[derive(Clone)]
 struct PointSample {
     velocity: [f32; 2],
+    velocity_z: f32,
     depth: f32,
     object_id: u32,
 }
@@ -46,6 +53,7 @@ impl PointLayers {
         check_layer(scene, "velocity", &velocity)?;
         Ok(Self {
             velocity,
+            velocity_z: points.map(|point| point.velocity_z),
             depth: points.map(|point| point.depth),
             object_id: points.map(|point| point.object_id),
         })
@@ -53,8 +61,8 @@ impl PointLayers {
 }
 
 /// Renders the instant `t = 0`. Colour and coverage are filtered over each pixel or sampled at its centre. Velocity, depth and
-/// object id are those of the point at the centre; translucent surfaces let them pass, unless a material says otherwise. All rasters extend
-/// beyond the picture by the guard band of the settings.
+/// object id come from the point at the centre, through translucent surfaces unless a material says otherwise. All rasters
+/// extend beyond the picture by the guard band of the settings.
 pub fn trace_frame(
     scene: &Scene,
     settings: &RenderSettings,
@@ -64,9 +72,9 @@ pub fn trace_frame(
     trace_frame_part(scene, settings, &own, None, watch)
 }
 
-/// Renders the instant as [`trace_frame`] does, on another grid of pixels over the picture of the settings, and all of it or a tile.
-/// Guard band and tile are in pixels of the grid; a tile counts from the band's corner. Its rasters have its size, and hold what
-/// those of the whole frame hold there.
+/// Renders the instant as [`trace_frame`] does, on another grid of pixels over the picture of the settings, and all of it or a
+/// tile. Guard band and tile are in pixels of the grid; a tile counts from the band's corner. Its rasters have its size, and
+/// the content of the whole frame's there.
 ///
 /// # Errors
 /// The settings or the grid do not fit the scene, a pixel is not finite, or the watcher cancelled.
@@ -105,14 +113,9 @@ pub fn trace_frame_part(
     check_picture(scene, &picture)?;
     let points = sample_points(stage, canvas, settings, &PointMotion::RIGHT).part(tile);
     let layers = PointLayers::new(scene, &points)?;
+    let hash = grid_hash(scene, settings, grid);
     Ok(Frame {
-        provenance: provenance(
-            stage,
-            settings.seed,
-            settings.samples_per_pixel,
-            1,
-            grid_hash(scene, settings, grid),
-        ),
+        provenance: provenance(stage, settings.seed, settings.samples_per_pixel, 1, hash),
         exposure: settings.exposure(scene),
         frames_per_second: Some(scene.rate().per_second)
             .filter(|rate| *rate != FrameRate::WRITTEN.per_second),
@@ -125,13 +128,15 @@ pub fn trace_frame_part(
         color: picture.color,
         coverage: picture.coverage,
         velocity: layers.velocity,
+        velocity_next: None,
+        velocity_z: None,
         depth: layers.depth,
         object_id: layers.object_id,
         samples: Some(samples.to_plane(canvas).part(tile)),
     })
 }
 
-/// Samples what a rasteriser writes, of other points or of another motion than those of the frame.
+/// Samples a rasteriser's output for other points or another motion than the frame's.
 ///
 /// # Errors
 /// The settings do not fit the scene, or a velocity is not finite.
@@ -144,7 +149,7 @@ pub fn trace_motion(
     trace_motion_on(scene, settings, motion, &own)
 }
 
-/// Samples what a rasteriser writes as [`trace_motion`] does, on another grid of pixels over the picture of the settings.
+/// Samples a rasteriser's output as [`trace_motion`] does, on another grid of pixels over the picture of the settings.
 ///
 /// # Errors
 /// The settings or the grid do not fit the scene, or a velocity is not finite.
@@ -156,11 +161,42 @@ pub fn trace_motion_on(
 ) -> Result<PointLayers, TraceError> {
     settings.check_frame(scene)?;
     let canvas = check_canvas(settings, grid)?;
-    let stage = Stage::try_new(scene, motion.seen_at, motion.seen_at)?;
+    // Objects stand still if they do over the interval of the motion.
+    let from = match motion.through_walls {
+        true => motion.seen_at - motion.over,
+        false => motion.seen_at,
+    };
+    let stage = Stage::try_new(scene, from, motion.seen_at)?;
     PointLayers::new(scene, &sample_points(&stage, canvas, settings, motion))
 }
 
-/// Makes the canvas of a grid; refuses a grid of a size that no picture has.
+/// Samples the velocities of a frame that few filters read: the motion to the next frame, and the change of depth over the interval of
+/// its velocity. With velocity from only the camera, objects stand still in both.
+///
+/// # Errors
+/// The settings or the grid do not fit the scene, it is not defined up to the next frame, or a velocity is not finite.
+pub fn trace_further_velocities(
+    scene: &Scene,
+    settings: &RenderSettings,
+    grid: &PixelGrid,
+) -> Result<(Vectors, Plane), TraceError> {
+    check_next_frame(scene)?;
+    let own = trace_motion_on(scene, settings, &PointMotion::RIGHT, grid)?;
+    check_layer(scene, "velocity_z", &own.velocity_z.map(|z| [*z]))?;
+    let motion = match settings.options.velocity {
+        VelocityKind::CameraOnly => PointMotion {
+            objects_before: ObjectsBefore::Now,
+            ..PointMotion::TO_NEXT
+        },
+        _ => PointMotion::TO_NEXT,
+    };
+    let mut settings = *settings;
+    settings.options.velocity = VelocityKind::Instantaneous;
+    let next = trace_motion_on(scene, &settings, &motion, grid)?;
+    Ok((next.velocity, own.velocity_z))
+}
+
+/// Makes the canvas of a grid; refuses a grid of an impossible size.
 fn check_canvas(settings: &RenderSettings, grid: &PixelGrid) -> Result<Canvas, TraceError> {
     let [width, height] = grid.size;
     let own = RenderSettings {
@@ -173,7 +209,7 @@ fn check_canvas(settings: &RenderSettings, grid: &PixelGrid) -> Result<Canvas, T
     Ok(Canvas::new(settings.width, settings.height, band, grid))
 }
 
-/// Samples what a rasteriser writes, at the centres of all pixels.
+/// Samples a rasteriser's output at the centres of all pixels.
 fn sample_points(
     stage: &Stage,
     canvas: Canvas,
@@ -191,19 +227,28 @@ fn sample_points(
             |poses, pixel| {
                 let centre = canvas.place(pixel, [0.5; 2]);
                 let ray = view.ray(centre[0], centre[1]);
-                let hit = stage.closest_in_sight(poses.at(motion.seen_at), &ray, Sight::Buffers);
+                let hit = match motion.through_walls {
+                    true => find_mover(stage, poses.at(motion.seen_at), &ray),
+                    false => None,
+                };
+                let hit = hit.or_else(|| {
+                    stage.closest_in_sight(poses.at(motion.seen_at), &ray, Sight::Buffers)
+                });
                 let depth = hit.map_or(FAR_DEPTH, |hit| view.depth(ray.at(hit.t)) as f32);
+                let tracked = TrackedPoint::of(hit, ray.direction);
+                let follow = |motion| tracked.velocity(scene, size, options.velocity, motion);
                 let velocity = if hit.is_none() && !options.sky_velocity {
-                    [0.0, 0.0]
+                    [0.0; 3]
                 } else if options.velocity == VelocityKind::CameraOnly {
                     let depth = hit.map_or(f64::INFINITY, |_| f64::from(depth));
-                    camera_velocity(&before, centre, depth)
+                    let [x, y] = camera_velocity(&before, centre, depth);
+                    [x, y, follow(&PointMotion::WITHOUT_OBJECTS)[2]]
                 } else {
-                    let tracked = TrackedPoint::of(hit, ray.direction);
-                    tracked.velocity(scene, size, options.velocity, motion)
+                    follow(motion)
                 };
                 PointSample {
                     velocity: [0, 1].map(|axis| (velocity[axis] / canvas.step[axis]) as f32),
+                    velocity_z: velocity[2] as f32,
                     depth,
                     object_id: hit.map_or(0, |hit| hit.object as u32 + 1),
                 }
@@ -215,4 +260,13 @@ fn sample_points(
         height: canvas.rows(),
         pixels: points,
     }
+}
+
+/// Finds the nearest surface on a ray that moves, whatever hides it.
+fn find_mover(stage: &Stage, poses: &mut Poses, ray: &Ray) -> Option<Hit> {
+    let mut next = stage.closest(poses, ray);
+    while let Some(hit) = next.filter(|hit| stage.object_stands_still(hit.object)) {
+        next = stage.closest_behind(poses, ray, &hit);
+    }
+    next
 }

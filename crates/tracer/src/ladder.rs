@@ -23,14 +23,14 @@ use crate::stage::Stage;
 
 /// One replicate per half; more would only stratify worse.
 const REPLICATES: u32 = 2;
-/// Part of a sample's cost that is saved where it sees the background (measured: about 0.2 against 1.6 microseconds where
-/// surfaces are lit).
+/// Part of a sample's cost that is saved if it sees the background (measured: about 0.2 against 1.6 microseconds for
+/// lit surfaces).
 const SAVED_BY_A_MISS: f64 = 0.875;
 
 /// A scene prepared to render the rungs of a ladder, one at a time: all together take more memory than the truth.
 ///
-/// Only pixels near motion are rendered, because only there an accumulation can differ from the truth. Elsewhere both halves
-/// hold the truth's mean; so does a moving shadow on a still floor, if it is far from anything that moves.
+/// Only pixels near motion are rendered, because an accumulation can differ from the truth only there. Elsewhere both halves
+/// have the truth's mean, even in a moving shadow on a still floor that is far from anything that moves.
 ///
 /// All rungs have the same number of samples, the most with which they together cost no more than the truth, in samples and
 /// in work. Their random numbers are their own, so that their noise is independent of the truth's.
@@ -82,13 +82,13 @@ impl<'a> LadderTracer<'a> {
         })
     }
 
-    /// Renders the rung of a number of sub-frames, as a ladder of it alone. The other rungs change nothing of it.
+    /// Renders the rung of a number of sub-frames, as a ladder of it alone. It does not depend on the other rungs.
     pub fn trace(&self, subframes: u32, watch: Watch) -> Result<Ladder, TraceError> {
         let whole = Tile::whole(self.mean.color.width, self.mean.color.height);
         self.trace_tile(subframes, whole, watch)
     }
 
-    /// Renders a tile of that rung. The rasters have the tile's size, and hold what those of [`LadderTracer::trace`] hold there.
+    /// Renders a tile of that rung. The rasters have the tile's size, and the content of [`LadderTracer::trace`] there.
     pub fn trace_tile(
         &self,
         subframes: u32,

@@ -9,7 +9,7 @@ pub const LARGEST_SIDE: u32 = 16_384;
 /// Most pixels of a picture: 8192 x 8192.
 pub const MAX_PIXELS: u64 = 67_108_864;
 
-/// Most samples per pixel of one replicate, as many as the tables of the Sobol sequence hold.
+/// Most samples per pixel of one replicate, as many as the tables of the Sobol sequence have.
 pub const MAX_SAMPLES: u32 = 65_536;
 
 /// Largest scene.toml, in bytes.
@@ -30,7 +30,7 @@ pub const MAX_TEXELS: u64 = 67_108_864;
 /// Most texels of all textures of a scene together: two of 8192 x 8192.
 pub const MAX_TEXELS_TOGETHER: u64 = 134_217_728;
 
-/// Most texels of an environment: 8192 x 4096. One takes 44 bytes, for it is sampled as a light too.
+/// Most texels of an environment: 8192 x 4096. One takes 44 bytes, because it is sampled as a light too.
 pub const MAX_ENVIRONMENT_TEXELS: u64 = 33_554_432;
 
 /// Most values of all channels and layers of an EXR file that holds an environment.
@@ -75,7 +75,7 @@ pub const SMALLEST_SCALE: f64 = 1e-12;
 /// Least time between two keys, in frames.
 pub const CLOSEST_KEYS: f64 = 1e-6;
 
-/// Slowest frame rate that a scene may be taken at, in frames per second.
+/// Slowest frame rate that a scene may be filmed at, in frames per second.
 pub const SLOWEST_RATE: f64 = 1.0;
 
 /// Fastest frame rate, in frames per second.
@@ -96,7 +96,7 @@ pub const NEAREST_FOCUS: f64 = 1e-6;
 /// Largest diameter of a lens, as a part of the distance of its focus.
 pub const WIDEST_LENS: f64 = 1.0;
 
-/// Smallest angular radius of a sun that is no point, in degrees.
+/// Smallest angular radius of a sun that is not a point, in degrees.
 pub const SMALLEST_SUN: f64 = 0.001;
 
 /// Brightest radiance.

@@ -1,4 +1,4 @@
-//! Locations of scenes and their files: on disk, or in what a program brings along.
+//! Locations of scenes and their files: on disk, or in a program.
 
 use std::fmt;
 use std::io;
@@ -6,7 +6,7 @@ use std::path::{Component, Path, PathBuf};
 
 use frame::{FileError, read_bounded};
 
-/// Folder of files that a program brings along.
+/// Folder of files that a program contains.
 #[derive(Debug)]
 pub struct Bundle {
     /// Name of the folder, which begins the paths of its files in messages.
@@ -22,7 +22,7 @@ pub struct Bundle {
 pub struct Location {
     /// Path on disk; in a bundle it begins with the bundle's name.
     pub path: PathBuf,
-    /// Bundle that holds it; none for what lies on disk.
+    /// Bundle that contains it; none on disk.
     pub bundle: Option<&'static Bundle>,
 }
 
@@ -48,12 +48,12 @@ impl Location {
         self.at(&self.path.join(name))
     }
 
-    /// The path, if it lies on disk.
+    /// The path, if it is on disk.
     pub fn on_disk(&self) -> Option<&Path> {
         self.bundle.is_none().then_some(self.path.as_path())
     }
 
-    /// Tells whether this is a folder.
+    /// Returns whether this is a folder.
     pub fn is_dir(&self) -> bool {
         match self.bundle {
             None => self.path.is_dir(),
@@ -63,7 +63,7 @@ impl Location {
         }
     }
 
-    /// Tells whether this is a file.
+    /// Returns whether this is a file.
     pub fn is_file(&self) -> bool {
         match self.bundle {
             None => self.path.is_file(),
@@ -73,7 +73,7 @@ impl Location {
         }
     }
 
-    /// Tells whether there is anything, which need not be readable.
+    /// Returns whether there is anything, readable or not.
     pub fn exists(&self) -> bool {
         match self.bundle {
             None => self.path.exists(),
@@ -81,7 +81,7 @@ impl Location {
         }
     }
 
-    /// Lists what a folder holds, in no order.
+    /// Lists the content of a folder, in no order.
     pub fn list(&self) -> io::Result<Vec<Self>> {
         let Some(bundle) = self.bundle else {
             let entries = std::fs::read_dir(&self.path)?;
@@ -100,7 +100,7 @@ impl Location {
     /// Reads a file of at most `limit` bytes.
     ///
     /// # Errors
-    /// Fails if there is no such file, if it is no regular file, or if it is larger than `limit`.
+    /// Fails if there is no such file, if it is not a regular file, or if it is larger than `limit`.
     pub fn read(&self, limit: u64) -> Result<Vec<u8>, FileError> {
         let Some(bundle) = self.bundle else {
             return read_bounded(&self.path, limit);

@@ -1,8 +1,8 @@
-//! Grids of pixels that show a picture otherwise than its own pixels do: fewer of them, or moved.
+//! Grids of pixels over a picture that are not its own: fewer pixels, or moved ones.
 
 use frame::{Camera, Reprojection};
 
-/// A grid of pixels over a picture. Lengths in what is rendered on it are in pixels of the grid.
+/// A grid of pixels over a picture. Lengths in its renders are in pixels of the grid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PixelGrid {
     /// Pixels per row and rows, guard band left out.
@@ -43,8 +43,8 @@ pub(crate) fn scale_reprojection(reprojection: Reprojection, step: [f64; 2]) -> 
     }
 }
 
-/// Converts a camera to pixels of `step` of its own. Its one focal length is that of the rows: columns have the same where pixels stay
-/// square.
+/// Converts a camera to pixels of `step` of its own. Its one focal length is for rows: columns have
+/// the same if pixels stay square.
 pub(crate) fn scale_camera(mut camera: Camera, step: [f64; 2]) -> Camera {
     camera.now.focal /= step[1];
     camera.before.focal /= step[1];

@@ -58,8 +58,8 @@ impl Sampler {
         draw(self.index, 0, self.seed)
     }
 
-    /// Numbers for the point of the lens, stratified together. They change no others, so that a pinhole's samples are what they are
-    /// without them.
+    /// Numbers for the point of the lens, stratified together. They change no others, so that a pinhole's samples are the same
+    /// with and without them.
     pub fn lens(&self) -> [f64; 2] {
         let [u, v, ..] = self.shuffled_set(LENS_SET);
         [u, v]
@@ -88,7 +88,7 @@ impl Sampler {
     /// One set of numbers.
     ///
     /// The first bounces are stratified together with the camera. In high dimensions of the sequence small counts are
-    /// correlated: all paths that survive one roulette would survive or die together in the next. There each set takes the
+    /// correlated: all paths that survive one roulette would survive or die together in the next. There each set uses the
     /// sequence's first four dimensions with a seed of its own, which shuffles the samples as well (Burley 2020, "Practical
     /// Hash-based Owen Scrambling", section 4).
     fn set(&self, depth: u32, which: u32) -> [f64; 4] {

@@ -1,4 +1,4 @@
-//! Identity of a scene: its name, and what was chosen of it.
+//! Identity of a scene: its name, variant, rate and frame.
 
 use std::cmp::Ordering;
 use std::fmt;
@@ -19,18 +19,18 @@ const SEAL: &str = "seal";
 pub struct SceneId {
     /// Name of the scene's folder.
     pub name: String,
-    /// Variant of its file, or `unlit`; of a scene that an engine drew the engine.
+    /// Variant of its file, or `unlit`; for a scene that an engine drew, the engine.
     pub variant: Option<String>,
-    /// Seed of the sealed variant, which has no other.
+    /// Seed of a sealed variant; there is no other variant then.
     pub seal: Option<u64>,
-    /// Frame rate; none for that of the scene's file.
+    /// Frame rate; none for the file's.
     pub rate: Option<FrameRate>,
     /// Frame of the scene's own clock.
     pub frame: u32,
 }
 
 impl SceneId {
-    /// Makes the identity of a scene and what stands behind its name: `seal7@24fps`. A variant of any other name is one of its file.
+    /// Makes the identity of a scene from its name and the part after it: `seal7@24fps`. Any other variant is one of its file.
     pub fn new(name: impl Into<String>, choice: Option<&str>) -> Self {
         let mut id = Self {
             name: name.into(),
@@ -67,7 +67,7 @@ impl SceneId {
         sealed.or_else(|| self.variant.clone())
     }
 
-    /// Writes what stands behind the name, but for the frame: `@seal7@24fps`.
+    /// Writes the part after the name, without the frame: `@seal7@24fps`.
     pub fn choice(&self) -> String {
         let rate = self.rate.as_ref().map(FrameRate::word);
         let words = self.variant_name().into_iter().chain(rate);

@@ -8,7 +8,7 @@ use crate::limits::{LARGEST_SIDE, MAX_PIXELS, MAX_SAMPLES};
 use crate::motion::velocity::earliest_time;
 use crate::scene::Scene;
 
-/// Settings of a scene's frame and truths; run.json holds them.
+/// Settings of a scene's frame and truths, stored in run.json.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RenderSettings {
     /// Pixels per row.
@@ -18,16 +18,16 @@ pub struct RenderSettings {
     /// Mean samples per pixel: of a frame, or of a truth over all its replicates; each takes a power of two up to 65536. Time grows
     /// with them, noise falls faster than their square root: a pilot shares them out.
     pub samples_per_pixel: u32,
-    /// Independent, complete renders behind a truth, an even number. More of them measure the noise better and stratify worse.
+    /// Independent, complete renders of a truth, an even number. More of them measure the noise better and stratify worse.
     pub replicates: u32,
     /// Seed of the random numbers.
     pub seed: u64,
-    /// Choice of what the frame holds.
+    /// Options of the frame.
     #[serde(flatten)]
     pub options: FrameOptions,
     /// Pixels by which the frame's rasters extend beyond the picture on every side.
     pub guard_band: u32,
-    /// Length of the shutter interval in frames; none takes the scene's. Not in run.json, where every case has its own.
+    /// Length of the shutter interval in frames; none means the scene's. Not in run.json, where every case has its own.
     #[serde(skip)]
     pub exposure: Option<f64>,
 }
@@ -53,7 +53,7 @@ impl RenderSettings {
         self.samples_per_pixel / self.replicates
     }
 
-    /// Takes another number of replicates, each with as many samples as before.
+    /// Changes the number of replicates, each with as many samples as before.
     pub fn with_replicates(&self, replicates: u32) -> Self {
         Self {
             samples_per_pixel: self.samples_per_replicate().saturating_mul(replicates),
@@ -77,7 +77,7 @@ impl RenderSettings {
         check_field_of_view(scene, earliest, 0.0)
     }
 
-    /// Refuses a frame of no size that a picture has, with its guard band or without.
+    /// Refuses a frame of an impossible size, with its guard band or without.
     pub(crate) fn check_sizes(&self) -> Result<(), TraceError> {
         let band = self.guard_band.saturating_mul(2);
         check_size(self.width, self.height)?;
@@ -103,7 +103,13 @@ impl RenderSettings {
     }
 }
 
-/// Refuses a size that no picture has.
+/// Refuses a scene that is not defined up to the next frame, so that its points cannot be followed there.
+pub fn check_next_frame(scene: &Scene) -> Result<(), TraceError> {
+    scene.check_defined(0.0, 1.0)?;
+    check_field_of_view(scene, 0.0, 1.0)
+}
+
+/// Refuses an impossible size of a picture.
 pub(crate) fn check_size(width: u32, height: u32) -> Result<(), TraceError> {
     let allowed = 1..=LARGEST_SIDE;
     let pixels = u64::from(width) * u64::from(height);

@@ -21,7 +21,7 @@ use crate::scene::{Material, Scene};
 pub struct Stage<'a> {
     pub(crate) scene: &'a Scene,
     tree: SceneTree<'a>,
-    /// Glossy part of each material of the scene; none where it is diffuse.
+    /// Glossy part of each material of the scene; none if it is diffuse.
     pub(crate) glossy_materials: Vec<Option<GlossyMaterial>>,
     /// Background as a light.
     pub(crate) sky: Sky<'a>,
@@ -53,7 +53,7 @@ macro_rules! traverse {
 }
 
 impl<'a> Stage<'a> {
-    /// Prepares the scene for rays at times in `[from, to]` (frames). Panics where [`Stage::try_new`] refuses.
+    /// Prepares the scene for rays at times in `[from, to]` (frames). Panics if [`Stage::try_new`] refuses.
     pub fn new(scene: &'a Scene, from: f64, to: f64) -> Self {
         Self::try_new(scene, from, to).expect("no object is too far away")
     }
@@ -91,8 +91,8 @@ impl<'a> Stage<'a> {
         self.poses.clone()
     }
 
-    /// Finds the nearest surface at `t > 0`, opaque or translucent; among equally near ones that of the lowest object, then
-    /// triangle.
+    /// Finds the nearest surface at `t > 0`, opaque or translucent; among equally near ones, that of
+    /// the lowest object, then triangle.
     pub fn closest(&self, poses: &mut Poses, ray: &Ray) -> Option<Hit> {
         self.closest_in_sight(poses, ray, Sight::Everything)
     }
@@ -112,8 +112,8 @@ impl<'a> Stage<'a> {
         traverse!(self.closest_behind(poses, ray, last))
     }
 
-    /// The share of the light that passes along a ray at `0 < t < limit`: the product of what all surfaces let pass. It does
-    /// not depend on the order in which they are met, since they are met from near to far.
+    /// The share of the light that passes along a ray at `0 < t < limit`: the product of all surfaces' shares. It does not
+    /// depend on the order of the traversal, since surfaces are met from near to far.
     pub(crate) fn transmittance(&self, poses: &mut Poses, ray: &Ray, limit: f64) -> Vec3 {
         if self.is_blocked(poses, ray, limit) {
             return Vec3::ZERO;
@@ -136,12 +136,12 @@ impl<'a> Stage<'a> {
         share
     }
 
-    /// Returns true if anything opaque lies at `0 < t < limit`.
+    /// Returns true if anything opaque is at `0 < t < limit`.
     pub fn is_blocked(&self, poses: &mut Poses, ray: &Ray, limit: f64) -> bool {
         traverse!(self.is_blocked(poses, ray, limit))
     }
 
-    /// Returns true if anything opaque lies at `0 < t < limit`, for a ray that nothing blocks which stands still.
+    /// Returns true if anything opaque is at `0 < t < limit`, for a ray that nothing still blocks.
     pub(crate) fn is_blocked_by_mover(&self, poses: &mut Poses, ray: &Ray, limit: f64) -> bool {
         if !self.tree.has_few_movers() {
             return self.is_blocked(poses, ray, limit);

@@ -29,8 +29,8 @@ const SHADED_AGAIN: u32 = 4;
 
 /// A scene prepared to render the replicates of its truths, for one alignment or several.
 ///
-/// Alignments of one exposure overlap. What the shutter of each sees in the common part of their intervals is traced once. A
-/// replicate has the same bytes whether it is rendered alone or with others.
+/// Alignments of one exposure overlap. The common part of their intervals is traced once. A replicate has the same bytes
+/// whether it is rendered alone or with others.
 pub struct TruthTracer<'a> {
     stage: Stage<'a>,
     settings: RenderSettings,
@@ -103,8 +103,8 @@ impl<'a> TruthTracer<'a> {
         self.trace_tile(index, self.canvas().whole(), watch)
     }
 
-    /// Renders a tile of one replicate of every truth. The rasters have the tile's size, and hold what those of
-    /// [`TruthTracer::trace`] hold there. Takes the time of the tile's samples, and that of the whole picture's pilot and support.
+    /// Renders a tile of one replicate of every truth. The rasters have the tile's size, and the content of
+    /// [`TruthTracer::trace`] there. Takes the time of the tile's samples, and of the whole picture's pilot and support.
     pub fn trace_tile(
         &self,
         index: u32,

@@ -3,7 +3,7 @@
 use crate::comparison::{Difference, PairedComparison, Preference, pair_scores};
 use crate::tuning::Tuning;
 
-/// Least change of the error, in the log, that is worth another value: half of the last digit that tables show of a change.
+/// Smallest change of the log of the error that justifies another value: half of the last digit of a change in tables.
 const LEAST_CHANGE: f64 = 5e-4;
 
 /// Advice on the choice of a tuning.
@@ -35,14 +35,14 @@ impl Tuning {
         }
     }
 
-    /// Compares the choice with the start on the scenes tuned on; none without scenes that both have.
+    /// Compares the choice with the start on the scenes tuned on; none without common scenes.
     fn compare_with_start(&self) -> Option<Difference> {
         let pairs = pair_scores(&self.start.scenes, &self.chosen.scenes);
         (!pairs.is_empty()).then(|| PairedComparison::new(pairs).flip)
     }
 }
 
-/// Tells whether the scenes show that the choice is better than the start.
+/// Returns whether the scenes show that the choice is better than the start.
 fn is_better(difference: &Difference) -> bool {
     difference.verdict == Preference::Second && difference.mean < -LEAST_CHANGE
 }

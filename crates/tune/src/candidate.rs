@@ -1,4 +1,4 @@
-//! Candidate of a tuning, ready to blur one scene after another.
+//! Candidate of a tuning, ready to blur scenes.
 
 use filters::{Blur, Filter, FilterError, Kernels, Settings};
 use frame::{Frame, Image, Plane};
@@ -9,7 +9,7 @@ pub struct Candidate<'a> {
     runner: Runner<'a>,
 }
 
-/// The blurred colour, and the blurred coverage of each object if it was asked for.
+/// The blurred colour and, if requested, the blurred coverage of each object.
 pub type Blurred = (Image, Option<Vec<Plane>>);
 
 impl<'a> Candidate<'a> {
@@ -31,7 +31,7 @@ impl<'a> Candidate<'a> {
         Ok(Self { runner })
     }
 
-    /// Blurs the frame of a scene; its mattes too if `bleed` is to be measured.
+    /// Blurs a scene's frame; its mattes too if `bleed` is to be measured.
     pub fn blur(&mut self, frame: &Frame, bleed: bool) -> Result<Blurred, FilterError> {
         let mattes = match bleed {
             true => pack_planes(&frame.coverage),

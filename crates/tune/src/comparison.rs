@@ -37,15 +37,15 @@ pub struct Difference {
     pub verdict: Preference,
 }
 
-/// The better one of two.
+/// The better of two.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Preference {
-    /// The whole interval lies above 0.
+    /// The whole interval is above 0.
     First,
-    /// The whole interval lies below 0.
+    /// The whole interval is below 0.
     Second,
-    /// The interval holds 0, or the scenes are too few.
+    /// The interval contains 0, or there are too few scenes.
     Undecided,
 }
 
@@ -75,7 +75,7 @@ impl Difference {
         }
     }
 
-    /// Returns true if the second is worse by less than `margin`: the whole interval lies below it.
+    /// Returns true if the second is worse by less than `margin`: the whole interval is below it.
     pub fn is_no_worse(&self, margin: f64) -> bool {
         self.scenes >= MIN_SCENES && self.interval[1] < margin
     }
@@ -102,7 +102,7 @@ pub fn compare_candidates(
     Ok(PairedComparison::new(pair_scores(&first, &second)))
 }
 
-/// Pairs the scores of two candidates on the scenes that both have.
+/// Pairs the scores of two candidates on their common scenes.
 pub fn pair_scores(first: &SceneScores, second: &SceneScores) -> BTreeMap<String, [SceneScore; 2]> {
     (first.iter())
         .filter_map(|(scene, score)| Some((scene.clone(), [*score, *second.get(scene)?])))

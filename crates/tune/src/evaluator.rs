@@ -13,24 +13,24 @@ use crate::candidate::Candidate;
 use crate::loss::{mean_log_ratio, worst_bleed};
 use crate::target::{RenderedScene, SceneScore, SceneScores, Target};
 
-/// Rounds of one candidate and the start in turn; odd, so that the median is one of them.
+/// Rounds that alternate between one candidate and the start; odd, so that the median is one of them.
 const ROUNDS: usize = 5;
 
-/// A filter on scenes that are loaded once; scores that were measured before come from memory.
+/// A filter on scenes that are loaded once; remembers earlier scores.
 pub struct Evaluator<'a> {
     /// Adapter that candidates run on; none if the filter is a program.
     gpu: Option<&'a Gpu>,
-    /// The filter with the values that tuning starts from.
+    /// The filter with tuning's start values.
     pub choice: FilterChoice,
     /// The scenes.
     pub targets: Vec<Target<'a>>,
-    /// True if mattes are blurred as well, which takes about twice the time.
+    /// True if mattes are blurred as well, which doubles the time, about.
     bleed: bool,
     /// Monitor that can end the work.
     pub(crate) monitor: Monitor,
     /// The filter's kernels; none if it is a program.
     kernels: Option<Kernels<'a>>,
-    /// Scores by scene, of each candidate.
+    /// Scores by scene for each candidate.
     memory: HashMap<String, SceneScores>,
 }
 
@@ -69,7 +69,7 @@ impl<'a> Evaluator<'a> {
         (0..self.targets.len()).collect()
     }
 
-    /// Takes over scores that were measured before.
+    /// Remembers earlier scores.
     pub(crate) fn remember(&mut self, settings: &Settings, scores: &SceneScores) {
         let known = self.memory.entry(memory_key(settings)).or_default();
         known.extend(scores.clone());
@@ -105,7 +105,7 @@ impl<'a> Evaluator<'a> {
         found.ok_or(TraceError::Cancelled.into())
     }
 
-    /// Blurs scene after scene while the pictures before are being scored.
+    /// Blurs the scenes in turn while earlier pictures are being scored.
     fn measure(
         &self,
         settings: &Settings,
@@ -114,7 +114,7 @@ impl<'a> Evaluator<'a> {
     ) -> Result<Vec<(usize, SceneScore)>, Error> {
         let (sender, receiver) = mpsc::channel();
         let mut found = Vec::new();
-        // Scenes are rendered at one size.
+        // All scenes are rendered at one size.
         let size = self.targets[scenes[0]].scene.frame.size();
         let kernels = self.kernels.as_ref();
         let mut candidate =
@@ -147,8 +147,8 @@ impl<'a> Evaluator<'a> {
         Ok(found)
     }
 
-    /// Times all passes of a candidate and of the start in turns on one scene, by its index, and returns the median of the ratios.
-    /// Runs one round before them that does not count. None for a program, which no GPU can time.
+    /// Times all passes of a candidate and of the start alternately on one scene, by its index, and returns the median ratio, after one
+    /// round that does not count. None for a program, which no GPU can time.
     pub(crate) fn measure_cost(
         &self,
         settings: &Settings,
@@ -187,14 +187,14 @@ pub struct Evaluation {
     pub error: f64,
     /// Lateral bleed of the worst scene, in pixels.
     pub bleed: Option<f64>,
-    /// GPU time relative to that of the start.
+    /// GPU time relative to the start's.
     pub cost: Option<f64>,
     /// Scores per scene.
     pub scenes: SceneScores,
 }
 
-/// Evaluates a candidate on scenes by their indices. Calls `on_score` with each score as soon as it is known; an evaluation that it
-/// ends early, by returning false, is an error.
+/// Evaluates a candidate on scenes by their indices. Calls `on_score` with each score as soon as it is known; if that ends the evaluation
+/// early, by returning false, the result is an error.
 pub fn evaluate_candidate(
     evaluator: &mut Evaluator,
     settings: &Settings,
@@ -222,7 +222,7 @@ fn memory_key(settings: &Settings) -> String {
     serde_json::to_string(&settings.values).expect("values are plain data")
 }
 
-/// Refuses a picture that no score can be taken of.
+/// Refuses a picture that cannot be scored.
 fn check_finite(scene: &str, color: &Image, mattes: Option<&[Plane]>) -> Result<(), Error> {
     let mattes = mattes.unwrap_or_default().iter().flat_map(|it| &it.pixels);
     let mut values = color.pixels.as_flattened().iter().chain(mattes);

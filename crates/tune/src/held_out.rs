@@ -1,4 +1,4 @@
-//! Results on held-out scenes, which no trial ran on: evaluated once at the end, and every evaluation is counted.
+//! Results on held-out scenes, which no trial uses: evaluated once at the end, and every evaluation is counted.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -15,10 +15,10 @@ use crate::journal::line_of;
 /// One comparison of start and choice on the held-out scenes: a line of `openings.jsonl`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct HeldOutResult {
-    /// Number of the evaluation, from 1. Scenes that are evaluated often are scenes that were tuned on.
+    /// Number of the evaluation, from 1. Evaluating scenes often amounts to tuning on them.
     #[serde(rename = "opening")]
     pub number: usize,
-    /// Values that were compared with the start.
+    /// Values compared with the start.
     pub values: BTreeMap<String, Value>,
     /// Pixels per row, rows, samples per pixel.
     pub render: [u32; 3],
@@ -44,7 +44,7 @@ fn read_held_out_results(path: &Path) -> Result<Vec<HeldOutResult>, Error> {
     text.lines().enumerate().map(line).collect()
 }
 
-/// Adds a result to the file. The same values on the same scenes say nothing new and count once.
+/// Adds a result to the file. The same values on the same scenes add no information and count once.
 pub fn record_held_out_result(
     path: &Path,
     values: &BTreeMap<String, Value>,

@@ -12,7 +12,7 @@ use suite::Error;
 
 use crate::trial::{JOURNAL_FORMAT, JournalHeader, Trial};
 
-/// Characters of a setting that an error shows.
+/// Characters of a setting in an error.
 const MAX_SHOWN: usize = 80;
 
 /// A journal that can be appended to.
@@ -24,8 +24,8 @@ pub struct Journal {
 }
 
 impl Journal {
-    /// Opens the journal at `path`, or begins it. Cuts off a line that a killed process left half written: its trial is run
-    /// again. Refuses a journal that another command began.
+    /// Opens the journal at `path`, or begins it. Cuts off a line that a killed process left half-written: its trial is run again. Refuses
+    /// another command's journal.
     pub fn open(path: &Path, header: &JournalHeader) -> Result<Self, Error> {
         let fail = |action, source| FileError::io(path, action, source);
         if let Some(folder) = path.parent() {
@@ -84,7 +84,7 @@ impl Journal {
     }
 }
 
-/// Reads the whole lines of the journal at `path`: the last one may be half written while a tuning goes on. None if it has none.
+/// Reads the complete lines of the journal at `path`: the last line of a running tuning may be half-written. None without any.
 pub fn read_journal(path: &Path) -> Result<Option<(JournalHeader, Vec<Trial>)>, Error> {
     if !path.exists() {
         return Ok(None);
@@ -105,7 +105,7 @@ pub fn read_journal(path: &Path) -> Result<Option<(JournalHeader, Vec<Trial>)>, 
     Ok(Some((header, trials)))
 }
 
-/// Parses the lines behind the first one, a trial each.
+/// Parses the lines after the first, one trial each.
 fn parse_trials<'a>(
     path: &Path,
     lines: impl Iterator<Item = &'a str>,
@@ -134,14 +134,14 @@ pub fn journal_error(path: &Path, index: usize, reason: &str) -> Error {
     ))
 }
 
-/// Refuses a header that differs from the expected one; names the first setting that does, and how to go on with the journal.
+/// Refuses a header that differs from the expected one; names the first differing setting, and how to continue the journal.
 fn check_header(path: &Path, line: &str, expected: &JournalHeader) -> Result<(), Error> {
     let found: Value = serde_json::from_str(line)
         .map_err(|error| journal_error(path, 0, &format!("is no journal of a tuning: {error}")))?;
     let expected = serde_json::to_value(expected).expect("a header is plain data");
     let fields = expected.as_object().expect("a header is a table");
     let mut names: Vec<&String> = fields.keys().collect();
-    // The points that the search begins with follow from all else.
+    // The search's first points follow from all other settings.
     names.sort_by_key(|name| *name == "design");
     let Some(name) = names.into_iter().find(|name| found[*name] != fields[*name]) else {
         return Ok(());
@@ -157,7 +157,7 @@ fn check_header(path: &Path, line: &str, expected: &JournalHeader) -> Result<(),
     Err(journal_error(path, 0, &reason))
 }
 
-/// Finds the first part of two values that differs, as short texts.
+/// Finds the first differing part of two values, as short texts.
 fn first_difference(found: &Value, expected: &Value) -> (String, String) {
     let inner = match (found, expected) {
         (Value::Array(one), Value::Array(other)) if one.len() == other.len() => {
@@ -178,7 +178,7 @@ fn first_difference(found: &Value, expected: &Value) -> (String, String) {
     inner.unwrap_or_else(|| (short_text(found), short_text(expected)))
 }
 
-/// Writes a value, or as much of it as a line has room for.
+/// Formats a value, shortened to fit a line.
 fn short_text(value: &Value) -> String {
     let text = value.to_string();
     match text.char_indices().nth(MAX_SHOWN) {

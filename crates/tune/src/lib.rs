@@ -1,4 +1,4 @@
-//! Tuning of a filter's parameters towards the truth, and its proof on held-out scenes.
+//! Tuning of a filter's parameters towards the truth, and its validation on held-out scenes.
 
 mod advice;
 mod candidate;

@@ -6,19 +6,19 @@ use crate::target::{SceneScore, SceneScores};
 pub const FAILED: f64 = 3.0;
 /// Lateral bleed, in pixels, below which a difference counts as none.
 pub const LEAST_BLEED: f64 = 0.01;
-/// FLIP that is as good as none: half a step of 8 bits in one pixel of a thousand.
+/// FLIP that counts as none: half a step of 8 bits in one pixel of a thousand.
 const LEAST_FLIP: f64 = 1e-6;
 /// Weight of an exceeded limit or bound, per fraction of the limit: 10 % too much cost weighs as much as an error 22 % larger.
 const PENALTY: f64 = 2.0;
-/// Divisor for limits that are smaller, such as the bleed of a start that never bleeds.
+/// Divisor for smaller limits, such as the bleed of a start that never bleeds.
 const SMALLEST_LIMIT: f64 = 0.05;
 
-/// Returns the log of a scene's error over that of the start: below 0 is better.
+/// Returns the log of a scene's error relative to the start's: below 0 is better.
 pub fn log_ratio(score: &SceneScore, start: &SceneScore) -> f64 {
     (score.flip.max(LEAST_FLIP) / start.flip.max(LEAST_FLIP)).ln()
 }
 
-/// Lists [`log_ratio`] of the scenes of `scores` that `counts` takes.
+/// Lists [`log_ratio`] of the scenes of `scores` that `counts` selects.
 pub fn log_ratios(
     scores: &SceneScores,
     start: &SceneScores,
@@ -30,7 +30,7 @@ pub fn log_ratios(
         .collect()
 }
 
-/// Averages [`log_ratios`]; none if `counts` takes no scene.
+/// Averages [`log_ratios`]; none if `counts` selects no scene.
 pub fn mean_log_ratio(
     scores: &SceneScores,
     start: &SceneScores,
@@ -72,7 +72,7 @@ mod tests {
         // Never more than the whole weight; nothing at the limit.
         assert_eq!(penalty(Some(9.0), Some(4.0)), PENALTY);
         assert_eq!(penalty(Some(4.0), Some(4.0)), 0.0);
-        // A limit of 0 counts as one of 0.05.
+        // A limit of 0 counts as 0.05.
         assert_eq!(penalty(Some(0.025), Some(0.0)), 0.5 * PENALTY);
     }
 }

@@ -16,7 +16,7 @@ use crate::wilcoxon::signed_rank_p_value;
 
 /// Scenes that a candidate runs on before it can be dropped.
 const RACE_FROM: usize = 6;
-/// Scenes between later checks: as many as are worked on at once.
+/// Scenes between later checks, the number processed at once.
 const RACE_STEP: usize = 2;
 /// A candidate is dropped if chance alone would make it look this bad less often than this.
 const RACE_LEVEL: f64 = 0.1;
@@ -62,7 +62,7 @@ pub fn run_next_trial(
     }
 }
 
-/// Scores a candidate on scene after scene, and fills in the trial.
+/// Scores a candidate on each scene, and fills in the trial.
 fn measure_trial(
     options: &TuneOptions,
     evaluator: &mut Evaluator,
@@ -101,7 +101,7 @@ fn measure_trial(
     Ok(())
 }
 
-/// Scores a candidate on scene after scene, until it is clearly worse than the best trial before.
+/// Scores a candidate scene by scene, until it is clearly worse than the best trial so far.
 fn race(
     options: &TuneOptions,
     evaluator: &mut Evaluator,

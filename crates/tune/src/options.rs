@@ -33,7 +33,7 @@ pub struct TuneOptions {
     pub cost_at_most: Option<f64>,
     /// Upper limit on the lateral bleed of the choice's worst scene, as a ratio to the start's.
     pub bleed_at_most: Option<f64>,
-    /// Number of trials, those of an interrupted tuning included; at least 1, which is the start itself.
+    /// Number of trials, including an interrupted tuning's; at least 1, which is the start itself.
     pub budget: usize,
     /// Time after which no trial begins.
     pub time: Option<Duration>,
@@ -43,7 +43,7 @@ pub struct TuneOptions {
     pub seed: u64,
     /// Folder for files.
     pub out: PathBuf,
-    /// Monitor that hears of the progress and can end the work.
+    /// Monitor that shows progress and can end the work.
     pub monitor: Monitor,
 }
 
@@ -53,7 +53,7 @@ impl TuneOptions {
         self.objectives.contains(&objective)
     }
 
-    /// Refuses a tuning that cannot be done, before anything is rendered.
+    /// Refuses an impossible tuning before anything is rendered.
     pub fn check(&self) -> Result<(), Error> {
         assert!(self.budget > 0, "the first trial is the start itself");
         let limits = [
@@ -92,7 +92,7 @@ impl TuneOptions {
         }
     }
 
-    /// Returns the limits of the choice, from those relative to the start, which is the first trial.
+    /// Returns the limits of the choice, from the limits relative to the start, which is the first trial.
     pub fn choice_limits(&self, start: &Trial) -> ChoiceLimits {
         ChoiceLimits {
             cost: self.cost_at_most,
@@ -112,7 +112,7 @@ impl TuneOptions {
     }
 }
 
-/// Orders scenes so that families take turns and the first few stand for all.
+/// Orders scenes so that families alternate and the first few represent all.
 pub fn interleave_families(scenes: Vec<(Scene, SceneBounds)>) -> Vec<(Scene, SceneBounds)> {
     let mut turns: BTreeMap<&'static str, usize> = BTreeMap::new();
     let mut keyed: Vec<_> = (scenes.into_iter())

@@ -8,19 +8,19 @@ use cmaes::{CMAESOptions, DVector};
 const STEP: f64 = 0.2;
 /// Points of the initial design per axis, added to the presets.
 const DESIGN_PER_AXIS: usize = 2;
-/// Differences between losses that count as none: less than any truth's noise.
+/// Difference between losses that counts as none: less than any truth's noise.
 const LOSS_STEP: f64 = 1e-5;
-/// Differences between coordinates that count as none.
+/// Difference between coordinates that counts as none.
 const COORDINATE_STEP: f64 = 1e-3;
 
-/// Ask-and-tell search: the presets, then a Sobol design that fills the cube, then CMA-ES from the best of them; once that has
-/// settled, again from another point with twice the population (Auger and Hansen, "A Restart CMA Evolution Strategy with
-/// Increasing Population Size", CEC 2005).
+/// Ask-and-tell search: the presets, then a Sobol design that fills the cube, then CMA-ES from the best of them; once that has settled,
+/// again from another point with twice the population (Auger and Hansen, "A Restart CMA Evolution Strategy with Increasing Population
+/// Size", CEC 2005).
 #[derive(Clone, Debug)]
 pub struct Search {
     /// Seed of all randomness.
     pub seed: u64,
-    /// Points to begin with.
+    /// Initial points.
     pub design: Vec<Vec<f64>>,
     /// Number of coordinates of a point.
     pub axes: usize,
@@ -37,8 +37,8 @@ impl Search {
         Self { seed, design, axes }
     }
 
-    /// Returns the point that follows when the points so far had these losses. It depends on nothing else: the whole search is
-    /// repeated, which takes some milliseconds after hundreds of losses.
+    /// Returns the next point, given the losses of the points so far. It depends on nothing else: the whole search is repeated, which takes
+    /// some milliseconds after hundreds of losses.
     pub fn ask(&self, losses: &[f64]) -> Vec<f64> {
         if let Some(point) = self.design.get(losses.len()) {
             return point.clone();
@@ -76,7 +76,7 @@ impl Search {
             None => {
                 let mut asked = asked.borrow_mut();
                 asked.get_or_insert_with(|| point.iter().map(|it| mirror(*it)).collect());
-                // Never used: this run ends before it could go on with it.
+                // Never used: this run ends before it could continue with it.
                 0.0
             }
         };
@@ -110,7 +110,7 @@ pub fn sobol_point(index: u32, axes: usize, seed: u64) -> Vec<f64> {
         .collect()
 }
 
-/// Reflects a coordinate at the sides of the cube until it lies inside.
+/// Reflects a coordinate at the sides of the cube until it is inside.
 fn mirror(coordinate: f64) -> f64 {
     let folded = coordinate.rem_euclid(2.0);
     if folded > 1.0 { 2.0 - folded } else { folded }

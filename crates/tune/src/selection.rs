@@ -12,7 +12,7 @@ use crate::trial::Trial;
 /// Upper limits on the choice.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ChoiceLimits {
-    /// GPU time relative to that of the start.
+    /// GPU time relative to the start's.
     pub cost: Option<f64>,
     /// Lateral bleed of the worst scene, in pixels.
     pub bleed: Option<f64>,
@@ -25,27 +25,27 @@ impl ChoiceLimits {
             Some(limit) => value.is_some_and(|value| value <= limit),
             None => true,
         };
-        // The limits are relative to the start; noise of the clock must not exclude it.
+        // The limits are relative to the start, so noise of the clock must not exclude it.
         let is_start = trial.trial == 0;
         trial.is_done()
             && (is_start || holds(trial.cost, self.cost) && holds(trial.bleed, self.bleed))
     }
 }
 
-/// Trial that the one-standard-error rule takes.
+/// Trial selected by the one-standard-error rule.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Choice {
     /// Number of the chosen trial.
     pub trial: usize,
-    /// Number of the trial with the least error.
+    /// Number of the trial with the smallest error.
     pub best: usize,
     /// Standard error of the best one's mean over scenes of log(error / error of the start).
     pub standard_error: f64,
 }
 
-/// Chooses among the trials that keep the limits, by their means over the scenes that `counts` takes: the trial nearest to the
-/// start of all within one standard error of the best. So the start wins where the scenes cannot tell (Breiman, Friedman, Olshen
-/// and Stone, "Classification and Regression Trees", 1984, section 3.4.3). None if no scene counts.
+/// Chooses among the trials that keep the limits, by their means over the scenes that `counts` selects: the trial nearest to the start
+/// among all within one standard error of the best. So the start wins if the scenes cannot decide (Breiman, Friedman, Olshen and Stone,
+/// "Classification and Regression Trees", 1984, section 3.4.3). None if no scene counts.
 pub fn choose_trial(
     trials: &[Trial],
     space: &Space,
@@ -73,7 +73,7 @@ pub fn choose_trial(
     })
 }
 
-/// Adds the values that all trials share to those of one trial.
+/// Adds the values that all trials share to one trial's.
 pub fn trial_settings(space: &Space, trial: &Trial) -> Settings {
     let mut settings = space.start.clone();
     settings.values.extend(trial.values.clone());
@@ -91,25 +91,25 @@ fn standard_error_of_mean(ratios: &[f64]) -> f64 {
     (squares / (count - 1.0) / count).sqrt()
 }
 
-/// Result on one family of scenes of a choice that was made without it.
+/// Result on one family of scenes of a choice made without it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Fold {
-    /// Family that was left out.
+    /// Family left out.
     pub family: String,
     /// Number of its scenes.
     pub scenes: usize,
-    /// Trial that the other families choose.
+    /// Trial chosen by the other families.
     pub trial: usize,
     /// The trial's mean log(error / error of the start) on the others.
     pub others: f64,
-    /// The trial's mean on the family that was left out.
+    /// The trial's mean on the family left out.
     pub held_out: f64,
-    /// `held_out - others`: above 0, the choice is worse on the family that it was not chosen for.
+    /// `held_out - others`: above 0, the choice is worse on the family left out.
     pub gap: f64,
 }
 
-/// Leaves each family out of the choice in turn; returns nothing for a single family. The trials themselves were searched for on
-/// all scenes: folds show how much the choice among them overfits, and held-out scenes show that of the search as well.
+/// Leaves each family out of the choice in turn; returns nothing for a single family. The search for trials used all scenes: folds show
+/// how much the choice among them overfits, and held-out scenes show it for the search as well.
 pub fn cross_validate(
     trials: &[Trial],
     space: &Space,

@@ -13,7 +13,7 @@ const SAMPLES: usize = 1000;
 pub struct SobolIndices {
     /// Share that it causes alone.
     pub first: Estimate,
-    /// Share that would be gone if it were constant: caused alone or together with others.
+    /// Share that would vanish if it were constant: caused alone or together with others.
     pub total: Estimate,
 }
 
@@ -22,9 +22,9 @@ pub struct SobolIndices {
 pub struct Estimate {
     /// Value from all rows.
     pub value: f64,
-    /// Lower end: 2.5 % of the bootstrap samples of rows lie below it.
+    /// Lower end: 2.5 % of the bootstrap samples of rows are below it.
     pub low: f64,
-    /// Upper end: 2.5 % lie above it.
+    /// Upper end: 2.5 % are above it.
     pub high: f64,
 }
 
@@ -109,7 +109,7 @@ impl<'a> Sample<'a> {
         share.unwrap_or(0.0)
     }
 
-    /// Divides half of the mean of squared differences by the variance; none of a constant function.
+    /// Divides half the mean squared difference by the variance; none for a constant function.
     fn share_of_variance(&self, difference: impl Fn(&Row) -> f64) -> Option<f64> {
         let squares: f64 = self.rows.iter().map(|row| difference(row).powi(2)).sum();
         let share = squares / (2.0 * self.rows.len() as f64 * self.variance);

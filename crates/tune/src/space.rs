@@ -7,14 +7,14 @@ use suite::Error;
 /// Some parameters of a filter with their ranges, around a set of values.
 #[derive(Clone, Debug)]
 pub struct Space {
-    /// Values to start from; all other parameters keep them.
+    /// Start values; all other parameters keep them.
     pub start: Settings,
     /// Parameters that may change, each within its own range.
     pub axes: Vec<Parameter>,
 }
 
 impl Space {
-    /// Makes an axis of each parameter that `vary` names, as `name` or `name=low..high`; of every tunable one if it names none.
+    /// Makes an axis from each parameter that `vary` names, as `name` or `name=low..high`; from every tunable one if it names none.
     pub fn new(filter: &Filter, start: Settings, vary: &[String]) -> Result<Self, Error> {
         let tunable = filter.parameters.iter().filter(|it| it.tunable);
         let tunable: Vec<&Parameter> = tunable.collect();
@@ -83,7 +83,7 @@ impl Space {
         settings
     }
 
-    /// Maps values to the unit cube; clamps those outside of an axis's range.
+    /// Maps values to the unit cube; clamps values outside an axis's range.
     pub fn point(&self, settings: &Settings) -> Vec<f64> {
         let axes = self.axes.iter();
         axes.map(|axis| coordinate_of(&axis.kind, &settings.values[&axis.name]))
@@ -135,8 +135,8 @@ fn can_vary(kind: &Kind) -> bool {
     }
 }
 
-/// Returns the ends and the scale of a coordinate's range. A whole number owns half a step on either side, so that the first and
-/// the last are met as often as any other.
+/// Returns the ends and the scale of a coordinate's range. A whole number has half a step on either side, so that the first and the last
+/// occur as often as any other.
 fn coordinate_range(kind: &Kind) -> (f64, f64, Scale) {
     match kind {
         Kind::Integer { min, max, scale } => (f64::from(*min) - 0.5, f64::from(*max) + 0.5, *scale),

@@ -3,31 +3,32 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use frame::{Alignment, Frame, Image, Plane, Truth};
+use filters::Filter;
+use frame::{Frame, Image, Plane, Truth};
 use judge::{Bounds, SceneBounds};
 use metrics::{Metric, ObjectMetric, Reference, Viewing, flip_ldr};
 use serde::{Deserialize, Serialize};
 use suite::{Error, Monitor, Rendering};
 use tracer::{RenderSettings, Scene};
 
-/// A scene, rendered once and measured against hundreds of times.
+/// A scene, rendered once and used for hundreds of measurements.
 pub struct RenderedScene {
     /// The scene's name, with its variant.
     pub name: String,
     /// Input of the filter.
     pub frame: Frame,
-    /// Reference that pictures are compared with.
+    /// Reference to compare pictures with.
     pub truth: Truth,
     /// The scene's bounds for pictures of this size, for every filter.
     pub bounds: SceneBounds,
-    /// Display that errors are seen on.
+    /// Viewing display for errors.
     pub viewing: Viewing,
 }
 
-/// Reads frames and truths of scenes from `out`, or renders and keeps them there.
+/// Reads frames and truths of scenes for a filter from `out`, or renders and keeps them there.
 pub fn render_scenes(
     scenes: &[(Scene, SceneBounds)],
-    alignment: Alignment,
+    filter: &Filter,
     render: &RenderSettings,
     out: &Path,
     monitor: Monitor,
@@ -41,8 +42,11 @@ pub fn render_scenes(
         };
         Ok(RenderedScene {
             name: scene.id.to_string(),
-            frame: rendering.frame()?,
-            truth: rendering.truth(alignment)?,
+            frame: match filter.further_inputs().is_empty() {
+                true => rendering.frame()?,
+                false => rendering.frame_with_further_velocities()?,
+            },
+            truth: rendering.truth(filter.alignment)?,
             viewing: scene.display.into(),
             bounds: bounds.clone().at((render.width, render.height)),
         })
@@ -55,7 +59,7 @@ pub fn render_scenes(
 pub struct SceneScore {
     /// `flip_moving`.
     pub flip: f64,
-    /// `bleed_lateral`, in pixels; none if it was not asked for or does not apply.
+    /// `bleed_lateral`, in pixels; none if it was not requested or does not apply.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bleed: Option<f64>,
 }
@@ -67,14 +71,14 @@ pub type SceneScores = BTreeMap<String, SceneScore>;
 pub struct Target<'a> {
     /// Frame, truth and name.
     pub scene: &'a RenderedScene,
-    /// The bounds of the filter and preset that are tuned.
+    /// Bounds of the tuned filter and preset.
     pub bounds: Bounds,
     reference: Reference<'a>,
     mean: Image,
 }
 
 impl<'a> Target<'a> {
-    /// Prepares a scene for scoring. Refuses a scene where nothing moves: it has no error to reduce.
+    /// Prepares a scene for scoring. Refuses a scene without motion: it has no error to reduce.
     pub fn new(scene: &'a RenderedScene, filter: &str, preset: &str) -> Result<Self, Error> {
         let frame = scene.frame.cropped();
         let reference = Reference::new(&frame, &scene.truth, None, &scene.viewing)?;
@@ -92,7 +96,7 @@ impl<'a> Target<'a> {
         })
     }
 
-    /// Scores a picture by `flip_moving` alone, and its mattes, if there are any, by their bleed.
+    /// Scores a picture by `flip_moving` alone, and its mattes, if any, by their bleed.
     pub fn score(&self, color: &Image, mattes: Option<&[Plane]>) -> SceneScore {
         let errors = flip_ldr(&self.mean, color, &self.scene.viewing);
         let moving = &self.reference.regions.moving.pixels;
@@ -105,8 +109,8 @@ impl<'a> Target<'a> {
         }
     }
 
-    /// Returns by how much the scores exceed their limits, as a fraction of the limits; 0 if they keep all of them. A bound
-    /// that the start breaks is relaxed to the start's score.
+    /// Returns by how much the scores exceed their limits, as a fraction of the limits; 0 if they keep all of them. A bound that the start
+    /// breaks is relaxed to the start's score.
     pub fn excess(&self, score: &SceneScore, start: &SceneScore) -> f64 {
         let bleed = Metric::Object(ObjectMetric::BleedLateral);
         let measured = [

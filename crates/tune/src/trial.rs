@@ -38,17 +38,17 @@ pub struct JournalHeader {
     pub values: BTreeMap<String, Value>,
     /// Parameters that may change, each with its range in words.
     pub vary: BTreeMap<String, String>,
-    /// Points that the search begins with, one coordinate per line of `vary` in the order of the filter's parameters.
+    /// Initial points of the search, one coordinate per line of `vary` in the order of the filter's parameters.
     pub design: Vec<Vec<f64>>,
-    /// Scene names in the order in which candidates meet them, each with the content hash of its truth.
+    /// Scene names in the order in which candidates run on them, each with the content hash of its truth.
     pub scenes: Vec<(String, String)>,
-    /// Scores that are measured.
+    /// Measured scores.
     pub objectives: Vec<Objective>,
     /// Upper limit on the cost, as a ratio to the start's.
     pub cost_at_most: Option<f64>,
     /// Upper limit on the lateral bleed of the worst scene, as a ratio to the start's.
     pub bleed_at_most: Option<f64>,
-    /// True if candidates that are clearly worse are dropped.
+    /// True if clearly worse candidates are dropped.
     pub race: bool,
     /// Seed of the search.
     pub seed: u64,
@@ -68,10 +68,10 @@ pub struct Trial {
     /// Mean without penalties; none if nothing was measured.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub error: Option<f64>,
-    /// Lateral bleed of the worst scene, in pixels; none if it was not asked for.
+    /// Lateral bleed of the worst scene, in pixels; none if not requested.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bleed: Option<f64>,
-    /// GPU time relative to that of the start, a median; none if it was not asked for.
+    /// Median GPU time relative to the start's; none if not requested.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cost: Option<f64>,
     /// Scores on each scene that it ran on.
@@ -94,7 +94,7 @@ pub enum TrialOutcome {
 }
 
 impl Trial {
-    /// Refuses a trial that no tuning with this header writes as its trial `number`, from 0: the search relies on it.
+    /// Refuses a trial that no tuning with this header could write as its trial `number`, from 0: the search relies on it.
     pub fn check(&self, header: &JournalHeader, number: usize) -> Result<(), String> {
         if self.trial != number {
             return Err(format!("trial {}, expected {number}", self.trial));

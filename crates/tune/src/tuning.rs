@@ -48,7 +48,7 @@ pub struct Tuning {
     pub values: BTreeMap<String, Value>,
     /// Cross-validation over the families of scenes.
     pub folds: Vec<Fold>,
-    /// Results on the held-out scenes, the last one of this choice; empty if there are no such scenes.
+    /// Results on the held-out scenes, with this choice's last; empty without such scenes.
     #[serde(rename = "openings")]
     pub held_out: Vec<HeldOutResult>,
 }
@@ -68,8 +68,8 @@ pub fn tune(
         monitor,
         ..
     } = options;
-    let alignment = choice.filter.alignment;
-    let scenes = render_scenes(&options.scenes, alignment, render, out, *monitor)?;
+    let filter = &choice.filter;
+    let scenes = render_scenes(&options.scenes, filter, render, out, *monitor)?;
     let bleed = options.measures(Objective::Bleed);
     let mut evaluator = Evaluator::new(gpu, choice, &scenes, bleed, *monitor)?;
     let search = make_search(options)?;
@@ -95,8 +95,8 @@ pub fn tune(
     Ok(tuning)
 }
 
-/// Hands the scores of a journal to the evaluator, which then need not measure them again. Refuses trials with values that the filter
-/// does not take.
+/// Hands the scores of a journal to the evaluator, which then need not measure them again. Refuses trials with values that the filter does
+/// not accept.
 fn remember_trials(
     evaluator: &mut Evaluator,
     options: &TuneOptions,
@@ -116,8 +116,8 @@ fn remember_trials(
     Ok(())
 }
 
-/// Makes a search that begins with the start and the other presets. Presets that tuning itself has found are left out: another
-/// search has to find them again.
+/// Makes a search that begins with the start and the other presets, except presets that tuning itself found: another search has to find
+/// them again.
 fn make_search(options: &TuneOptions) -> Result<Search, Error> {
     let space = &options.space;
     let mut points = vec![space.point(&space.start)];
@@ -157,7 +157,7 @@ fn make_header(options: &TuneOptions, evaluator: &Evaluator, search: &Search) ->
     }
 }
 
-/// Chooses among the trials and sums them up.
+/// Chooses among the trials and summarises them.
 fn conclude(
     options: &TuneOptions,
     header: JournalHeader,
@@ -214,12 +214,12 @@ fn evaluate_held_out(
         monitor,
         ..
     } = options;
-    let alignment = choice.filter.alignment;
+    let filter = &choice.filter;
     let folder = out.join("held_out");
-    let scenes = render_scenes(&options.held_out, alignment, render, &folder, *monitor)?;
+    let scenes = render_scenes(&options.held_out, filter, render, &folder, *monitor)?;
     let mut evaluator = Evaluator::new(gpu, choice, &scenes, true, *monitor)?;
     let start = choice.preset_at(&choice.preset, render.width)?;
-    // What was found on pictures of one width is scaled to those of another as the start is.
+    // Values from pictures of one width are scaled to another like the start's.
     let start_width = options.space.start.reference_width;
     let chosen = Settings {
         values: values.clone(),

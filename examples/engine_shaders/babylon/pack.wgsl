@@ -1,5 +1,5 @@
-// What Babylon.js's prepass writes of motion (ShadersInclude/pbrBlockPrePass.fx): the cube root of the motion in texture coordinates,
-// and in alpha whether anything is drawn.
+// Motion as Babylon.js's prepass writes it (ShadersInclude/pbrBlockPrePass.fx): the cube root of the motion in texture coordinates, and
+// in alpha whether anything is drawn.
 @group(0) @binding(0) var velocity: texture_2d<f32>;
 @group(0) @binding(1) var depth: texture_2d<f32>;
 

@@ -1,11 +1,11 @@
-// Writes out the WGSL of Babylon.js's motion blur, both modes, with the conditions of its preprocessor resolved and its declarations
-// in the language's own words, as the engine does for WebGPU. What the shader computes stays as it is.
+// Writes out the WGSL of Babylon.js's motion blur, both modes, with its preprocessor's conditions resolved and its declarations in plain
+// WGSL, as the engine does for WebGPU. The computation is unchanged.
 //
 //     npm install @babylonjs/core@9.35.0 && node write_wgsl.mjs
 import { writeFileSync } from 'node:fs';
 import { motionBlurPixelShaderWGSL } from '@babylonjs/core/ShadersWGSL/motionBlur.fragment.js';
 
-// The lines whose conditions hold.
+// The lines with true conditions.
 function preprocessed(text, defines) {
     const open = [];
     return text.split('\n').filter((line) => {
@@ -18,7 +18,7 @@ function preprocessed(text, defines) {
     }).join('\n');
 }
 
-// Declarations as WGSL has them: a location for each varying, one block for the uniforms, a binding for all else.
+// Declarations in WGSL: a location for each varying, one block for the uniforms, a binding for everything else.
 function declared(text) {
     let binding = 1;
     const uniforms = [...text.matchAll(/uniform (\w+): (\w+);/g)].map(([, name, type]) => `    ${name}: ${type},\n`);

@@ -1,7 +1,7 @@
 // The prepass writes the distance along the view axis, and 0 where nothing is drawn.
 @group(0) @binding(0) var depth: texture_2d<f32>;
 
-// As filter.toml has them, in metres.
+// In metres, as in filter.toml.
 const NEAR = 0.1;
 const FAR = 100000.0;
 

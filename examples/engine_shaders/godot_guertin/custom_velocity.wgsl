@@ -1,4 +1,4 @@
-// Velocity and depth in one texture, as the add-on's first stage leaves them where only objects move.
+// Velocity and depth in one texture, like the add-on's first stage if only objects move.
 @group(0) @binding(0) var velocity: texture_2d<f32>;
 @group(0) @binding(1) var depth: texture_2d<f32>;
 @group(0) @binding(2) var custom_velocity_out: texture_storage_2d<rgba32float, write>;

@@ -1,4 +1,4 @@
-// Each tile's own place, in texture coordinates.
+// Each tile's own position, in texture coordinates.
 @group(0) @binding(0) var buffer_a_out: texture_storage_2d<rgba16float, write>;
 @group(0) @binding(1) var buffer_b_out: texture_storage_2d<rgba16float, write>;
 

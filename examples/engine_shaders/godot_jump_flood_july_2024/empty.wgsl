@@ -1,4 +1,4 @@
-// Textures of the first frame, which hold nothing yet.
+// Textures of the first frame, still empty.
 @group(0) @binding(0) var buffer_a_out: texture_storage_2d<rgba16float, write>;
 @group(0) @binding(1) var buffer_b_out: texture_storage_2d<rgba16float, write>;
 @group(0) @binding(2) var past_color_out: texture_storage_2d<rgba16float, write>;

@@ -1,9 +1,9 @@
-// Lets three.js write out the WGSL of its motion blur, as its own node builder makes it; no GPU is needed.
+// Makes three.js write out the WGSL of its motion blur with its own node builder; no GPU is needed.
 //
 //     npm install three@0.187.0 && node write_wgsl.mjs
 import { writeFileSync } from 'node:fs';
 
-// Whatever the renderer asks of a device is answered by a thing that takes every call.
+// A stub for the device that accepts every call of the renderer.
 const anything = new Proxy(function () {}, {
     get: (_, key) => (key === Symbol.toPrimitive ? () => 0 : key === 'then' ? undefined : anything),
     apply: () => anything,
@@ -21,7 +21,7 @@ Object.assign(globalThis, {
     GPUMapMode: constants,
     GPUColorWrite: constants,
 });
-// Newer versions of Node have a navigator, which cannot be assigned.
+// Newer versions of Node have a navigator that cannot be assigned.
 Object.defineProperty(globalThis, 'navigator', {
     value: { gpu: { getPreferredCanvasFormat: () => 'bgra8unorm' } },
     configurable: true,

@@ -9,7 +9,7 @@ from sampling import linear
 
 F = np.float32
 
-# Any near plane will do: the shader only asks which depth is larger.
+# Any near plane will do: the shader only compares depths.
 NEAR = F(0.1)
 
 

@@ -73,7 +73,7 @@ def gradient_noise(x, y):
 
 
 def depth_cmp(center, sample, scale):
-    """How far a sample lies behind the centre and in front of it."""
+    """Weights for a sample behind the centre, and in front of it."""
     farther = F(scale) * (sample - center)
     return saturate(F(0.5) + farther), saturate(F(0.5) - farther)
 
@@ -182,7 +182,7 @@ def hdrp(color, velocity, depth, exposure, frame_index, parameters, mirror_weigh
 
 
 def hdrp_tiles(vec, lengths, side, magnitude):
-    """The longest motion that is spread to every tile, and the least length around it."""
+    """The longest motion spread to every tile, and the smallest length around it."""
     height, width = lengths.shape
     rows, columns = -(-height // side), -(-width // side)
     # PackMotionVec: the length's 16 bits, then the angle's.
@@ -230,7 +230,7 @@ def hdrp_tiles(vec, lengths, side, magnitude):
 
 
 def cohen(column, row, line):
-    """The tiles that a line meets."""
+    """The tiles that a line crosses."""
     x, y = column - 1, row - 1
     to_x, to_y = (int(np.ceil(part + F(1))) for part in line)
     sign_x, sign_y = int(np.sign(to_x)), int(np.sign(to_y))

@@ -46,7 +46,7 @@ NEIGHBOURS = [(1, 1), (0, 1), (-1, 1), (1, 0), (1, -1), (-1, 0), (-1, -1), (0, -
 
 @dataclass(frozen=True)
 class Demo:
-    """What the demo's scene sets, and what the shaders of its commit do."""
+    """Settings of the demo's scene, and behaviour of its commit's shaders."""
 
     samples: int = 8
     passes: int = 3
@@ -55,11 +55,11 @@ class Demo:
     match_threshold: float = 0.5
     parallel_sensitivity: float = 1.0
     perpendicular_sensitivity: float = 0.2
-    # Difference of device depth; None where the way back looks at velocities alone.
+    # Difference of device depth; None if the way back only uses velocities.
     depth_match: float | None = None
     # Matching probes in a row that end the way back.
     hits: int = 1
-    # Factor on the reach in the gather alone.
+    # Factor on the reach, in the gather only.
     reach: int = 1
     # Whether noise shifts taps instead of stretching trails.
     shifts: bool = False
@@ -117,7 +117,7 @@ class Sampler:
 
 
 class Frame:
-    """One frame as Godot hands it over: velocity leads back, in UV; device depth is larger nearby."""
+    """One frame in Godot's form: velocity points back, in UV; device depth is larger nearby."""
 
     def __init__(self, color, velocity, depth):
         self.height, self.width = depth.shape
@@ -142,7 +142,7 @@ def on_image(uv):
 
 
 def fitness(demo, exposure, offset, back):
-    """When a source passed over the pixel, in frames, and whether it did while the shutter was open."""
+    """Time at which a source passed over the pixel, in frames, and whether the shutter was open then."""
     motion = -back
     square = dot(motion, motion)
     moves = square > SMALLEST
@@ -157,7 +157,7 @@ def fitness(demo, exposure, offset, back):
 
 
 def dilate(demo, frame, exposure, step_multiplier):
-    """The map of sources after the last step: place, velocity, distance and time of the best, and whether there is one."""
+    """The map of sources after the last step: position, velocity, distance and time of the best, and whether there is one."""
     shape = frame.pixels.shape[:2]
     stored = frame.uv
     for iteration in range(demo.passes):
@@ -183,7 +183,7 @@ def dilate(demo, frame, exposure, step_multiplier):
             back = frame.velocity(place)
             distance = NEAR_PLANE / frame.depth(place)
             frames, valid = fitness(demo, exposure, offset, back)
-            # Without the case that cannot occur, the shader's comparison comes to this.
+            # Without the impossible case, the shader's comparison reduces to this.
             better = inside & valid & (~best["valid"] | (distance < best["distance"]))
             found = {"place": place, "back": back, "distance": distance, "frames": frames, "valid": valid}
             for name, values in found.items():
@@ -208,16 +208,16 @@ def length(vectors):
 
 
 def cut(demo, frame, exposure, motion, factor, step_multiplier):
-    """Frames after which a trail is cut: right for an exposure of one frame alone."""
+    """Frames after which a trail is cut: correct only for an exposure of one frame."""
     reach = np.float32(2 ** (demo.passes - 1)) * np.float32(step_multiplier) * np.float32(factor)
     with np.errstate(divide="ignore"):
         return reach / max(frame.size) / (length(motion) * exposure)
 
 
 def walk_back(demo, frame, exposure, best, step_multiplier):
-    """The final map: the place that each pixel takes its velocity from."""
+    """The final map: the position that each pixel takes its velocity from."""
     walks = best["valid"] & (NEAR_PLANE / frame.depth(frame.uv) >= best["distance"])
-    # The way back does not know the doubled reach of the gather.
+    # The way back does not use the gather's doubled reach.
     farthest = cut(demo, frame, exposure, best["back"], 1, step_multiplier)
     frames = np.where(walks, np.minimum(best["frames"], farthest), np.float32(0))
     place = frame.uv.copy()
@@ -237,7 +237,7 @@ def walk_back(demo, frame, exposure, best, step_multiplier):
         hit = looks & matches
         hits = hits + hit
         last_hit = np.where(hit[..., None], at, last_hit)
-        # A probe that is skipped is no miss; a row of hits that the last probe cuts short counts nothing.
+        # A skipped probe is no miss; a row of hits cut short by the last probe does not count.
         ends = (hit & (hits == demo.hits)) | (looks & ~matches & (hits > 0))
         place = np.where(ends[..., None], last_hit, place)
         walks = walks & ~ends

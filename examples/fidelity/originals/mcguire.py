@@ -21,7 +21,7 @@ def saturate(x):
 
 
 def device_depth(metres, near, far):
-    """What a depth buffer holds that grows into the screen."""
+    """Converts metres to a depth buffer that grows into the screen."""
     near, far = F(near), F(far)
     return np.clip(far / (far - near) * (1 - near / metres), F(1e-6), F(1)).astype(F)
 
@@ -65,7 +65,7 @@ def demo(color, velocity, depth, exposure, stored):
     motion = stored(motion * F(0.5))
     z = device_depth(depth, 0.1, 1000)
 
-    # Whole tiles alone; the longest of each, the first of equal ones.
+    # Only whole tiles; the longest of each, the first of equal ones.
     columns, rows = max(width // K, 1), max(height // K, 1)
     longer = lambda a, b: np.where(((a * a).sum(-1) >= (b * b).sum(-1))[..., None], a, b)
     tiles = np.zeros((rows, columns, 2), F)
@@ -142,7 +142,7 @@ def normalized(v):
 
 
 def g3d(color, velocity, depth, exposure, frame_index, parameters):
-    """The tile is the preset's, which is a twentieth of the width that the preset is made for."""
+    """The tile is the preset's: a twentieth of the preset's picture width."""
     height, width = depth.shape
     radius = parameters["tile_size"]
     z = device_depth(depth, 0.1, 1e9)

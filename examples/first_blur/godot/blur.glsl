@@ -20,7 +20,7 @@ void main() {
         return;
     }
     vec2 uv = (vec2(pixel) + 0.5) / vec2(size);
-    // Godot's velocity points to where the surface came from.
+    // Godot's velocity points to the previous position.
     vec2 trail = -textureLod(velocity_sampler, uv, 0.0).xy * params.intensity;
     vec4 sum = vec4(0.0);
     for (int i = 0; i < params.samples; i++) {

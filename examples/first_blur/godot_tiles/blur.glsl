@@ -23,14 +23,14 @@ void main() {
     vec2 uv = (vec2(pixel) + 0.5) / size;
     vec4 own = textureLod(color_sampler, uv, 0.0);
     float own_motion = length(textureLod(velocity_sampler, uv, 0.0).xy * params.intensity * size);
-    // Godot's velocity points to where the surface came from.
+    // Godot's velocity points to the previous position.
     vec2 trail = -imageLoad(neighbor_max, pixel / params.tile_size).xy * params.intensity;
     vec4 sum = vec4(0.0);
     for (int i = 0; i < params.samples; i++) {
         float along = (float(i) + 0.5) / float(params.samples);
         vec2 there = uv + along * trail;
         float motion = length(textureLod(velocity_sampler, there, 0.0).xy * params.intensity * size);
-        // The surface there passed over this pixel, or the one here came from behind it, if it moves as far as it is away.
+        // The surface there passed over this pixel, or this pixel's came from behind it, if its motion covers the distance.
         bool passed = max(motion, own_motion) >= along * length(trail * size);
         sum += passed ? textureLod(color_sampler, there, 0.0) : own;
     }

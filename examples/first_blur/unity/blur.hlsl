@@ -1,4 +1,4 @@
-// Colours averaged along the motion. What UnityCG.cginc would declare stands here.
+// Colours averaged along the motion. The first lines declare what UnityCG.cginc would.
 Texture2D<float4> _MainTex;
 SamplerState sampler_MainTex;
 Texture2D<float4> _CameraMotionVectorsTexture;

@@ -5,7 +5,7 @@ use std::fs;
 use super::assert_ends;
 use crate::sandbox::{Sandbox, split};
 
-/// Proposes limits of a gather on the plate; returns what it prints, and the file.
+/// Proposes limits of a gather on the plate; returns the output, and the file.
 pub fn calibrate(sandbox: &Sandbox, more: &str) -> (String, String) {
     let words = "limits calibrate --quiet --out calibrated --size 64x32 --samples-per-pixel 64 \
         --runs 2 --filters";
@@ -14,7 +14,7 @@ pub fn calibrate(sandbox: &Sandbox, more: &str) -> (String, String) {
     (printed, fs::read_to_string(file).unwrap())
 }
 
-/// Checks that the gather keeps its limits with a seed that neither run has, and that two taps break them.
+/// Checks that the gather keeps its limits with a seed that neither run used, and that two taps break them.
 pub fn assert_limits(sandbox: &Sandbox, more: &str, met: &str, broken: &str) {
     let fine = format!("--filters velocity_gather:fine --seed 9 {more}");
     assert_ends(&sandbox.check(&split(&fine)), 0, &[met]);

@@ -21,7 +21,7 @@ fn a_finished_run_is_judged_without_an_adapter() {
     assert_eq!(judged.replace(note, ""), made);
     let said = stderr(&judge("out/run.json --json"));
     assert_contains(&squeeze(&said), &[note.trim_end()]);
-    // Evidence takes a while, so only who asks for it gets it.
+    // Evidence takes a while, so it is only made on request.
     let plain = assert_ends(&judge("out"), 1, &broken);
     assert!(!plain.contains("worst at"), "{plain}");
 

@@ -99,7 +99,7 @@ fn a_limit_on_a_distance_stands_beside_a_distance() {
     assert_contains(&annotation.replace("%25", "%"), &parts);
     let read = |name: &str| fs::read_to_string(sandbox.path(name)).unwrap();
     assert_contains(&read("junit.xml"), &parts);
-    // Tables have the score itself, and say what its limit is on.
+    // Tables have the score itself, and name what its limit applies to.
     assert_contains(&read("summary.md"), &["| 0.01000 from 1 |"]);
     let pages = files_below(&sandbox.path("out")).into_iter();
     let mut pages = pages.filter(|path| path.extension().is_some_and(|end| end == "html"));

@@ -1,4 +1,4 @@
-//! `check`: bounds as their user meets them.
+//! `check`: bounds as users see them.
 
 mod calibrated;
 mod finished_run;
@@ -16,7 +16,7 @@ use crate::sandbox::{Files, Sandbox, split, stderr, stdout};
 /// A bound that the identity keeps.
 const KEPT: &str = "label_tv = { limit = 0.9, why = \"it serves a test\" }\n";
 
-/// Makes a sandbox whose scene bounds the identity's `flip_moving`, which is about 0.3. The identity is measured already.
+/// Makes a sandbox whose scene bounds the identity's `flip_moving`, which is about 0.3, with the identity already measured.
 fn make_bounded(limit: f64, level: &str) -> Sandbox {
     static FILES: OnceLock<Files> = OnceLock::new();
     let sandbox = Sandbox::once(&FILES, || {

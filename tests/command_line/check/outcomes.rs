@@ -12,7 +12,7 @@ use crate::sandbox::{IDENTITY, SCENE, Sandbox, assert_refused, split};
 fn scores_within_their_bounds_pass() {
     let sandbox = make_bounded(0.9, "required");
     let text = check(&sandbox, "", 0, &["1 required bound: 1 met"]);
-    // What is kept is not listed.
+    // Kept bounds are not listed.
     assert!(!text.contains("plate /"), "{text}");
     assert!(text.ends_with("\nPASS\n"), "{text}");
     let case = &sandbox.read_filter_cases()[0];
@@ -51,7 +51,7 @@ fn a_broken_bound_gives_exit_code_1_and_its_evidence() {
 #[test]
 fn a_blur_unlike_every_decoy_is_reported_as_such() {
     let sandbox = make_bounded(0.04, "required");
-    // A box over whatever moves, with front and back swapped: wrong in a way that no decoy is. Scaled to 64 pixels, its
+    // A box over everything that moves, with front and back swapped: wrong in a way that no decoy is. Scaled to 64 pixels, its
     // tiles would be too small to blur anything.
     let filters = "--filters mcguire:motion_blur_demo,mcguire:paper --as-written";
     let found = json(&sandbox, filters);
@@ -81,8 +81,8 @@ fn a_limit_inside_the_interval_gives_exit_code_4_and_the_samples_to_decide() {
     let sandbox = make_bounded(0.9, "required");
     let found = &json(&sandbox, "--filters identity")["findings"][0];
     let [low, high] = ["low", "high"].map(|end| found["interval"][end].as_f64().unwrap());
-    // The limit lies a little more than a quarter of the interval's half width from its middle. 16 times the samples
-    // halve the width twice.
+    // The distance of the limit from the interval's middle is a little more than a quarter of its half width. 16 times the
+    // samples halve the width twice.
     let limit = 0.5 * (low + high) + 0.26 * 0.5 * (high - low);
     sandbox.write("bounds.toml", &bound("flip_moving", limit, "required"));
     let parts = [
@@ -112,7 +112,7 @@ fn a_bound_within_three_floors_gives_exit_code_2_and_the_strictest_bound() {
         "stricter than three noise floors",
     ];
     check(&sandbox, "", 2, &parts);
-    // A bound that is broken beside it is a fact.
+    // Another bound that is broken is certain.
     let text = fs::read_to_string(sandbox.path("scenes/plate/bounds.toml")).unwrap();
     sandbox.write("bounds.toml", &text.replace("limit = 0.9", "limit = 0.02"));
     let parts = [within, "BROKEN label_tv", "a required bound is broken"];

@@ -85,7 +85,7 @@ fn a_check_judges_the_sequence_and_the_first_frame_as_without_it() {
     assert_eq!(json[1]["frames"], 3);
     assert_eq!(json[2]["fps"], 60.0);
 
-    // The finished run is judged again, without an adapter, and refuses what it cannot measure.
+    // The finished run is judged again, without an adapter; limits that it cannot judge are refused.
     let judge = |line: &str| sandbox.without_adapter(&split(line));
     assert_ends(&judge("check out"), 1, &[limit]);
     let parts = ["--frames", "cannot be used with", "RUN"];
@@ -99,7 +99,7 @@ fn a_check_judges_the_sequence_and_the_first_frame_as_without_it() {
     assert_refused(&other, 2, &parts);
 }
 
-/// Checks the finding about flicker against what was measured; returns the worst frame.
+/// Checks the finding about flicker against the measurement; returns the worst frame.
 fn assert_flicker(sandbox: &Sandbox) -> u32 {
     let flicker = sandbox.read_findings().remove(1);
     assert_eq!(flicker.outcome, Outcome::Broken);
@@ -126,7 +126,7 @@ fn calibrated_limits_of_sequences_pass_the_filter_and_fail_a_worse_one() {
     // Nothing is bounded yet: all eight scores of sequences, and four of single frames.
     assert_eq!(proposed.matches(", frames = 2, ").count(), 8, "{proposed}");
     assert_contains(&proposed, &[", frames = 2, fps = 60.0, size = [64, 32]"]);
-    // The dirt of two small frames is mostly noise of the truth, whose intervals differ from seed to seed.
+    // The dirt of two small frames is mostly noise of the truth, and its intervals differ from seed to seed.
     let lines = proposed
         .lines()
         .filter(|line| !line.starts_with("fixed_pattern"));

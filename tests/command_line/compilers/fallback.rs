@@ -1,4 +1,4 @@
-//! HLSL, which several compilers know: the next one where one fails, and the one that a pass chooses.
+//! HLSL, which several compilers accept: the next one if one fails, and a pass's choice.
 
 use std::fs;
 
@@ -18,7 +18,7 @@ fn write_hlsl(sandbox: &Sandbox, more: &str) {
     fs::write(sandbox.path("translated/copy.wgsl"), COPY).unwrap();
 }
 
-/// A `slangc` without one of its libraries, and a module that nothing here reads, do not keep working HLSL from working.
+/// Working HLSL still works if `slangc` lacks one of its libraries, or a module is unreadable here.
 #[test]
 fn a_compiler_that_fails_is_followed_by_the_next() {
     let module = find_module();
@@ -35,14 +35,14 @@ fn a_compiler_that_fails_is_followed_by_the_next() {
     assert_done(&listed);
     let says = "blur.hlsl compiled by glslangValidator; slangc refuses it: error 00100: failed to load slang-glslang; dxc: ";
     assert_contains(&split(&stdout(&listed)).join(" "), &[says]);
-    // Where all fail, each says why.
+    // If all fail, each error is shown.
     fs::remove_file(sandbox.path("bin/glslangValidator")).unwrap();
     let parts = [
         "translated/blur.hlsl: slangc refuses it: error 00100: failed to load slang-glslang\n  | note: 1 --",
         " more lines\n  | dxc: ",
     ];
     assert_contains(&refuse(&sandbox), &parts);
-    // What is wrong with filter.toml is said once.
+    // An error in filter.toml is reported once.
     write_honest_compiler(&sandbox, "slangc", &module);
     write_honest_compiler(&sandbox, "dxc", &module);
     let manifest = sandbox.path("translated/filter.toml");

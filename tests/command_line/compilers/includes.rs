@@ -1,4 +1,4 @@
-//! What a shader includes, from its own folder and from nowhere else.
+//! Includes of a shader, from its own folder and nowhere else.
 
 use std::fs;
 use std::os::unix::fs::symlink;
@@ -12,14 +12,14 @@ use crate::sandbox::{Sandbox, assert_done};
 
 const GLSL: &str = "#version 450\n#extension GL_GOOGLE_include_directive : require\n";
 
-/// Writes a file that says so if a compiler opens it; returns its path.
+/// Writes a file that reveals when a compiler opens it; returns its path.
 fn write_secret(sandbox: &Sandbox) -> String {
     let path = sandbox.path("secret.txt");
     fs::write(&path, "#error the_secret\n").unwrap();
     path.display().to_string()
 }
 
-/// What a stranger's shader includes comes from its own folder.
+/// A stranger's shader includes files of its own folder only.
 #[test]
 fn nothing_outside_of_the_folder_is_included() {
     let sandbox = Sandbox::new();
@@ -28,7 +28,7 @@ fn nothing_outside_of_the_folder_is_included() {
     let write = |file: &str| {
         _ = fs::remove_dir_all(&folder);
         write_pass(&sandbox, file, "");
-        // A compiler that would tell.
+        // A compiler that would reveal it.
         for program in ["glslangValidator", "slangc", "wesl"] {
             write_compiler(&sandbox, program, "echo the_secret; exit 1");
         }
@@ -72,7 +72,7 @@ fn nothing_outside_of_the_folder_is_included() {
             refuse(&[&format!("translated/{named}:{line}: "), says]);
         }
     }
-    // Modules of WESL and Slang are looked for by their names.
+    // Modules of WESL and Slang are found by name.
     for (file, link) in [("blur.wesl", "secret.wesl"), ("blur.slang", "secret.slang")] {
         write(file);
         symlink(&secret, folder.join(link)).unwrap();
@@ -85,7 +85,7 @@ fn nothing_outside_of_the_folder_is_included() {
     refuse(&["translated/blur.comp: is a link to a file outside of the filter's folder"]);
 }
 
-/// A compiler looks for a file in the folders of all files that are being included.
+/// A compiler searches the folders of all files that are being included.
 #[test]
 fn no_folder_of_an_includer_leads_outside() {
     let sandbox = Sandbox::new();
@@ -113,13 +113,13 @@ fn no_folder_of_an_includer_leads_outside() {
     assert!(!said.contains("the_secret"), "{said}");
 }
 
-/// What glslangValidator opened once because the program took it for a comment, for text in quotes or for no directive.
+/// glslangValidator once opened these, since the program mistook them for a comment, quoted text, or no directive.
 #[test]
 fn no_directive_is_hidden_from_the_program() {
     let sandbox = Sandbox::new();
     let place = write_secret(&sandbox);
     install_glslang(&sandbox);
-    // From the folder of the copies: a compiler may join an absolute path to that.
+    // From the folder of the copies: a compiler may join an absolute path to it.
     let secret = format!("{}..{place}", "../".repeat(11));
     let include = format!("#include \"{secret}\"");
     let texts = [
@@ -151,7 +151,7 @@ fn no_directive_is_hidden_from_the_program() {
     }
 }
 
-/// Lines keep their numbers, in the shader and in what it includes.
+/// Lines keep their numbers, in the shader and in its includes.
 #[test]
 fn honest_includes_work_and_errors_name_their_lines() {
     let sandbox = Sandbox::new();
@@ -175,7 +175,7 @@ fn honest_includes_work_and_errors_name_their_lines() {
     };
     let write = |file: &str, text: &str| fs::write(folder.join("in").join(file), text).unwrap();
     write("blur.comp", &shader(&body.replace('\n', "\r\n")));
-    // Each includes the other. Only the second of the paths is that of a file, beside the shader.
+    // Each includes the other. Only the second path is a file, next to the shader.
     write(
         "lib/a.h",
         "#ifndef A_H\n#define A_H\n#include \"deep/b.h\"\nfloat a() { return b(); }\n#endif\n",
@@ -203,7 +203,7 @@ fn honest_includes_work_and_errors_name_their_lines() {
     breaks("lib/c.h", joined, "c.h:4");
 }
 
-/// Each copy names modules as seen from itself, so the compiler looks nowhere else first.
+/// Each copy names modules relative to itself, so the compiler searches there first.
 #[test]
 fn modules_are_named_from_the_copy_itself() {
     let sandbox = Sandbox::new();
@@ -217,7 +217,7 @@ fn modules_are_named_from_the_copy_itself() {
     );
     write("own.h", "");
     write("noise.slang", "");
-    // Only beside the shader is there a file of that name.
+    // Only next to the shader is there a file of that name.
     write(
         "lib/other.slang",
         "__include\n\"noise\"; import \"nowhere\";\n",

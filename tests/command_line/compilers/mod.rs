@@ -1,4 +1,4 @@
-//! Compilers of shading languages: those that are missing, and what the program makes of those that are there.
+//! Compilers of shading languages: missing ones, and how the program uses existing ones.
 
 #[cfg(unix)]
 mod fallback;
@@ -29,7 +29,7 @@ fn write_pass(sandbox: &Sandbox, file: &str, more: &str) {
     fs::write(folder.join(file), "the text of a shader\n").unwrap();
 }
 
-/// Lists the filter with no other programs on the PATH than those in `bin`.
+/// Lists the filter with only the programs in `bin` on the PATH.
 fn list(sandbox: &Sandbox) -> Output {
     let mut command = sandbox.command(&["list", "--filter", "translated"]);
     command.env("PATH", sandbox.path("bin")).output().unwrap()
@@ -50,12 +50,12 @@ fn write_compiler(sandbox: &Sandbox, program: &str, lines: &str) {
     write_script(&sandbox.path("bin").join(program), lines);
 }
 
-/// A module that was compiled before.
+/// Finds a precompiled module.
 fn find_module() -> PathBuf {
     fs::canonicalize(root().join("tests/fuzz/corpus/spirv/fastest")).unwrap()
 }
 
-/// Writes a compiler that hands out a module, and logs that it ran.
+/// Writes a compiler that outputs a module, and logs that it ran.
 fn write_honest_compiler(sandbox: &Sandbox, program: &str, module: &Path) {
     let script = format!(
         "echo {program} >> {}\nfor word; do case \"$word\" in *.spv) /bin/cp {} \"$word\";; esac; done",
@@ -69,7 +69,7 @@ fn read_log(sandbox: &Sandbox) -> String {
     fs::read_to_string(sandbox.path("log.txt")).unwrap()
 }
 
-/// Bindings of the module that fake compilers hand out.
+/// Bindings of the module that fake compilers output.
 const BINDINGS: &str = include_str!("../../fixtures/shaders/fastest_pass.toml");
 /// The pass after it.
 const COPY: &str = include_str!("../../fixtures/shaders/copy.wgsl");
@@ -89,7 +89,7 @@ fn a_language_without_its_compiler_names_the_way_out() {
     }
 }
 
-/// The compilers here are scripts: they hand out a module that was compiled before, if they are called as they should be.
+/// The compilers here are scripts: they output a precompiled module, if they are called correctly.
 #[cfg(unix)]
 #[test]
 fn slang_hlsl_and_wesl_go_through_their_compilers() {
@@ -138,7 +138,7 @@ fn slang_hlsl_and_wesl_go_through_their_compilers() {
     assert_done(&list(&sandbox));
 }
 
-/// Two passes over one shader: its compiler runs once, and again only for what changes its input.
+/// Two passes over one shader: its compiler runs once, and again only after changes of its input.
 #[cfg(unix)]
 #[test]
 fn a_compiler_runs_once_for_each_content() {
@@ -176,7 +176,7 @@ fn what_a_compiler_says_is_shown_with_its_line() {
         "translated/blur.slang(7): error 20001: unexpected token",
     ];
     assert_contains(&refuse(&sandbox), &parts);
-    // `wesl` 0.4 ends with exit code 0 where it finds no file, and prints in colours.
+    // `wesl` 0.4 exits with 0 if it finds no file, and prints in colours.
     write_pass(&sandbox, "blur.wesl", "");
     let script = "printf '\\033[1m\\033[91merror\\033[0m: file not found\\n' >&2";
     write_compiler(&sandbox, "wesl", script);

@@ -1,4 +1,4 @@
-//! Every command of every page, run in the order of the page. `make guides` runs these tests.
+//! Every command of every page, run in the page's order. `make guides` runs these tests.
 
 mod page;
 mod quick;
@@ -16,11 +16,11 @@ use tests::root;
 use crate::links::find_pages;
 use crate::sandbox::{stderr, stdout};
 
-/// Commands that are not run, each below the reason why not.
+/// Commands that are not run, each below the reason.
 const NOT_RUN: &str = include_str!("not_run.txt");
 
-/// Things that a command of a page needs: the page and the beginning of the command, and a line of shell that makes them. The
-/// engine of docs/engine-frames.md draws a still picture: a frame file has all channels that a capture needs.
+/// Prerequisites of a page's command: the page and the beginning of the command, and a line of shell that makes them. The engine of
+/// docs/engine-frames.md draws a still picture: a frame file has all channels that a capture needs.
 const PREPARED: &str = include_str!("prepared.txt");
 
 fn list_not_run() -> impl Iterator<Item = &'static str> {
@@ -38,7 +38,7 @@ fn list_prepared() -> Vec<(&'static str, &'static str, &'static str)> {
     pairs.collect()
 }
 
-/// Lists the pages, by their paths in the repository, with what their readers do.
+/// Lists the pages, by their paths in the repository, with their readers' steps.
 fn read_pages() -> Vec<(String, Vec<Step>)> {
     let pages = find_pages(&root()).into_iter().map(|path| {
         let name = path.strip_prefix(root()).unwrap().display().to_string();
@@ -47,7 +47,7 @@ fn read_pages() -> Vec<(String, Vec<Step>)> {
     pages.filter(|(_, steps)| !steps.is_empty()).collect()
 }
 
-/// Finds the line of shell that makes what a command needs.
+/// Finds the line of shell that makes a command's prerequisites.
 fn find_prepared(page: &str, command: &str) -> Option<&'static str> {
     let mut all = list_prepared().into_iter();
     let found = all.find(|(of, beginning, _)| *of == page && command.starts_with(beginning));
@@ -84,7 +84,7 @@ fn every_exception_is_a_command_of_a_page() {
     }
 }
 
-/// Runs a command; returns what is wrong with its end.
+/// Runs a command; returns a description of its failure.
 fn find_failure(reader: &Reader, page: &str, command: &str) -> Option<String> {
     let start = Instant::now();
     let output = reader.run(command);

@@ -1,9 +1,9 @@
-//! The commands and files that a page shows.
+//! Commands and files of a page.
 
-/// Programs that a command of a page begins with.
+/// Programs that begin a page's commands.
 const PROGRAMS: &str = "shuttertruth cargo cat make cp pip python3";
 
-/// One thing that the reader of a page does.
+/// One step of a page's reader.
 pub enum Step {
     /// Writes a file, which the page names before a block of code.
     Write { path: String, text: String },
@@ -11,7 +11,7 @@ pub enum Step {
     Run(String),
 }
 
-/// Lists what the reader of a page does, from top to bottom.
+/// Lists the reader's steps from top to bottom.
 pub fn find_steps(page: &str) -> Vec<Step> {
     let mut steps = Vec::new();
     let mut prose = String::new();
@@ -20,7 +20,7 @@ pub fn find_steps(page: &str) -> Vec<Step> {
         if line.starts_with("```") {
             let block = lines.by_ref().take_while(|line| *line != "```");
             let text: String = block.map(|line| format!("{line}\n")).collect();
-            // A workflow is a command of its own, known by its first line.
+            // A workflow is a command of its own, recognised by its first line.
             if line == "```yaml" {
                 let first = text.lines().next().unwrap_or_default();
                 steps.push(Step::Run(first.to_owned()));
@@ -33,11 +33,11 @@ pub fn find_steps(page: &str) -> Vec<Step> {
             }
             steps.extend(find_command(&command));
         } else if line.is_empty() {
-            // The name of a file stands in the paragraph above its block.
+            // The name of a file is in the paragraph above its block.
             continue;
         } else {
             prose = read_paragraph(line, &mut lines);
-            // A command by its name alone is spoken of, and not shown.
+            // A bare command name is a mention, not an example.
             let quoted = prose.split('`').skip(1).step_by(2);
             let shown = quoted.filter(|text| !is_name(text));
             steps.extend(shown.filter_map(find_command));
@@ -52,7 +52,7 @@ fn read_paragraph<'a>(first: &str, lines: &mut impl Iterator<Item = &'a str>) ->
     rest.fold(first.to_owned(), |text, line| text + " " + line.trim())
 }
 
-/// Tells whether a text is at most the name of a command: `shuttertruth run`, `shuttertruth tune search`.
+/// Returns whether a text is at most the name of a command: `shuttertruth run`, `shuttertruth tune search`.
 fn is_name(text: &str) -> bool {
     const GROUPS: [&str; 5] = ["tune", "engine", "truths", "limits", "people"];
     let words: Vec<&str> = text.split_whitespace().collect();

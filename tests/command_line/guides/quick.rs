@@ -1,15 +1,15 @@
-//! Commands of the pages in a form that takes no time.
+//! Quick forms of the pages' commands.
 
-/// Beginnings of commands that build, or that need what a test has not, and what is run instead.
+/// Beginnings of commands that build, or need something that a test lacks, and their replacements.
 pub const REPLACED: [(&str, &str); 3] = [
     ("cargo run --bin shuttertruth -- ", "shuttertruth "),
     ("make ", "make --dry-run "),
     ("python3 ", "\"${PYTHON:-python3}\" -B "),
 ];
 
-/// Options that make a command quick, whatever value the page gives them; each is added to the commands that are named.
+/// Options that make a command quick, replacing the page's values; each is added to the named commands.
 ///
-/// `check` and `calibrate` are as the page has them: bounds hold for one size, and few samples decide nothing.
+/// `check` and `calibrate` stay as on the page: bounds are for one size, and few samples decide nothing.
 const QUICK: [(&str, &str, &str); 5] = [
     (
         "--size",
@@ -26,7 +26,7 @@ const QUICK: [(&str, &str, &str); 5] = [
     ("--noise", "0.05", ""),
 ];
 
-/// Options that are added to a command where the page leaves them out, and means all scenes or filters.
+/// Options added to a command if the page leaves them out, meaning all scenes or filters.
 const NARROWED: [(&str, &str, &str); 2] = [
     ("--scenes", "fan", "run, check, tune search"),
     ("--filter", "mcguire:paper", "bench"),
@@ -41,7 +41,8 @@ pub fn shorten(command: &str) -> String {
         }
     }
     let Some(words) = line.strip_prefix("shuttertruth ") else {
-        return line;
+        // `make growth` makes the large run.
+        return line.replace("--scenes 100 --filters 94", "--scenes 4 --filters 10");
     };
     let mut words: Vec<String> = words.split(' ').map(str::to_owned).collect();
     let command = words[0].clone();
@@ -57,12 +58,12 @@ pub fn shorten(command: &str) -> String {
             _ => {}
         }
     }
-    // Held-out scenes have a size of their own.
+    // Held-out scenes have their own size.
     if words.iter().any(|word| word == "--held-out") {
         let few = "--held-out-size 96x54 --held-out-samples-per-pixel 16";
         words.extend(few.split(' ').map(str::to_owned));
     }
-    // A finished run has its scenes.
+    // A finished run determines its scenes.
     let finished = words.iter().any(|word| word.ends_with("run.json"));
     for (option, value, commands) in NARROWED {
         if named(commands) && !finished && !words.iter().any(|word| word == option) {

@@ -9,7 +9,7 @@ use tests::root;
 use super::page::{Step, find_steps};
 use crate::sandbox::read_below;
 
-/// A copy of what the commands of the guides need of the repository.
+/// A copy of the repository files that the guides' commands need.
 pub struct Reader {
     folder: tempfile::TempDir,
 }
@@ -43,7 +43,7 @@ impl Reader {
         self.folder.path().join(below)
     }
 
-    /// Writes a file, with the folders that hold it.
+    /// Writes a file, and its parent folders.
     pub fn write(&self, path: impl AsRef<Path>, bytes: impl AsRef<[u8]>) {
         let path = self.folder.path().join(path);
         fs::create_dir_all(path.parent().unwrap()).unwrap();

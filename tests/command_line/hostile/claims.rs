@@ -1,4 +1,4 @@
-//! Pictures whose headers claim more than their files hold.
+//! Pictures with headers that claim more than their files contain.
 
 use std::io::Write;
 
@@ -14,7 +14,7 @@ pub struct Claim {
     size: [i32; 2],
     /// First pixel of the data window.
     place: [i32; 2],
-    /// Size of the display window; none is that of the data.
+    /// Size of the display window; none if equal to the data window's.
     display: Option<[i32; 2]>,
     more_channels: usize,
     sampling: i32,
@@ -99,7 +99,7 @@ impl Claim {
         file
     }
 
-    /// Adds the places of all rows, and the rows of this many bytes.
+    /// Adds the offsets of all rows, and rows of this many bytes.
     fn with_rows(&self, mut file: Vec<u8>, row: usize) -> Vec<u8> {
         let first = file.len() + 8 * self.size[1] as usize;
         for y in 0..self.size[1] as usize {
@@ -113,7 +113,7 @@ impl Claim {
     }
 }
 
-/// Makes a PNG with this header and so many zeros in its rows, which are a few kilobytes in any number.
+/// Makes a PNG with this header and this many zeros in its rows, which compress to a few kilobytes.
 pub fn png(width: u32, height: u32, [depth, kind]: [u8; 2], zeros: usize) -> Vec<u8> {
     let mut rows = ZlibEncoder::new(Vec::new(), Compression::best());
     rows.write_all(&vec![0; zeros]).unwrap();

@@ -5,7 +5,7 @@ use std::fs;
 use tests::root;
 use walkdir::WalkDir;
 
-/// Reads the sources of a crate, or of all.
+/// Reads the sources of one or all crates.
 fn read_sources(crate_name: &str) -> String {
     let files = WalkDir::new(root().join("crates").join(crate_name)).into_iter();
     let paths = files.map(|entry| entry.unwrap().into_path());

@@ -1,4 +1,4 @@
-//! Filters that are programs, and the folders that runs write to.
+//! Filters that are programs, and output folders of runs.
 
 mod evidence;
 #[cfg(unix)]

@@ -17,7 +17,7 @@ use crate::sandbox::{Sandbox, assert_done, assert_refused, split, stderr, stdout
 #[cfg(unix)]
 const HOSTILE: &str = "a\n::error::b\u{1b}[2J";
 
-/// Asserts that no line of a text is one that a log would take for a command.
+/// Asserts that a log would take no line of a text for a command.
 #[track_caller]
 fn assert_no_command(text: &str) {
     for line in text.lines() {

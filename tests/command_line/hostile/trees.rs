@@ -1,4 +1,4 @@
-//! Geometry that a tree cannot split, and renders that do not fit into memory.
+//! Geometry that a tree cannot split, and renders that exceed memory.
 
 use std::process::Output;
 use std::time::{Duration, Instant};
@@ -80,7 +80,7 @@ fn a_few_faces_in_one_place_render_the_same_every_time() {
 
 #[test]
 fn geometry_that_is_hard_to_split_renders() {
-    // Each face is larger than the one before, about one centre, so that its box contains all the others'.
+    // Each face is larger than the previous one, about one centre, so that its box contains all the others'.
     let nested = (1..=6000).map(|size| {
         let size = f64::from(size) * 1e-5;
         [[-size, -size, 0.0], [size, -size, 0.0], [0.0, size, 0.0]]
@@ -113,7 +113,7 @@ fn geometry_and_light_beyond_the_limits_are_refused_before_a_picture_is_written(
     let size = 1e30;
     let huge = [[-size, 0.0, -1.0], [size, 0.0, -1.0], [0.0, size, -1.0]];
     let huge = format!("{OBJ}{}", triangles([huge].into_iter()));
-    // The sum of two such radiances exceeds what a float holds.
+    // The sum of two such radiances overflows a float.
     let bright = "newmtl paint\nKd 0.5 0.5 0.5\nKe 3e38 3e38 3e38\n".to_owned();
     let rows: [(&str, String, &[&str]); 3] = [
         (

@@ -1,4 +1,4 @@
-//! A capture, made of our own scene as an engine with conventions of its own would make it.
+//! A capture, made from our own scene like an engine's with its own conventions.
 
 use std::fs;
 use std::path::PathBuf;
@@ -34,15 +34,15 @@ near = 0.1
 color_scale = 2.0
 ";
 
-/// A folder `capture` in a bench, which holds the bench's plate as an engine draws it.
+/// A folder `capture` in a sandbox, with the sandbox's plate as an engine would draw it.
 pub struct Capture<'a> {
     sandbox: &'a Sandbox,
-    /// The frame that it was made of.
+    /// The frame that it was made from.
     pub frame: Frame,
 }
 
 impl<'a> Capture<'a> {
-    /// Writes the instant: half floats, as most engines have them.
+    /// Writes the instant, in half floats like most engines.
     pub fn new(sandbox: &'a Sandbox) -> Self {
         Self::at(sandbox, 0.0)
     }
@@ -93,8 +93,8 @@ impl<'a> Capture<'a> {
         self.add_subframes(count, false)
     }
 
-    /// Adds sub-frames at the midpoints of equal parts of the shutter, with object ids or without, and as the engine's blur the
-    /// mean of the first four.
+    /// Adds sub-frames at the midpoints of equal parts of the shutter, with or without object ids, and as the engine's blur the mean
+    /// of the first four.
     pub fn add_subframes(self, count: u32, has_ids: bool) -> Self {
         fs::create_dir(self.path("subframes")).unwrap();
         let shutter = Alignment::Trailing.shutter(EXPOSURE).unwrap();
@@ -124,7 +124,7 @@ impl<'a> Capture<'a> {
         fs::write(self.path(name), text).unwrap();
     }
 
-    /// Writes colour exposed as the convention says.
+    /// Writes colour with the convention's exposure.
     pub fn write_color(&self, name: &str, color: &Image) {
         self.write_picture(name, color, None);
     }
@@ -149,7 +149,7 @@ impl<'a> Capture<'a> {
     }
 }
 
-/// Renders the scene of a folder as it is at a time, with the velocity that engines have.
+/// Renders the scene of a folder at a time, with the velocity that engines have.
 pub fn render_instant(folder: PathBuf, samples_per_pixel: u32, time: f64) -> Frame {
     let scene = load_scene(folder, None).unwrap().later_by(time);
     let settings = RenderSettings {

@@ -1,4 +1,4 @@
-//! `ingest`: what an engine drew, measured as our own scenes are.
+//! `ingest`: an engine's pictures, measured like our own scenes.
 
 pub mod capture;
 mod picture;
@@ -76,13 +76,13 @@ fn the_mean_of_sub_frames_is_our_truth_within_its_limit() {
     let ours = read("out/plate/truth_trailing.exr");
     assert_eq!(engines.provenance.samples_per_pixel, 16, "sub-frames");
     assert_eq!(engines.shutter, ours.shutter);
-    // Nothing is seen to move that does not, and little that moves is missed: the two round the edge's way differently.
+    // No still pixel counts as moving, and few moving ones are missed: the two round the edge's path differently.
     let marks = (engines.support.moving.pixels.iter()).zip(&ours.support.moving.pixels);
     let different = marks.filter(|(one, other)| one != other).count();
     let moving = ours.support.moving.pixels.iter().filter(|it| **it).count();
     assert!(different * 10 < moving, "{different} of {moving}");
-    // The smear's ramp rises by the plate's contrast over 9.3 px. Sub-frames lie 0.58 px apart, so that a pixel is at most half
-    // of that step off; noise of 64 samples and half floats come on top.
+    // The smear's ramp rises by the plate's contrast over 9.3 px. Sub-frames are 0.58 px apart, so a pixel is off by at most half of that
+    // step; noise of 64 samples and half floats come on top.
     let [engines, ours] = [engines.mean().color, ours.mean().color];
     for (at, (one, other)) in engines.pixels.iter().zip(&ours.pixels).enumerate() {
         let difference = (one[0] - other[0]).abs();
@@ -91,14 +91,14 @@ fn the_mean_of_sub_frames_is_our_truth_within_its_limit() {
     }
 }
 
-/// Finds the case of a filter, of the plate or of what the engine drew.
+/// Finds a filter's case, on the plate or on the engine's picture.
 fn find<'a>(run: &'a Run, scene: &str, filter: &str) -> &'a Case {
     let mut cases = run.cases.iter();
     let found = cases.find(|case| case.scene == scene && case.filter == filter);
     found.unwrap_or_else(|| panic!("no {scene} / {filter}"))
 }
 
-/// Reads a score of a filter, of what the engine drew and of the plate.
+/// Reads a filter's score, on the engine's picture and on the plate.
 fn read_scores(run: &Run, filter: &str, metric: &str) -> [f64; 2] {
     let metric: Metric = metric.parse().unwrap();
     [NAME, "plate"].map(|scene| {
@@ -125,7 +125,11 @@ fn a_run_on_a_capture_scores_near_our_own_scene_and_ranks_the_engine() {
                  --input velocity=float32";
     let printed = sandbox.done(words);
     assert_contains(&printed, &["Test_Engine_1.2"]);
+    // The filter is scaled; the engine's picture has no filter.toml to name a width in.
+    assert!(!printed.contains("reference_width"), "{printed}");
     let run = sandbox.read_run();
+    let scaled = find(&run, NAME, "jump_flood").reference_width;
+    assert!(scaled.is_some_and(|width| width != 96), "{scaled:?}");
     assert_eq!((run.render.width, run.render.height), (96, 54));
     for filter in ["identity", "jump_flood", "scatter_oracle"] {
         let [engines, ours] = read_scores(&run, filter, "flip_moving");
@@ -141,7 +145,7 @@ fn a_run_on_a_capture_scores_near_our_own_scene_and_ranks_the_engine() {
     assert_eq!(drawn.subframes, 32);
     assert_eq!(drawn.scene, Some("plate".parse().unwrap()));
     assert!(find(&run, "plate", "identity").drawn.is_none());
-    // What an engine's pictures do not tell is absent, and not zero.
+    // Scores that an engine's pictures do not allow are absent, not zero.
     let metrics = "label_tv bleed_lateral lateral_growth energy flip_frozen flip_knowable flip_unknowable gather_offset";
     for metric in split(metrics) {
         let case = find(&run, NAME, "jump_flood");
@@ -149,9 +153,9 @@ fn a_run_on_a_capture_scores_near_our_own_scene_and_ranks_the_engine() {
     }
     let cases = run.cases.iter();
     let ladder = cases.filter(|case| case.scene == NAME && case.filter == "accumulate");
-    // The truth tells no more of 32 sub-frames.
+    // 32 sub-frames allow no more rungs.
     assert!(ladder.map(|case| &case.preset).eq(["1", "4", "8"]));
-    // The same again is read back.
+    // The second run reads it back.
     let again = sandbox.done(words);
     assert_contains(&again, &["cases: 17, 17 of them read back"]);
     sandbox.done("report out --html again.html --exr layers");
@@ -167,7 +171,7 @@ fn ids_in_the_sub_frames_bring_the_scores_of_objects() {
                  --frame-sampling antialiased";
     sandbox.done(words);
     let run = sandbox.read_run();
-    // An id is all or nothing in a pixel, where our frame has shares; sub-frames lie 0.58 px apart.
+    // An id is all or nothing in a pixel, unlike the shares in our frame; sub-frames are 0.58 px apart.
     for (filter, metric, most) in [
         ("identity", "label_tv", 0.03),
         ("scatter_oracle", "label_tv", 0.03),
@@ -217,7 +221,7 @@ fn a_check_holds_an_engine_to_the_bounds_beside_its_own_scene() {
     let sandbox = Sandbox::new();
     Capture::new(&sandbox).with_subframes(16);
     ingest(&sandbox);
-    // Bounds of our plate say nothing about the engine's.
+    // Bounds of our plate do not apply to the engine's.
     sandbox.write_bound(0.0001);
     let words = "check --quiet --scenes out/engine/mine --filter identity";
     sandbox.refuse(words, &[NAME, "has no bound", "identity"]);

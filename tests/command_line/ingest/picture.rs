@@ -1,4 +1,4 @@
-//! What `ingest` says of an engine's pictures: the gain of its blur, and noise in its sub-frames.
+//! Notes of `ingest` on an engine's pictures: the gain of its blur, and noise in its sub-frames.
 
 use frame::Raster;
 use tests::random::Random;
@@ -24,7 +24,7 @@ fn the_gain_of_a_blur_is_that_of_still_pixels() {
     let capture = Capture::new(&sandbox).with_subframes(8);
     let told = ingest(&sandbox);
     assert!(!told.contains("FOUND"), "{told}");
-    // The plate passes the middle of the picture. A blur that puts too much light there has another defect than a gain.
+    // The plate passes the middle of the picture. A blur that is too bright there has another defect than a gain.
     let blurred = capture.read_color("blurred.exr");
     brighten(&capture, 1.5, |x, y| {
         blurred.at(x, y)[2] != blurred.at(0, 0)[2]
@@ -50,7 +50,7 @@ fn without_a_still_pixel_there_is_no_gain_to_judge() {
     assert!(told.contains(words), "{told}");
 }
 
-/// Adds noise of its own to every sub-frame.
+/// Adds independent noise to every sub-frame.
 fn add_noise(capture: &Capture, count: u32) {
     for index in 0..count {
         let name = format!("subframes/{index:04}.exr");
@@ -77,7 +77,7 @@ fn noise_that_makes_still_pixels_move_is_said() {
     let still = " % of the pixels; 0.0 % change between sub-frames though no velocity reaches them";
     assert!(told.contains(still), "{told}");
     assert!(!told.contains("FOUND: the moving region"), "{told}");
-    // The plate covers 144 pixels of 5184, and its way half as many.
+    // The plate covers 144 pixels of 5184, and its path half as many.
     assert!((3.0..7.0).contains(&share(&told)), "{told}");
     add_noise(&capture, 8);
     let told = ingest(&sandbox);
@@ -85,7 +85,7 @@ fn noise_that_makes_still_pixels_move_is_said() {
     let parts = [
         "FOUND: the moving region has ",
         "draw all sub-frames with one seed",
-        // What is still by velocity tells the gain all the same.
+        // Pixels without velocity still reveal the gain.
         "brighter, 1.06",
     ];
     assert_contains(&told, &parts);

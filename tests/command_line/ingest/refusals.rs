@@ -1,4 +1,4 @@
-//! Captures that are refused, or taken with a warning: place, finding, what is allowed, way out.
+//! Captures that are refused, or accepted with a warning: place, finding, what is allowed, remedy.
 
 use std::fs;
 
@@ -11,7 +11,7 @@ use crate::sandbox::{Sandbox, split, stderr};
 
 const INGEST: &str = "engine ingest capture -o out/engine/mine";
 
-/// Changes a file of a capture, looks at the refusal, and puts the file back.
+/// Changes a file of a capture, checks the refusal, and restores the file.
 #[track_caller]
 fn refuse(
     (sandbox, capture): (&Sandbox, &Capture),
@@ -163,7 +163,7 @@ fn ids_that_fit_no_object_or_are_missing_are_refused() {
     capture.write_picture("subframes/0002.exr", color, Some(&ids));
     let parts = ["hold ids up to 7; allowed: up to 1", "leave object.exr out"];
     sandbox.refuse(INGEST, &parts);
-    // Nobody knows how many objects a scene has that is not ours.
+    // The number of objects in a foreign scene is unknown.
     let unnamed = DESCRIPTION.replace("scene = \"plate\"\n", "");
     capture.write("capture.toml", &unnamed);
     let told = ingest(&sandbox);
@@ -179,7 +179,7 @@ fn losses_are_told_and_taken() {
         assert_contains(&stderr(&output), &[part]);
     };
     assert_told("velocity.exr holds half floats");
-    // Half floats of a depth that ends at 1 lose what is far.
+    // Half floats of a depth that ends at 1 lose distant surfaces.
     let forward = CONVENTION.replace("reversed", "forward");
     capture.write("engine.toml", &forward);
     assert_told("depth.exr holds half floats of depth = \"forward\": 41 m");

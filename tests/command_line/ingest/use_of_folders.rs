@@ -1,4 +1,4 @@
-//! What may be done with an ingested folder, and what is refused.
+//! Allowed and refused uses of an ingested folder.
 
 use std::fs;
 
@@ -36,7 +36,7 @@ fn what_an_engine_drew_is_not_rendered_otherwise() {
     ) {
         let words = words.replace("MINE", "out/engine/mine");
         let output = sandbox.shuttertruth(&split(&words));
-        // Notes about filters that are left out may stand before the refusal.
+        // Notes about omitted filters may come before the refusal.
         let message = stderr(&output);
         assert_eq!(output.status.code(), Some(2), "{message}");
         assert_contains(&message, &parts);
@@ -50,7 +50,7 @@ fn files_of_two_captures_are_not_mixed() {
     let sandbox = Sandbox::new();
     let capture = Capture::new(&sandbox).with_subframes(4);
     ingest(&sandbox);
-    // Another name of the scene is no other capture, another exposure is one.
+    // Renaming the scene makes no other capture; changing the exposure does.
     capture.write("capture.toml", &DESCRIPTION.replace("0.5", "0.25"));
     sandbox.done("engine ingest capture --quiet -o out/engine/other");
     let words = "run --quiet --scenes out/engine/mine --filter identity";

@@ -1,4 +1,4 @@
-//! Packs whose files are not what they say, with right hashes: what a forger makes who knows the program.
+//! Packs with false files and right hashes, as made by a forger who knows the program.
 
 use std::fs;
 use std::path::Path;
@@ -14,7 +14,7 @@ use crate::sandbox::{Sandbox, assert_refused, split, stderr, stdout};
 
 const VERIFY: &str = "truths verify";
 
-/// Makes a file say that an engine drew it.
+/// Makes a file claim that an engine drew it.
 fn mark_drawn(path: &Path) {
     let mut file = frame::read_exr(path).unwrap();
     file.set("engine", "another");
@@ -35,7 +35,7 @@ fn a_truth_of_an_engine_is_no_success() {
     sandbox.execute(&split("truths verify --scenes plate"));
 }
 
-/// A folder of truths is the user's own, and is not traced again; but its headers do not decide either.
+/// A folder of truths is the user's own and is not traced again, but its headers are not trusted either.
 #[test]
 fn a_kept_file_that_says_that_an_engine_drew_it_is_rendered_again() {
     let sandbox = packed();
@@ -55,7 +55,7 @@ fn a_kept_file_that_says_that_an_engine_drew_it_is_rendered_again() {
     sandbox.execute(&split("truths verify fresh"));
 }
 
-/// Changes one attribute after another in these kept files of a plate, with right checksums, and the checksum itself.
+/// Changes each attribute in turn in these kept files of a plate, with right checksums, and the checksum itself.
 fn change_attributes(files: &[String]) {
     let sandbox = Sandbox::new();
     let run = "run --quiet --filter identity --size 16x16 --samples-per-pixel 16 --jitter-frames 2";
@@ -112,7 +112,7 @@ fn every_changed_attribute_is_found_in_all_replicates_and_rungs() {
     change_attributes(&[rungs(), vec![replicate_file(0)]].concat());
 }
 
-/// The words that a file may have are those that the tracer writes.
+/// A file may only have the words that the tracer writes.
 #[test]
 fn the_instructions_of_all_machines_are_known() {
     let sandbox = Sandbox::new();
@@ -160,7 +160,7 @@ fn no_pack_turns_a_failed_check_into_a_success() {
     ];
     pack_forged(&sandbox);
     refuse(&replicate);
-    // Without its truth, a run would make one of the replicates.
+    // Without its truth, a run would make one from the replicates.
     leave_out(&sandbox, "plate/ladder_trailing/");
     leave_out(&sandbox, "plate/truth_trailing.exr");
     refuse(&replicate);
@@ -175,7 +175,7 @@ fn no_pack_turns_a_failed_check_into_a_success() {
     }
 }
 
-/// Leaves files out of `forged.tar.zst` whose paths begin like this.
+/// Leaves files with this path prefix out of `forged.tar.zst`.
 fn leave_out(sandbox: &Sandbox, begin: &str) {
     let path = sandbox.path("forged.tar.zst");
     let mut entries = entries(&path);

@@ -1,4 +1,4 @@
-//! Packs of kept truths: made of a run, taken by another, refused where they are not what they say, and verified.
+//! Packs of kept truths: made from a run, used by another, refused if they are false, and verified.
 
 mod forgeries;
 mod refusals;
@@ -46,7 +46,7 @@ fn pack_forged(sandbox: &Sandbox) {
     sandbox.execute(&split("truths pack --out forged.tar.zst"));
 }
 
-/// Refuses `forged.tar.zst` in `verify`, with this exit code, and in a run, which leaves nothing of it.
+/// Checks that `verify` refuses `forged.tar.zst` with this exit code, and that a run refuses it and leaves nothing of it.
 #[track_caller]
 fn refuse_forged(sandbox: &Sandbox, code: i32, parts: &[&str]) {
     let verified = sandbox.shuttertruth(&split("truths verify forged.tar.zst"));
@@ -82,12 +82,12 @@ fn entries(pack: &Path) -> Vec<Packed> {
     entries.collect()
 }
 
-/// Writes an archive of any entries, whether they may stand in a pack or not.
+/// Writes an archive of any entries, allowed in a pack or not.
 fn write(pack: &Path, entries: &[Packed]) {
     let mut archive = tar::Builder::new(Vec::new());
     for entry in entries {
         let mut header = tar::Header::new_ustar();
-        // `set_path` refuses what is tried here.
+        // `set_path` would refuse these names.
         header.as_old_mut().name[..entry.name.len()].copy_from_slice(entry.name.as_bytes());
         header.set_entry_type(entry.kind);
         header.set_size(entry.bytes.len() as u64);
@@ -103,12 +103,12 @@ fn compress(pack: &Path, bytes: &[u8]) {
     encoder.finish().unwrap();
 }
 
-/// Reads the manifest of a pack that was taken apart.
+/// Reads the manifest of an unpacked pack.
 fn manifest(entries: &[Packed]) -> Manifest {
     serde_json::from_slice(&entries[0].bytes).unwrap()
 }
 
-/// Changes the manifest of a pack that was taken apart.
+/// Changes the manifest of an unpacked pack.
 fn change_manifest(entries: &mut [Packed], change: impl FnOnce(&mut Manifest)) {
     let mut manifest = manifest(entries);
     change(&mut manifest);
@@ -122,7 +122,7 @@ fn change_replicate(path: &Path, change: impl FnOnce(&mut Replicate)) {
     replicate.write(path).unwrap();
 }
 
-/// Makes the truth of the replicates that lie beside it, as a forger would who knows the program.
+/// Makes the truth from the replicates next to it, like a forger who knows the program.
 fn renew_truth(sandbox: &Sandbox) {
     let folder = sandbox.path("out/plate");
     let replicates: Vec<Replicate> = replicate_files()
@@ -137,7 +137,7 @@ fn replicate_file(index: u32) -> String {
     format!("truth_trailing/replicate_{index:03}.exr")
 }
 
-/// Lists the files of the truth's replicates in the folder of their scene.
+/// Lists the files of the truth's replicates in its scene's folder.
 fn replicate_files() -> impl Iterator<Item = String> + Clone {
     (0..REPLICATES).map(replicate_file)
 }

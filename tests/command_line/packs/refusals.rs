@@ -1,4 +1,4 @@
-//! Runs that cannot be packed, and archives that are no packs.
+//! Runs that cannot be packed, and archives that are not packs.
 
 use std::fs;
 
@@ -38,7 +38,7 @@ fn what_is_no_finished_run_is_not_packed() {
         refuse_to_pack(&sandbox, "", &[file, "not a complete file"]);
         fs::write(&path, &bytes).unwrap();
     }
-    // A ladder of another truth, and another truth than the run was measured with.
+    // A ladder of another truth, and another truth than the run's.
     let rung = "plate/ladder_trailing/n8.exr";
     let path = sandbox.path("out").join(rung);
     let (own, other) = (fs::read(&path).unwrap(), with_other_seed());
@@ -58,7 +58,7 @@ fn with_other_seed() -> Sandbox {
     sandbox
 }
 
-/// A pack, taken apart.
+/// An unpacked pack.
 struct Parts {
     sandbox: Sandbox,
     entries: Vec<Packed>,
@@ -71,7 +71,7 @@ impl Parts {
         Self { sandbox, entries }
     }
 
-    /// Refuses the archive `forged.tar.zst`, in `verify` and in a run, which leaves nothing of it.
+    /// Checks that `verify` and a run refuse the archive `forged.tar.zst`, and that the run leaves nothing of it.
     #[track_caller]
     fn refused(&self, parts: &[&str]) {
         refuse_forged(&self.sandbox, 2, &[&["forged.tar.zst"], parts].concat());
@@ -86,7 +86,7 @@ impl Parts {
         self.refused(parts);
     }
 
-    /// Changes the manifest alone.
+    /// Changes only the manifest.
     #[track_caller]
     fn refuse_manifest(&self, change: impl FnOnce(&mut Manifest), part: &str) {
         let change = |entries: &mut Vec<Packed>| change_manifest(entries, change);
@@ -197,7 +197,7 @@ fn an_archive_that_was_cut_off_or_goes_on_is_refused() {
     whole.extend([1; 512]);
     compress(&forged, &whole);
     parts.refused(&["continues after its last file"]);
-    // A header that promises more than there is.
+    // A header that promises more data than there is.
     let mut header = tar::Header::from_byte_slice(&whole[..512]).clone();
     header.set_size(1 << 36);
     header.set_cksum();

@@ -1,4 +1,4 @@
-//! Packs that a run takes its truths from.
+//! Packs as a source of a run's truths.
 
 use std::fs;
 
@@ -9,7 +9,7 @@ use tests::text::assert_contains;
 use super::{QUICK, entries, manifest, packed, quick, run};
 use crate::sandbox::{Files, Sandbox, assert_done, split, stderr};
 
-/// Reads all files of a folder that a run renders.
+/// Reads all rendered files of a folder.
 fn rendered(sandbox: &Sandbox, out: &str) -> Files {
     let below = |(path, bytes): (std::path::PathBuf, Vec<u8>)| {
         let name = path.strip_prefix(out).ok()?.to_str().unwrap().to_owned();
@@ -20,8 +20,8 @@ fn rendered(sandbox: &Sandbox, out: &str) -> Files {
     sandbox.read_files().into_iter().filter_map(below).collect()
 }
 
-/// Writes into every rendered file that it was traced by the instructions of another machine. Nothing depends on them, and what is
-/// rendered anew names others.
+/// Records in every rendered file that another machine's instructions traced it. Nothing depends on them, and newly rendered files name
+/// others.
 fn mark(sandbox: &Sandbox, out: &str) {
     for (name, _) in rendered(sandbox, out) {
         let path = sandbox.path(out).join(name);
@@ -40,7 +40,7 @@ fn scores(sandbox: &Sandbox, out: &str) -> String {
     run.to_string()
 }
 
-/// Runs with the truths of the pack; returns what it says.
+/// Runs with the truths of the pack; returns the messages.
 fn run_from_pack(sandbox: &Sandbox, line: &str) -> String {
     let output = quick(sandbox, &format!("run {line} --truths truths.tar.zst"));
     assert_done(&output);
@@ -163,7 +163,7 @@ fn plans_and_calibrations_take_packs() {
     let words = "limits calibrate --filter identity --size 64x32 --samples-per-pixel 16 --runs 2 --out seeds";
     let output = sandbox.shuttertruth(&split(&format!("{words} --truths truths.tar.zst")));
     assert_done(&output);
-    // The first of the two seeds is that of the pack. A calibration takes one rung of the ladder.
+    // The first of the two seeds is the pack's. A calibration uses one rung of the ladder.
     let parts = [
         "took 11 files",
         "; nothing is rendered",

@@ -1,4 +1,4 @@
-//! Kept truths that are verified: tiles traced again.
+//! Verification of kept truths: tiles traced again.
 
 use std::fs;
 
@@ -21,7 +21,7 @@ fn find(sandbox: &Sandbox, words: &str, parts: &[&str]) {
     assert_refused(&output, 1, parts);
 }
 
-/// Finds the tile of the one file whose name holds a text: the file, and a pixel in the middle of the tile.
+/// Finds the tile of the one file with a text in its name: the file, and a pixel in the middle of the tile.
 fn find_tile(verified: &Value, part: &str) -> (String, [u32; 2]) {
     let mut tiles = verified["tiles"].as_array().unwrap().iter();
     let tile = tiles.find(|tile| tile["file"].as_str().unwrap().contains(part));
@@ -58,7 +58,7 @@ fn honest_truths_are_equal_on_any_number_of_threads() {
     let printed = sandbox.execute(&["truths", "verify"]);
     let begin = "out: 5 tiles of 16x16 pixels traced again and equal; 2 truths";
     assert!(printed.starts_with(begin), "{printed}");
-    // A choice that nobody named is another one each time.
+    // An unnamed seed differs each time.
     assert_ne!(printed, sandbox.execute(&["truths", "verify"]));
 }
 
@@ -87,7 +87,7 @@ fn a_bit_in_a_replicate_is_found_where_a_tile_covers_it() {
     let verified: Value = serde_json::from_str(&stdout(&output)).unwrap();
     assert_eq!(verified["differences"].as_array().unwrap().len(), 1);
 
-    // The tile of this seed lies in one replicate, and finds nothing in another.
+    // The tile of this seed is in one replicate, and finds nothing in another.
     fs::write(sandbox.path(&file), before).unwrap();
     let mut names = (0..REPLICATES).map(|index| format!("out/plate/{}", replicate_file(index)));
     let other = names.find(|name| *name != file).unwrap();
@@ -171,7 +171,7 @@ fn what_holds_no_truth_is_refused() {
         --scenes fan => --scenes: no "fan" there; allowed: plate
         --tiles 0 => '0' for '--tiles <N>': 0 is not in 1..=10000"#,
     );
-    // A truth without ladder or frame, as `render` leaves it, is verified as far as it goes.
+    // A truth without ladder or frame, as `render` leaves it, is verified as far as possible.
     sandbox.execute(&split(
         "truths render --quiet --scenes plate --samples-per-pixel 16 --out r",
     ));

@@ -26,7 +26,7 @@ fn make_study(sandbox: &Sandbox, more: &str) -> Study {
     serde_json::from_value(written["study"].clone()).unwrap()
 }
 
-/// The answers of a session whose person chooses by a rule.
+/// Makes the answers of a session with a person who chooses by a rule.
 fn answer(
     study: &Study,
     question: Question,
@@ -65,7 +65,7 @@ fn answer(
     }
 }
 
-/// An attentive person, to whom a filter of a smaller number looks better.
+/// An attentive person who prefers filters of smaller numbers.
 fn prefer_first(pair: &ShownPair) -> Chosen {
     let rank = |clip| match clip {
         Clip::Truth => -1,
@@ -149,7 +149,7 @@ fn a_page_has_copies_of_the_pictures_and_refuses_what_people_cannot_compare() {
 fn answers_to_a_page_become_a_scale_beside_the_scores_of_the_run() {
     let sandbox = Sandbox::new();
     let study = make_study(&sandbox, "");
-    // Six people choose the better filter, but for one answer in four; the last one does so in every check, too.
+    // Six people choose the better filter, except in one answer of four; the last one always chooses left in checks.
     let people: Vec<AnswerFile> = (0..6)
         .map(|seed| {
             answer(&study, Question::Truth, seed, |pair, index| {
@@ -187,14 +187,14 @@ fn answers_to_a_page_become_a_scale_beside_the_scores_of_the_run() {
         let [low, high] = [0, 1].map(|end| number(&own["interval"][end]));
         assert!(low < *place && *place < high, "{own}");
     }
-    // Without a mistake the distance would be that of the prior.
+    // Without a mistake the distance would be the prior's.
     let distance = places[0] - places[2];
     assert!((0.3..2.0).contains(&distance), "{distance}");
     let score = |name: &str| {
         let mut all = scale["scores"].as_array().unwrap().iter();
         all.find(|own| own["score"] == name).unwrap().clone()
     };
-    // FLIP ranks the filters as these people do; `run` measures it.
+    // FLIP ranks the filters like these people; `run` measures it.
     assert_eq!(score("flip_moving")["correlation"], 1.0);
     assert!(number(&score("flip_moving")["predicted"]) > 0.6);
     assert_eq!(score("psnr_moving")["correlation"], 1.0);
@@ -212,7 +212,7 @@ fn answers_to_a_page_become_a_scale_beside_the_scores_of_the_run() {
     let mut lines = table.lines();
     assert!(lines.all(|line| line.chars().count() <= 80), "{table}");
 
-    // One person alone, who always chooses alike: no sample of people, and only the prior holds the distances.
+    // One person who always chooses alike: no sample of people, and only the prior limits the distances.
     let one = answer(&study, Question::Better, 9, |pair, _| prefer_first(pair));
     let names = write_answers(&sandbox, &[one]);
     let table = sandbox.execute(&preferences(&names, &[]));

@@ -10,7 +10,7 @@ use crate::sandbox::{Sandbox, assert_refused};
 
 type Change = fn(&mut AnswerFile);
 
-/// Answers that no page of this run asked for are refused.
+/// Checks that answers to questions that no page of this run asked are refused.
 pub fn assert_answers_are_refused(sandbox: &Sandbox, study: &Study) {
     let session = |seed| answer(study, Question::Truth, seed, |pair, _| prefer_first(pair));
     let refuse = |files: &[AnswerFile], parts: &[&str]| {
@@ -75,14 +75,14 @@ pub fn assert_answers_are_refused(sandbox: &Sandbox, study: &Study) {
     assert_runs_are_told_apart(sandbox, &write_answers(sandbox, &[session(1)]));
 }
 
-/// Swaps both sides of an answer. A check of one clip looks the same from both sides: it gets another scene.
+/// Swaps both sides of an answer. A check of one clip looks the same from both sides, so it gets another scene.
 fn swap_sides(file: &mut AnswerFile) {
     let own = &mut file.answers[4];
     std::mem::swap(&mut own.left, &mut own.right);
     own.scene.name = "plate".to_owned() + if own.left == own.right { "s" } else { "" };
 }
 
-/// Another seed makes other truths, a filter that changed makes other pictures.
+/// Another seed makes other truths, a changed filter makes other pictures.
 fn assert_runs_are_told_apart(sandbox: &Sandbox, names: &[String]) {
     let with_run = preferences(names, &["--run", "out"]);
     let refuse = |parts: &[&str]| assert_refused(&sandbox.shuttertruth(&with_run), 2, parts);

@@ -75,7 +75,7 @@ fn a_report_finds_the_worst_place_if_the_run_did_not() {
     assert_eq!(find_crop(&page), checked);
     let parts = [
         "No known failure pattern matched (only <code>check</code> looks",
-        // Nothing that a run breaks fails: it is a target.
+        // A run fails no bound: each is a target.
         "1 of 2 targets met; targets fail nothing.",
     ];
     assert_contains(find_article(&page, &filter_case(&sandbox)), &parts);

@@ -1,4 +1,4 @@
-//! Pages that `run` and `check` write themselves, and the layers beside a report.
+//! Pages that `run` and `check` write themselves, and the layers of a report.
 
 use std::collections::BTreeMap;
 use std::fs;

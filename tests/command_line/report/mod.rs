@@ -1,4 +1,4 @@
-//! The page of a finished run, and the pages and layers beside it.
+//! The page of a finished run, with its other pages and layers.
 
 mod bounds;
 mod layers;
@@ -35,7 +35,7 @@ fn planes(page: &str) -> Vec<Vec<String>> {
         .collect()
 }
 
-/// Finds the part of a page that shows one score of all cases.
+/// Finds the part of a page with one score of all cases.
 fn panel<'a>(page: &'a str, metric: &str) -> &'a str {
     let (_, rest) = page
         .split_once(&format!("data-metric=\"{metric}\""))
@@ -52,7 +52,7 @@ fn address(case: &suite::Case) -> String {
     format!("{}/{}{reference}", case.scene, case.name())
 }
 
-/// Finds the part of a page that shows a case.
+/// Finds the part of a page with a case.
 fn find_article<'a>(page: &'a str, case: &suite::Case) -> &'a str {
     let start = format!("<article class=\"case\" id=\"{}\"", address(case));
     between(page, &start, "</article>")[0]

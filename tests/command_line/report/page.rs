@@ -39,7 +39,7 @@ fn a_page_shows_the_scores_and_means_of_the_run() {
         let count = count.replace('<', "&lt;").replace('>', "&gt;");
         assert_contains(panel(&page, "n_eq"), &[&format!("{link}>{count}</a>")]);
     }
-    // Each follows the one before.
+    // Each follows the previous one.
     let mut rest = between(&page, "aria-label=\"FLIP of every case\"", "</table>")[0];
     let means = run
         .overall
@@ -199,8 +199,8 @@ fn costs_come_from_the_bench_beside_the_run() {
         .find(|cost| cost.filter == "identity")
         .unwrap()
         .seconds;
-    // Every table of scores has one cell for the filter that was both run and timed. Filters that were only timed, or
-    // run with other parameters, have none.
+    // Every table of scores has one cell for the filter that was both run and timed. Filters that were only timed, or run with
+    // other parameters, have none.
     let cell = "<td class=\"cost\" data-value";
     let own = format!("{cell}=\"{}\">", seconds.median);
     for cell in [cell, &own] {
@@ -232,7 +232,7 @@ fn a_run_keeps_the_jump_flood_s_dilated_map() {
     let [x, y] = ["dilated.X", "dilated.Y"].map(|name| output.plane(name).unwrap());
     let motion = *frame.velocity.at(32, 16);
     assert!(motion[0] > 5.0, "the plate moves to the right: {motion:?}");
-    // The plate and one pixel behind it hold the plate's own velocity. Pixels far ahead and above hold none.
+    // The plate and one pixel behind it have the plate's own velocity. Pixels far ahead and above do not.
     let behind = (0..32).find(|x| *frame.object_id.at(*x, 16) == 1).unwrap() - 1;
     for (column, row, due) in [
         (32, 16, motion),

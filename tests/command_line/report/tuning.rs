@@ -114,7 +114,7 @@ fn an_unfinished_tuning_has_a_page_and_an_empty_folder_is_refused() {
     fs::remove_file(sandbox.path("tuned/tune.json")).unwrap();
     let journal = sandbox.path("tuned/journal.jsonl");
     let text = fs::read_to_string(&journal).unwrap();
-    // A line is half written.
+    // A half-written line.
     fs::write(&journal, format!("{text}{{\"trial\": 14, \"val")).unwrap();
     let page = make_page(&sandbox);
     let convergence = find_section(&page, "Convergence");

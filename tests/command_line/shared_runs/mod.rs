@@ -1,4 +1,4 @@
-//! Runs that several processes share: the plan, its jobs, and the merge of what they made.
+//! Runs shared by several processes: the plan, its jobs, and the merge of their results.
 
 mod refusals;
 mod same_bytes;
@@ -12,7 +12,7 @@ use crate::sandbox::{Files, Sandbox};
 /// Filters of both shutters, one of them with two presets.
 const FILTERS: &str = "velocity_gather:fine,velocity_gather:coarse,kino:default";
 
-/// Options that measure in next to no time.
+/// Options that measure very quickly.
 pub const QUICK: &str = "--quiet --size 64x32 --samples-per-pixel 16 --jitter-frames 2";
 
 /// Plans a command; returns one job per line.
@@ -30,7 +30,7 @@ fn list(job: &Value, key: &str) -> Vec<String> {
         .collect()
 }
 
-/// Runs a job, whose inputs must be there; it must leave all its outputs. Returns what it prints.
+/// Runs a job with existing inputs, which must leave all its outputs. Returns its messages.
 #[track_caller]
 fn execute(sandbox: &Sandbox, job: &Value) -> String {
     let assert_files = |key: &str| {

@@ -59,7 +59,7 @@ fn cases_against_other_truths_are_refused() {
     measure_other(&sandbox, &format!("{words} --part filters"));
     let found = "plate/plate/frame.exr and other/plate/frame.exr differ";
     refuse(&sandbox, "plate other", &[found]);
-    // The same exposure, and another truth: that of another tracer.
+    // The same exposure, and another truth: another tracer's.
     let hash = "\"truth_hash\": \"";
     change(&sandbox, "flood", hash, &format!("{hash}0"));
     let found = [

@@ -8,7 +8,7 @@ use tests::text::assert_contains;
 use super::{FILTERS, QUICK, execute, list, parts, plan};
 use crate::sandbox::{Files, Sandbox, assert_same_files, read_below};
 
-/// Reads all files of a run, but for the jobs' own, what judges it, and pages.
+/// Reads all files of a run except the jobs' own, its judgement, and pages.
 fn contents(sandbox: &Sandbox) -> Files {
     let mut files = read_below(&sandbox.path("out"));
     files.retain(|(name, _)| {
@@ -19,7 +19,7 @@ fn contents(sandbox: &Sandbox) -> Files {
     files
 }
 
-/// Runs the jobs of a plan in one bench and the command itself in another; compares all files.
+/// Runs the jobs of a plan in one sandbox and the command itself in another; compares all files.
 #[track_caller]
 fn assert_jobs_equal_one_process(words: &str) {
     let words = format!("{QUICK} --filter {words}");
@@ -99,9 +99,9 @@ fn parts_made_by_hand_are_joined_without_a_plan() {
     let printed = sandbox.done("truths merge plate slow --out both");
     assert_eq!(printed, "both/run.json (16 cases of 2 parts)\n");
     sandbox.done(&format!("run {QUICK} --filter identity --out out"));
-    // A part twice is no other run.
+    // A repeated part changes nothing.
     sandbox.done("truths merge plate slow plate --out twice");
-    // The command is the one difference.
+    // The command is the only difference.
     let [both, out, twice] = ["both", "out", "twice"].map(|out| {
         let mut run: Value = sandbox.read_json(&format!("{out}/run.json"));
         run["command"].take();
@@ -134,7 +134,7 @@ fn truths_of_another_folder_are_taken_if_their_inputs_are_the_same() {
     with("alone --seed 2");
     assert!(truth("other") != before, "another seed's was taken");
     assert!(truth("other") == truth("alone"));
-    // What is made anew in one folder leaves the other as it is.
+    // New results in one folder leave the other unchanged.
     with("same --seed 2");
     assert!(truth("kept") == before);
 }

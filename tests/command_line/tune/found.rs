@@ -8,7 +8,7 @@ use filters::Filter;
 use serde_json::Value;
 use tests::filter_folder::copy_shipped_filter;
 use tests::text::{assert_contains, squeeze};
-use tune::TrialOutcome;
+use tune::{Space, TrialOutcome, count_candidates};
 
 use super::{ON_SEVEN, read_journal, read_trials, read_tuning, set_up, tune};
 use crate::sandbox::{Files, Sandbox};
@@ -17,12 +17,12 @@ const QUICK: &str = "--quiet --filter jump_flood --size 64x32 --samples-per-pixe
 const HELD_OUT: &str =
     "--budget 20 --held-out plate --held-out-samples-per-pixel 16 --held-out-size";
 
-/// Tunes on seven scenes with an eighth held out at a size, in `out`; returns what it prints.
+/// Tunes on seven scenes, with an eighth held out at a given size, in `out`; returns the output.
 fn tune_at(sandbox: &Sandbox, size: &str) -> String {
     tune(sandbox, "out", &format!("{ON_SEVEN} {HELD_OUT} {size}"))
 }
 
-/// Makes a sandbox with such a tuning, whose output is the file `printed`.
+/// Makes a sandbox with such a tuning, and its output in the file `printed`.
 fn tuned() -> Sandbox {
     static FILES: OnceLock<Files> = OnceLock::new();
     Sandbox::once(&FILES, || {
@@ -48,7 +48,7 @@ fn a_tuning_beats_its_start_and_records_the_way() {
     assert_contains(&table, &parts);
     let trials = read_trials(&sandbox);
     assert_eq!(trials.len(), 20);
-    // The tuning begins with the published preset, not with the result of another tuning.
+    // The tuning begins with the published preset, not with another tuning's result.
     let filter = Filter::builtin("jump_flood").unwrap();
     let begun = |preset: &str| {
         let values = filter.settings(Some(preset)).unwrap().values;
@@ -62,8 +62,7 @@ fn a_tuning_beats_its_start_and_records_the_way() {
     };
     let presets = ["paper", "july_2024", "corrected", "tuned"];
     assert_eq!(presets.map(begun), [true, true, true, false]);
-    // The published demo scales each trail by noise. On these small plates, another jitter alone lowers the error by
-    // some percent.
+    // The published demo scales each trail by noise. On these small plates, another jitter alone lowers the error by some percent.
     let tuning = read_tuning(&sandbox);
     assert!(tuning.chosen.error.unwrap() < -0.01, "{table}");
     assert_eq!(tuning.start.error, Some(0.0));
@@ -72,7 +71,7 @@ fn a_tuning_beats_its_start_and_records_the_way() {
         .iter()
         .filter(|it| it.outcome == TrialOutcome::Dropped);
     let dropped: Vec<_> = dropped.collect();
-    // Seven scenes allow to drop what is worse on six.
+    // Seven scenes are enough to drop what is worse on six.
     assert!(!dropped.is_empty());
     assert_eq!(dropped.len(), tuning.dropped);
     for own in dropped {
@@ -112,7 +111,7 @@ fn held_out_scenes_that_are_read_again_are_counted_once() {
     let journal = read_journal(&sandbox, "out");
     tune_at(&sandbox, "64x32");
     assert_eq!(read_tuning(&sandbox).held_out.len(), 1);
-    // Reading others is another opening.
+    // Other held-out renders count as another evaluation.
     assert_contains(&tune_at(&sandbox, "48x24"), &["evaluated 2 times"]);
     assert_eq!(read_journal(&sandbox, "out"), journal, "no trial was added");
 }
@@ -176,9 +175,17 @@ fn a_study_finds_the_parameters_that_matter() {
     // Weighted taps do not read the extent; only replaced ones do.
     let extent = &found.parameters["behind_extent"];
     assert!(extent.constant && extent.slice.iter().all(|(_, error)| *error == 0.0));
-    // Nine points from 1 to 64, two of which round to the same number.
+    // Nine points from 1 to 64, two of them rounded to the same number.
     let samples = &found.parameters["samples"];
     assert!(!samples.constant && samples.slice.len() == 8, "{samples:?}");
+    // As many as are announced: four rows of two axes, and both slices.
+    let filter = Filter::builtin("jump_flood").unwrap();
+    let axes = ["samples", "behind_extent"].map(str::to_owned);
+    let space = Space::new(&filter, filter.settings(Some("corrected")).unwrap(), &axes).unwrap();
+    assert_eq!(
+        [found.candidates, count_candidates(&space, 4)],
+        [16 + 8 + 9; 2]
+    );
     let row = |name: &str| {
         let mut lines = table.lines().map(str::trim_start);
         lines.position(|line| line.starts_with(name)).unwrap()

@@ -9,7 +9,7 @@ use crate::sandbox::{assert_refused, split, stderr, wait_until};
 
 const BUDGET: &str = "--scenes a,b --budget 24";
 
-/// Returns the journal of a tuning that nothing stopped. It runs once for all tests.
+/// Returns the journal of an undisturbed tuning, which runs once for all tests.
 fn whole() -> &'static str {
     static JOURNAL: OnceLock<String> = OnceLock::new();
     JOURNAL.get_or_init(|| {
@@ -32,7 +32,7 @@ fn a_killed_tuning_resumes_and_ends_with_the_same_bytes() {
     child.wait().unwrap();
     let left = read_journal(&sandbox, "out");
     assert!(left.lines().count() < 25, "it was killed on its way");
-    // A power failure left this line half written.
+    // A power failure left this line half-written.
     fs::write(&path, format!("{left}{{\"trial\":7")).unwrap();
     tune(&sandbox, "out", BUDGET);
     assert_eq!(read_journal(&sandbox, "out"), whole());
@@ -61,7 +61,7 @@ fn a_larger_budget_extends_a_smaller_one_and_another_seed_searches_differently()
     assert_eq!(read_journal(&sandbox, "out"), before, "nothing is lost");
 }
 
-/// Limits the size of files, which stands in for a full disk: either way, a write fails.
+/// Limits the size of files, as a substitute for a full disk: either way, a write fails.
 #[cfg(unix)]
 #[test]
 fn a_full_disk_loses_nothing() {

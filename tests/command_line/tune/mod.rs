@@ -39,11 +39,11 @@ const TUNE: &str = "tune search --quiet --filter jump_flood --from paper \
     --vary samples=2..16,probes,match_threshold,jitter,foreground_extent --objective flip,bleed \
     --size 64x32 --samples-per-pixel 16";
 
-/// Does it on a few scenes, or on more.
+/// Words for two scenes, or for more.
 const ON_TWO: &str = "--scenes a,b";
 const ON_SEVEN: &str = "--scenes a,b,c,d,e,f,g";
 
-/// Tunes in a folder; returns what it prints.
+/// Tunes in a folder; returns the output.
 #[track_caller]
 fn tune(sandbox: &Sandbox, out: &str, more: &str) -> String {
     sandbox.done(&format!("{TUNE} --out {out} {more}"))

@@ -86,7 +86,7 @@ fn a_failing_candidate_is_reported_and_the_tuning_goes_on() {
     for reason in tuning.failed.values() {
         assert_contains(reason, &["too strong"]);
     }
-    // A start that fails leaves nothing to compare with.
+    // A failing start leaves nothing to compare with.
     fs::remove_dir_all(sandbox.path("out")).unwrap();
     let output = tune("./broken");
     assert_eq!(output.status.code(), Some(2));

@@ -1,4 +1,4 @@
-//! Measured lengths and places of every filter's smear against promised ones, on the scene `sliding_panel` at several speeds and
+//! Measured lengths and positions of every filter's smear against promised ones, on the scene `sliding_panel` at several speeds and
 //! angles.
 
 mod outcome;
@@ -18,7 +18,7 @@ use tests::ramp::Ramp;
 #[test]
 fn the_truth_s_smear_is_as_long_as_the_exposure_and_takes_as_much_as_it_gives() {
     let shot = Shot::new(24.0, 30.0, 1.0);
-    // The truth of a trailing shutter leaves half its smear behind, that of a centred one an eighth on each side of both edges.
+    // A trailing truth leaves half its smear behind, a centred one an eighth on each side of both edges.
     for (alignment, middle, light) in [
         (Alignment::Trailing, -0.5, [0.5, 0.0, 0.5, 0.0]),
         (Alignment::Centred, 0.0, [0.125; 4]),
@@ -26,7 +26,7 @@ fn the_truth_s_smear_is_as_long_as_the_exposure_and_takes_as_much_as_it_gives() 
         let truth = shot.true_matte(alignment);
         let found = Light::of(&shot, &truth).all();
         for (found, expected) in found.into_iter().zip(light) {
-            // The panel's edge lies within a pixel, and the tent is 2 wide.
+            // The panel's edge is within a pixel, and the tent is 2 wide.
             assert_near(found, expected * shot.speed, 0.5);
         }
         let truth = shot.profile(&truth);
@@ -60,7 +60,7 @@ fn fits(outcome: &Outcome) -> bool {
         parts.fold(0.0, f64::max)
     };
     let reach = farthest(&|offset| along_motion(steady, offset));
-    // A trail that is turned leaves the panel beside the band, too.
+    // A rotated trail also leaves the panel at the side of the band.
     let aside = farthest(&|[x, y]| along_motion(steady, [-y, x]));
     let pushes = outcome.filter == "jimenez" && outcome.preset.starts_with("wicked");
     let room = match pushes {
@@ -70,15 +70,15 @@ fn fits(outcome: &Outcome) -> bool {
     reach < (HALF_PANEL - 3.0).min(room) && aside + HALF_BAND < HALF_PANEL - 3.0
 }
 
-/// Compares the edge painted on the panel with the ramp that a preset's taps make of it, and its length with what the filter's text
-/// says. Returns what is wrong.
+/// Compares the edge painted on the panel with the ramp that a preset's taps make of it, and its length with the filter's text.
+/// Returns what is wrong.
 fn check_ramp(outcome: &Outcome) -> Option<String> {
     let Outcome { filter, preset, .. } = outcome;
     let trail = outcome.shot.speed * outcome.shot.exposure;
     let painted = Ramp::of(&outcome.shot.profile(&outcome.painted));
     let found = painted.beyond(outcome.shot.painted_ramp);
     let expected = match filter.as_str() {
-        // The camera stands still.
+        // The camera is still.
         "camera_gather" | "babylon_screen" => Ramp {
             length: 0.0,
             middle: 0.0,
@@ -89,8 +89,8 @@ fn check_ramp(outcome: &Outcome) -> Option<String> {
         // Two taps at whole pixels: the noise has about nine values along a row, and rounding moves either end of a
         // smear by up to half a pixel. The largest measured error is 1.1.
         "msaa" => 1.2,
-        // Noise in a band of 33 pixels, mostly with two taps.
-        // Of two pixels that are equally near, all rows may take the same one: half a pixel for the middle.
+        // Noise in a band of 33 pixels, mostly with two taps. Of two equally near pixels, all rows may read the same one: half a pixel for
+        // the middle.
         _ if filter == "babylon" => 0.7,
         _ => 0.2 + 0.01 * trail,
     };
@@ -108,7 +108,7 @@ fn check_ramp(outcome: &Outcome) -> Option<String> {
         promise / trail
     );
     let stated = stated_lengths(filter, preset);
-    // three.js turns the trail, here across the motion. At lower speeds, interpolation and the pixel grid weigh more.
+    // three.js rotates the trail, here across the motion. At lower speeds, interpolation and the pixel grid weigh more.
     let is_stated = promise < 1e-9 || trail < 8.0 || stated.contains(&part);
     (!is_stated).then(|| format!("{part} of the promised length, stated {stated:?}"))
 }

@@ -1,4 +1,4 @@
-//! A shot, blurred by a filter.
+//! A shot blurred by a filter.
 
 use filters::Input;
 use frame::Plane;

@@ -17,8 +17,7 @@ const SCALE: f64 = 3.4;
 pub const HALF_PANEL: f64 = 0.5 * 0.8 * SCALE / METRES_PER_PIXEL;
 /// Half the width, in pixels, of the band that edges are measured along.
 pub const HALF_BAND: f64 = 16.0;
-/// Half the width of the tent, in pixels. The rows of pixels in a tilted band lie up to 0.7 apart; a narrower tent
-/// would resolve them.
+/// Half the width of the tent, in pixels. The rows of pixels in a tilted band are up to 0.7 apart; a narrower tent would resolve them.
 const TENT: f64 = 2.0;
 
 /// A moving panel at the middle of the picture.
@@ -32,7 +31,7 @@ pub struct Shot {
     pub frame: Frame,
     /// White behind the panel's middle and black ahead of it, as if painted on the panel and on everything beyond.
     pub painted: Plane,
-    /// The edge that is painted, and the light along the motion of the panel at the instant.
+    /// The painted edge, and the light along the panel's motion at the instant.
     pub painted_ramp: Ramp,
     pub matte_profile: Vec<(f64, f64)>,
     /// Index of the panel among the objects.
@@ -143,7 +142,7 @@ fn measure_profile(plane: &Plane, direction: DVec2, speed: f64) -> Vec<(f64, f64
         }
     }
     let positions = (-reach..=reach).map(f64::from).zip(sums);
-    // Samples beyond the picture show nothing.
+    // Samples beyond the picture are empty.
     positions
         .filter(|(_, (share, _))| *share > HALF_BAND)
         .map(|(position, (share, sum))| (position, sum / share))

@@ -6,13 +6,13 @@ use tests::kernels::{Steady, along_motion, babylon_trail, jump_flood_trail, thre
 
 use super::panel::HEIGHT;
 
-/// Returns the promised length of the smear in pixels. Unless a preset says otherwise, it is the exposure's, times the
-/// preset's factor, cut at its reach.
+/// Returns the promised length of the smear in pixels: the exposure's, times the preset's factor, cut at its reach, unless the
+/// preset says otherwise.
 pub fn promised_smear(filter: &str, preset: &str, steady: &Steady) -> f64 {
     let [x, y] = steady.trail();
     let trail = x.hypot(y);
     match (filter, preset) {
-        // The camera of this scene stands still.
+        // The camera of this scene is still.
         ("identity" | "camera_gather" | "babylon_screen", _) => 0.0,
         ("three", _) => along_motion(steady, three_trail(preset, steady)).abs(),
         ("babylon", _) => along_motion(steady, babylon_trail(steady)),
@@ -49,8 +49,8 @@ pub fn promised_smear(filter: &str, preset: &str, steady: &Steady) -> f64 {
     }
 }
 
-/// Returns how far an edge on the panel spreads according to the filter's text, from 8 pixels on: parts of the promised
-/// length, in whole hundredths.
+/// Returns an edge's spread on the panel according to the filter's text, from 8 pixels on: parts of the promised length, in whole
+/// hundredths.
 pub fn stated_lengths(filter: &str, preset: &str) -> RangeInclusive<f64> {
     match (filter, preset) {
         ("jump_flood" | "jump_flood_packed", "paper") => 1.26..=1.31,
@@ -62,7 +62,7 @@ pub fn stated_lengths(filter: &str, preset: &str) -> RangeInclusive<f64> {
         ("guertin", _) => 0.65..=0.87,
         ("three", _) => 1.03..=1.05,
         ("babylon", _) => 0.79..=0.96,
-        // Noise adds its own length, on either axis by itself: least on diagonals.
+        // Noise adds its own length, on each axis separately: least on diagonals.
         ("realism_effects", _) => 1.29..=1.51,
         ("bevy", "msaa") => 0.955..=1.025,
         ("kino", _) => 0.72..=0.78,

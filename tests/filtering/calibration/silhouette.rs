@@ -1,7 +1,6 @@
-//! Places of the smears at the panel's front and back edge.
+//! Positions of the smears at the panel's front and back edge.
 //!
-//! Each smear is measured twice: by the light that the panel adds to the wall, and by the light that it loses to the
-//! wall.
+//! Each smear is measured twice: by the light that the panel adds to the wall, and by the light that it loses to the wall.
 
 use frame::Plane;
 use tests::kernels::{along_motion, place_taps};
@@ -47,8 +46,8 @@ impl Light {
     }
 }
 
-/// Returns how far the taps lie ahead of their pixel and behind it, on average over all taps: the panel loses as much
-/// of itself to the wall there.
+/// Returns the average distance of taps ahead of their pixel and behind it, over all taps: the panel loses as much of itself to
+/// the wall there.
 fn average_reach(outcome: &Outcome) -> [f64; 2] {
     let steady = &outcome.steady;
     let steps = 100;
@@ -66,8 +65,7 @@ fn average_reach(outcome: &Outcome) -> [f64; 2] {
     reach
 }
 
-/// Returns the expected light behind, lost at the back, lost at the front, and ahead; none where only the filter's own
-/// references know it.
+/// Returns the expected light behind, lost at the back, lost at the front, and ahead; none if only the filter's own references know it.
 fn expected_light(outcome: &Outcome) -> [Option<f64>; 4] {
     let [forward, backward] = average_reach(outcome);
     match (outcome.filter.as_str(), outcome.preset.as_str()) {
@@ -76,11 +74,11 @@ fn expected_light(outcome: &Outcome) -> [Option<f64>; 4] {
         ("velocity_gather" | "bevy" | "three" | "babylon" | "realism_effects" | "urp", _) => {
             [Some(0.0), Some(backward), Some(forward), Some(0.0)]
         }
-        // The light that the panel loses at its front lies behind it.
+        // The light that the panel loses at its front is behind it.
         ("jump_flood" | "jump_flood_packed", "corrected") => {
             [Some(forward), Some(0.0), Some(forward), Some(0.0)]
         }
-        // The light behind depends on which steps of the dilation meet the panel.
+        // The light behind depends on which steps of the dilation reach the panel.
         ("jump_flood" | "jump_flood_packed", _) => [None, Some(0.0), Some(forward), Some(0.0)],
         // The slow wall takes most of its own colour, and the panel takes none of the wall's.
         ("mcguire" | "guertin", _) => [None, Some(0.0), Some(0.0), None],
@@ -94,7 +92,7 @@ fn expected_light(outcome: &Outcome) -> [Option<f64>; 4] {
     }
 }
 
-/// Compares the light with where the preset's taps put it. Returns what is wrong.
+/// Compares the light with the preset's taps. Returns what is wrong.
 pub fn check_light(outcome: &Outcome, found: Light) -> Option<String> {
     // The smear behind the panel leaves the picture.
     if HALF_PANEL + outcome.ramp.length >= outcome.shot.to_border() {
@@ -105,7 +103,7 @@ pub fn check_light(outcome: &Outcome, found: Light) -> Option<String> {
         "    behind, lost at back, lost at front, ahead: {}",
         shares.join(" ")
     );
-    // The panel's edge lies within a pixel, and the tent is 2 wide. The steps of some filters are a sixteenth.
+    // The panel's edge is within a pixel, and the tent is 2 wide. The steps of some filters are a sixteenth.
     let tolerance = 0.5 + 0.02 * outcome.shot.speed;
     let pairs = found.all().into_iter().zip(expected_light(outcome));
     let differs = |(found, expected): (f64, Option<f64>)| {

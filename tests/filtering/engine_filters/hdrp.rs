@@ -32,8 +32,7 @@ fn the_noise_of_hdrp_shifts_all_taps_of_a_pixel_to_one_side() {
 
 #[test]
 fn hdrp_reads_the_nearest_pixels_and_fewer_on_short_trails() {
-    // The second trail has a little over 5 pixels. Its length counts in parts of the picture's diagonal, which makes it
-    // a tenth longer.
+    // The second trail has a little over 5 pixels. Its length counts in parts of the picture's diagonal, which makes it a tenth longer.
     for (speed, taps) in [(25.0, 8.0), (2.4, 6.0)] {
         let stripes = Picture::new(160, 64, |x, _| white(speed).gray((x % 2) as f32));
         for pixel in &stripes.blur("jimenez", "hdrp", "").pixels {
@@ -46,7 +45,7 @@ fn hdrp_reads_the_nearest_pixels_and_fewer_on_short_trails() {
 
 #[test]
 fn a_tap_that_moves_half_as_far_as_the_trail_counts_whole() {
-    // Something white in front moves half as fast as the background.
+    // A white surface in front moves half as fast as the background.
     let picture = Picture::halves(160, 64, BACKGROUND, white(12.0));
     let [weighted, ignored] = ["weighted", "ignored"].map(|direction| {
         let overrides = format!("direction={direction} plain_tiles=never");
@@ -59,7 +58,7 @@ fn a_tap_that_moves_half_as_far_as_the_trail_counts_whole() {
 
 #[test]
 fn directions_count_only_where_the_pixel_itself_moves() {
-    // At the bottom, something fast in front sets the trail; at the top, something white moves down past a wall.
+    // At the bottom, a fast surface in front sets the trail; at the top, a white one moves down past a wall.
     let seen = |wall: f32| {
         let picture = Picture::new(160, 64, |x, y| match (x, y) {
             (_, 40..) => white(25.0).gray(0.0),
@@ -76,7 +75,7 @@ fn directions_count_only_where_the_pixel_itself_moves() {
 
 #[test]
 fn a_pixel_that_moves_like_the_fastest_shows_only_its_taps() {
-    // A moving wall behind something still: half of its taps have no weight beside the still thing.
+    // A moving wall behind a still object: half of its taps have no weight next to the object.
     let picture = Picture::new(160, 64, |x, _| match x {
         0..80 => white(0.0),
         80 => BACKGROUND.gray(1.0),
@@ -86,13 +85,13 @@ fn a_pixel_that_moves_like_the_fastest_shows_only_its_taps() {
         let output = picture.blur("jimenez", "hdrp", &format!("rest={rest}"));
         column(&output, 80)
     };
-    // The white thing keeps half of itself beside the wall's black.
+    // The white object keeps half of itself next to the wall's black.
     assert_within(seen("own"), 0.5..);
     // One of about four taps may read the pixel itself.
     assert_within(seen("layers"), ..0.3);
 }
 
-/// Makes a speckled background that moves right, with something still and black in front on the left.
+/// Makes a speckled background that moves right, with a still black object in front on the left.
 fn still_in_front() -> Picture {
     let picture = Picture::halves(160, 64, white(0.0).gray(0.0), BACKGROUND);
     picture.speckled(5, |x, _| x >= 80)
@@ -106,23 +105,23 @@ fn hdrp_leaves_moving_background_sharp_beside_a_still_foreground() {
         let changes = (0..64).map(|y| output.at(80, y)[0] - picture.color.at(80, y)[0]);
         changes.map(|change| f64::from(change.abs())).sum::<f64>() / 64.0
     };
-    // Speckles differ by a third on average. A mean of several differs from each of them by about a quarter, and half
-    // of the taps read the pixel's own colour again.
+    // Speckles differ by a third on average. A mean of several differs from each of them by about a quarter, and half of the taps
+    // read the pixel's own colour again.
     let usual = change("slow_background");
     assert_within(usual, 0.08..);
-    // Nearly all pairs reach the still thing. Its motion is zero, and both taps of a pair get its weight.
+    // Nearly all pairs reach the still object. Its motion is zero, and both taps of a pair get its weight.
     assert_within(change("fast_background"), ..0.1 * usual);
 }
 
 #[test]
 fn steps_that_end_late_keep_still_things_out_of_the_trail_at_its_start() {
-    // A background pixel beside something still in front; a step is 3 pixels.
+    // A background pixel next to a still object in front; a step is 3 pixels.
     let picture = Picture::halves(160, 64, white(0.0), BACKGROUND);
     let seen = |spread: &str| {
         let overrides = format!("mirror=off spread={spread} direction=ignored");
         column(&picture.blur("jimenez", "hdrp", &overrides), 80)
     };
-    // One of eight taps lies less than a step to the left, and counts for the remaining part of the step.
+    // One of eight taps is less than a step to the left, and counts for the remaining part of the step.
     assert_within(seen("steps"), 0.03..);
     assert_eq!(seen("late_steps"), 0.0);
 }
@@ -134,21 +133,21 @@ fn late_steps_equal_normal_steps_after_the_first() {
         let overrides = format!("placement={placement} spread={spread} noise=none");
         picture.blur("jimenez", "hdrp", &overrides)
     };
-    // Taps at the ends of steps lie one step away or more.
+    // Taps at the ends of steps are one step away or more.
     assert!(output("with_centre", "late_steps") == output("with_centre", "steps"));
     assert!(output("middles", "late_steps") != output("middles", "steps"));
 }
 
 #[test]
 fn weighted_directions_exclude_motion_across_the_trail() {
-    // Something white on the right moves down; everything around it moves right.
+    // A white surface on the right moves down; everything around it moves right.
     let [left, right] = [BLACK_WALL.moving(25.0, 0.0), white(0.0).moving(0.0, 9.0)];
     let picture = Picture::halves(160, 64, left, right);
     let seen = |direction: &str| {
         let overrides = format!("direction={direction} plain_tiles=never mirror=off");
         column(&picture.blur("jimenez", "hdrp", &overrides), 76)
     };
-    // A third of the right half of the taps lies beyond 4 of 12 pixels.
+    // A third of the right half of the taps is beyond 4 of 12 pixels.
     assert_within(seen("ignored"), 0.2..);
     assert_eq!(seen("weighted"), 0.0);
 }

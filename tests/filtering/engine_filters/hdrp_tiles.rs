@@ -5,8 +5,7 @@ use tests::picture::{BLACK_WALL, Picture, column, white};
 
 #[test]
 fn plain_tiles_forget_depth_where_motions_are_alike() {
-    // Something white in front moves 8 pixels, and the background 24: the least motion in their tiles is over a
-    // quarter.
+    // A white surface in front moves 8 pixels, and the background 24: the smallest motion in their tiles is over a quarter.
     let picture = Picture::halves(160, 64, BLACK_WALL.moving(24.0, 0.0), white(8.0));
     let seen = |plain: &str| {
         let overrides = format!("plain_tiles={plain} mirror=off");
@@ -14,7 +13,7 @@ fn plain_tiles_forget_depth_where_motions_are_alike() {
     };
     // It moves 4 pixels to each side; a distance of 8 is more than a step of 3 beyond that.
     assert_within(seen("never"), ..0.01);
-    // A box of 24 pixels, 4.5 of which lie in it.
+    // A box of 24 pixels, with 4.5 of them in it.
     assert_near(seen("similar"), 4.5 / 24.0, 0.03);
 }
 
@@ -26,13 +25,13 @@ fn neighbouring_tiles_cut_long_smears_and_tiles_along_the_motion_do_not() {
         let output = picture.blur("jimenez", preset, "tile_dither=0");
         (0..160).filter(|x| column(&output, *x) > 0.0).count()
     };
-    // One tile of 20 pixels beside the mover's.
+    // One tile of 20 pixels next to the mover's.
     assert_eq!(reach("slides_2014"), 20);
     // A quarter of 200 pixels, less a fiftieth for the diagonal.
     assert!((47..=50).contains(&reach("hdrp")), "{}", reach("hdrp"));
 }
 
-/// Returns the tiles of 16 pixels that know the velocity of one moving pixel in tile (10, 4).
+/// Returns the tiles of 16 pixels that get the velocity of one moving pixel in tile (10, 4).
 fn tiles_told_of(speed: f32) -> Vec<(u32, u32)> {
     let picture = Picture::new(320, 160, |x, y| match (x, y) {
         (160, 72) => white(speed),
@@ -47,8 +46,8 @@ fn tiles_told_of(speed: f32) -> Vec<(u32, u32)> {
 
 #[test]
 fn unity_s_walk_over_tiles_misses_the_left_one() {
-    // Half of 100 pixels is a little over three tiles. The integers of Cohen 1994 take the walk from (9, 3) 5 to the
-    // right and 1 down, and 2 to the left and 1 down.
+    // Half of 100 pixels is a little over three tiles. By the integers of Cohen 1994 the walk goes from (9, 3) 5 to the right and 1
+    // down, and 2 to the left and 1 down.
     let above = [8, 10, 11].map(|x| (x, 3));
     let beside = [7, 8, 10, 11, 12, 13, 14].map(|x| (x, 4));
     assert_eq!(tiles_told_of(100.0), [&above[..], &beside[..]].concat());

@@ -5,13 +5,13 @@ use tests::picture::{BLACK_WALL, Picture, column, light_above, slow_above_fast, 
 
 #[test]
 fn kajiya_lets_things_smear_twice_as_far_as_they_move() {
-    // To each side the slow thing should smear 12 * 3.5 / 16 = 2.6 pixels; steps are 9 / 16 pixels.
+    // The slow object should smear 12 * 3.5 / 16 = 2.6 pixels to each side; steps are 9 / 16 pixels.
     let picture = slow_above_fast(12.0, 48.0);
     let smear = |spread: &str| {
         let overrides = format!("pairs=16 spread={spread}");
         picture.blur("jimenez", "kajiya", &overrides)
     };
-    // Three of 33 taps, half of which count.
+    // Three of 33 taps; half of them count.
     assert_within(light_above(&smear("pixels"), 3..5), 0.2..);
     // A pixel less than half its motion, and one pixel for fetches.
     assert_eq!(light_above(&smear("pixels"), 6..30), 0.0);
@@ -26,7 +26,7 @@ fn kajiya_shifts_taps_by_one_of_32_numbers() {
     let output = picture.blur("jimenez", "kajiya", "");
     let mut shifts: Vec<i32> = (64..192)
         .flat_map(|x| (0..64).map(move |y| (x, y)))
-        // Taps lie 3 pixels apart; the centre, one of seven, reads whole pixels.
+        // Taps are 3 pixels apart; the centre, one of seven, reads whole pixels.
         .map(|(x, y)| {
             let mean = output.at(x, y)[0] - x as f32;
             let distance = |shift: &i32| {
@@ -57,8 +57,7 @@ fn kajiya_displaces_still_pixels_near_a_mover() {
         wall.filter(|(x, y)| (output.at(*x, *y)[0] - picture.color.at(*x, *y)[0]).abs() > 0.05)
             .count()
     };
-    // The wall has 6080 pixels. Those change that lie in tiles that know the mover and shift by at least half a pixel
-    // of 1.5.
+    // The wall has 6080 pixels. Those in tiles that know the mover change if they shift by at least half a pixel of 1.5.
     assert!(changed("") > 2000, "{}", changed(""));
     // Without noise the pixel does not shift, and a still pixel has no spread.
     assert_eq!(changed("noise=none"), 0);
@@ -72,7 +71,7 @@ fn taps_off_the_picture_are_dropped_or_read_its_border() {
         let output = picture.blur("jimenez", "kajiya", &format!("border={border}"));
         column(&output, 4)
     };
-    // Two of seven taps, 3 pixels apart around 4.5, lie off the picture; one is in the first three columns.
+    // Two of seven taps, 3 pixels apart around 4.5, are off the picture; one is in the first three columns.
     let one = 1.0 / 3.0;
     assert_near(seen("clamp"), (2.0 + one) / 7.0, 0.05);
     assert_near(seen("drop"), one / 5.0, 0.04);

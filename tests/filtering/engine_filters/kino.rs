@@ -17,13 +17,13 @@ fn bar(right: bool) -> Picture {
 #[test]
 fn the_order_of_taps_makes_a_mover_s_two_sides_differ() {
     let overrides = "jitter=none storage=exact radius_percent=40";
-    // The still pixels beside the bar: 1 to 18 of the 20 that its smear covers.
+    // The still pixels next to the bar: 1 to 18 of the 20 that its smear covers.
     let light = |is_right: bool, pixel: fn(u32) -> u32| -> f64 {
         let output = bar(is_right).blur("kino", "default", overrides);
         (0..18).map(|i| column(&output, pixel(i))).sum()
     };
-    // The right tap is the first of each pair. If the bar is seen first, the background counts as moving as far, and
-    // the bar's own share shrinks. Without this order both sides would be equal up to rounding.
+    // The right tap is the first of each pair. If the bar is read first, the background counts as moving as far, and the bar's own
+    // share shrinks. Without this order both sides would be equal up to rounding.
     assert_within(light(true, |i| 79 - i), ..0.97 * light(false, |i| 80 + i));
 }
 
@@ -35,7 +35,7 @@ fn packed_motion_has_steps_and_no_zero() {
     // 5 % of 360 rows are 18 pixels.
     let step = 2.0 * 18.0 / 1023.0;
     let packed = picture.texture("kino", "", "motion");
-    // Zero lies half-way between two of 1024 values.
+    // Zero is half-way between two of 1024 values.
     let still = packed.at(0, 7);
     assert_near(still[0], 0.5 * step, 1e-5);
     assert_near(still[1], 0.5 * step, 1e-5);
@@ -86,7 +86,7 @@ fn half_motion_under_two_pixels_stays_sharp() {
 
 #[test]
 fn each_pixel_belongs_to_one_block_of_any_size() {
-    // Column 42 and row 21 have another place in every halving of the picture.
+    // Column 42 and row 21 have a different position in every halving of the picture.
     let picture = Picture::new(128, 64, |x, y| match (x, y) {
         (42, 21) => white(4.0),
         _ => BLACK_WALL,

@@ -1,4 +1,4 @@
-//! Claims read in the sources of game engines' blurs, each shown to be true or false.
+//! Claims from the sources of game engines' blurs, each shown to be true or false.
 
 mod babylon;
 mod bevy;

@@ -3,9 +3,9 @@
 use tests::near::assert_near;
 use tests::picture::{Picture, white};
 
-/// Returns how far ahead the taps lie on average, in every pixel of the picture's middle.
+/// Returns the taps' average distance ahead, in every pixel of the picture's middle.
 fn shifts(jitter: &str) -> Vec<f64> {
-    // Brightness is the column, so that a mean of taps is their mean place.
+    // Brightness is the column, so a mean of taps is their mean position.
     let picture = Picture::new(240, 64, |x, _| white(24.0).gray(x as f32));
     let output = picture.blur("realism_effects", "scaled", &format!("jitter={jitter}"));
     let pixels = (90..150).flat_map(|x| (0..64).map(move |y| (x, y)));

@@ -15,7 +15,7 @@ fn a_blur_amount_of_a_half_is_the_exposure() {
     assert_near(length("corrected", "1"), 24.0, 1.2);
 }
 
-/// Blurs a bright dot that moves up to the right; returns the light at a distance from it, in pixels to the right and down.
+/// Blurs a bright dot that moves up to the right; returns the light at an offset from it, in pixels to the right and down.
 fn blurred_dot(preset: &str) -> impl Fn(i32, i32) -> f32 {
     let picture = Picture::new(65, 65, |x, y| {
         let dot = (x, y) == (32, 32);

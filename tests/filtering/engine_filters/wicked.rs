@@ -11,7 +11,7 @@ fn the_smear_of_wicked_depends_on_the_width_of_the_picture() {
         println!("{width} wide");
         let picture = moving_edge(width, 64, [12.0, 0.0]);
         let found = ramp_length(&picture.blur("jimenez", "wicked", ""));
-        // 1500 pixels per picture width of motion, scaled by noise whose mean square is a third; 16 taps at
+        // 1500 pixels per picture width of motion, scaled by noise with a mean square of a third; 16 taps at
         // (2 i - 15) / 15.
         let taps = (0..16).map(|i| ((2.0 * f64::from(i) - 15.0) / 15.0).powi(2));
         let square = taps.sum::<f64>() / 16.0 / 3.0;
@@ -30,7 +30,7 @@ fn the_kernel_of_wicked_is_peaked_and_not_a_box() {
         let reach = (37.5 * part).round() as u32;
         column(&output, 240 + reach - 1) - column(&output, 240 - reach)
     };
-    // Uniform taps times uniform noise have the density -ln|x| / 2, so x (1 - ln x) lies within x of the middle.
+    // Uniform taps times uniform noise have the density -ln|x| / 2, so x (1 - ln x) is within x of the middle.
     for part in [0.2f64, 0.4] {
         // 16 taps of 128 rows, in whole pixels of 37.5.
         assert_near(share(part), part * (1.0 - part.ln()), 0.05);
@@ -39,7 +39,7 @@ fn the_kernel_of_wicked_is_peaked_and_not_a_box() {
 
 #[test]
 fn wicked_lets_slow_things_smear_as_far_as_fast_ones() {
-    // To each side the fast half smears 750 * 24 / 320 = 56 pixels, and the slow thing should smear 11.
+    // The fast half smears 750 * 24 / 320 = 56 pixels to each side, and the slow object should smear 11.
     let picture = slow_above_fast(4.8, 24.0);
     let as_published = picture.blur("jimenez", "wicked", "");
     assert_within(light_above(&as_published, 20..40), 1.0..);
@@ -70,7 +70,7 @@ fn wicked_pushes_trails_inwards_where_they_begin() {
         let overrides = format!("noise=none tile_dither=0 border={border}");
         column(&picture.blur("jimenez", "wicked", &overrides), 2)
     };
-    // Motion points back, so trails begin ahead. Seven of 16 taps around 2.5 lie off the picture.
+    // Motion points back, so trails begin ahead. Seven of 16 taps around 2.5 are off the picture.
     assert_near(seen(-1.6, "push"), 1.0 / 16.0, 1e-5);
     assert_near(seen(1.6, "push"), 7.0 / 16.0, 1e-5);
     assert_near(seen(-1.6, "clamp"), 7.0 / 16.0, 1e-5);

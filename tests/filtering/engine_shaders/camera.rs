@@ -1,4 +1,4 @@
-//! Values that engines set every frame: matrices of the camera, the picture's size, jitter and times.
+//! Values that engines set every frame: camera matrices, picture size, jitter and times.
 
 use filters::{Filter, Input};
 use frame::{Camera, CameraPose, Frame, Image};
@@ -12,7 +12,7 @@ use crate::filter_files::{FilterFiles, ready};
 
 const REVERSED: &str = "depth = \"reversed\"\nnear = 0.1";
 
-/// Makes a filter of a shader that writes the velocity which depth and the camera give, in pixels. `bindings` are those of depth, the
+/// Makes a filter from a shader that writes the velocity given by depth and the camera, in pixels. `bindings` are those of depth, the
 /// picture and the block.
 fn declare(file: &str, [depth, picture, block]: [u32; 3], convention: &str) -> FilterFiles {
     let declarations = format!(
@@ -39,7 +39,7 @@ fn run(filter: &Filter, frame: &Frame, camera: Option<Camera>) -> Result<Image, 
 #[test]
 fn depth_and_the_camera_s_matrices_give_its_velocity_in_every_language() {
     let frames = [0, 7].map(render_frame);
-    // Engines that keep rows hand over rows.
+    // Row-major engines pass rows.
     for (file, layout, bindings) in [
         ("move.comp", "", [0, 1, 2]),
         ("move.comp", "layout(row_major)", [0, 1, 2]),
@@ -70,6 +70,46 @@ fn depth_and_the_camera_s_matrices_give_its_velocity_in_every_language() {
                 assert!(worst < 0.02, "{file}, {layout}, {convention}: {worst}");
             }
         }
+    }
+}
+
+#[test]
+fn matrices_in_structs_lie_as_those_of_the_block_itself() {
+    let frame = render_frame(7);
+    let names = [
+        "inverse_projection",
+        "inverse_view",
+        "previous",
+        "resolution",
+        "jitter",
+    ];
+    let macros = names
+        .map(|name| format!("#define {name} GBuffer.{name}\n"))
+        .concat();
+    let block = format!("jitter;\n}};\ncbuffer Scene : register(b0) {{ View GBuffer; }}\n{macros}");
+    let own = [0, 1, 3, 4]
+        .map(|at| format!(", GBuffer.{0} = \"{0}\"", names[at]))
+        .concat();
+    for layout in ["", "row_major"] {
+        let files = declare("move.hlsl", [100, 200, 0], REVERSED);
+        let flat = files.text("move.hlsl").replace("LAYOUT", layout);
+        let nested = flat.replace("cbuffer Scene : register(b0)", "struct View");
+        let nested = nested.replace("jitter;\n};", &block);
+        let files = files.with("move.hlsl", flat);
+        let in_struct = (files.changed(
+            "filter.toml",
+            "padding = 0, previous",
+            "GBuffer.padding = 0, GBuffer.previous",
+        ))
+        .changed(
+            "filter.toml",
+            "view_projection\"",
+            &format!("view_projection\"{own}"),
+        )
+        .with("move.hlsl", nested);
+        let [due, found] =
+            [files, in_struct].map(|files| run(&files.load().unwrap(), &frame, frame.camera));
+        assert_eq!(due.unwrap(), found.unwrap(), "{layout}");
     }
 }
 
@@ -135,7 +175,7 @@ fn a_frame_without_its_camera_is_refused() {
         "`render`",
     ];
     assert_contains(&refusal, &parts);
-    // One that takes no matrix needs no camera.
+    // A shader without matrices needs no camera.
     let plain = "[[pass]]\nshader = \"plain.wgsl\"\nstage = \"fragment\"\n\
                  [[pass.binding]]\nbinding = 0\nvalues = { \"@0\" = \"resolution\" }\n";
     let shader = "@group(0) @binding(0) var<uniform> size: vec2<f32>;\n\

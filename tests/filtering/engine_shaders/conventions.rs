@@ -1,4 +1,4 @@
-//! Shaders that expect velocity, depth and colour as engines have them.
+//! Shaders that expect velocity, depth and colour in engines' forms.
 
 use tests::near::assert_near;
 

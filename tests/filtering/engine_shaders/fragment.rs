@@ -11,7 +11,7 @@ use crate::filter_files::{FilterFiles, ready};
 fn declare(keys: &str) -> FilterFiles {
     let own = FilterFiles::fixture("filters/fragment");
     let files = with_passes(&format!("{keys}{}", own.text("passes.toml")));
-    // Keys of the whole filter stand before its first table.
+    // Keys of the whole filter come before its first table.
     let manifest = format!("time_limit = 60\n{}", files.text("filter.toml"));
     files
         .with("filter.toml", manifest)
@@ -50,7 +50,7 @@ fn wrong_targets_are_refused() {
 
 #[test]
 fn broken_pixels_and_endless_loops_are_reported_with_their_pass() {
-    // Every pixel of an endless loop takes its 65536 turns.
+    // Every pixel of an endless loop runs its 65536 iterations.
     let picture = Picture::uniform(8, 8, white(3.0));
     let colors = [&picture.color];
     // (text of gather.frag, replacement, expected part of the message)

@@ -1,4 +1,4 @@
-//! One blur as each engine would have it: the folders that the guide and the pages of engines name.
+//! The same blur for each engine: the folders named by the guide and the engines' pages.
 
 use std::fs;
 
@@ -12,7 +12,7 @@ use super::{blur, busy_picture, largest_difference};
 
 const GUIDE: &str = include_str!("../../../docs/add-a-filter.md");
 
-/// Folders whose compiler not every machine has, with its name.
+/// Folders with a compiler that not every machine has, with its name.
 const OPTIONAL: [(&str, &str); 2] = [("bevy_wesl", "wesl"), ("slang", "slangc")];
 
 /// Returns the block of code after a sentence of the guide.
@@ -23,7 +23,7 @@ fn block(sentence: &str) -> &'static str {
     text.split_once("```").unwrap().0
 }
 
-/// Makes a picture that moves as a whole, on which the longest motion near a pixel is its own.
+/// Makes a picture that moves as a whole, so that the longest motion near a pixel is its own.
 fn uniform_motion() -> Picture {
     Picture {
         exposure: 0.7,
@@ -35,7 +35,7 @@ fn uniform_motion() -> Picture {
     }
 }
 
-/// Asserts that a filter blurs a picture as the guide's kernel does.
+/// Asserts that a filter blurs a picture like the guide's kernel.
 fn assert_blurs_as_the_guide(filter: &Filter, picture: &Picture) {
     let kernel = load_filter(
         "my_blur",

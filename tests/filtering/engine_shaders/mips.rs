@@ -111,7 +111,7 @@ fn wrong_levels_are_refused() {
         ("shader = \"show.comp\"", "entry = \"show\"\nlevel = 1", &["filter.toml:", "level is for a pass with `shader`"]),
     ]);
     drawn().assert_refused("filter.toml", &[("mips = 5\n", "", &["has no mip levels"])]);
-    // (text, replacement, words): what only the numbers of the settings tell.
+    // (text, replacement, words): only the settings' numbers reveal these.
     #[rustfmt::skip]
     let wrong = [
         ("level = \"iteration + 1\"", "level = \"iteration\"", "reads level 0 of \"pyramid\", which it writes"),

@@ -1,9 +1,10 @@
-//! Shaders of engines as they are: other languages, other bindings, other conventions.
+//! Unmodified engine shaders: other languages, other bindings, other conventions.
 
 mod camera;
 mod constants;
 mod conventions;
 mod fragment;
+mod further_inputs;
 mod guide;
 mod mips;
 mod refusals;
@@ -21,20 +22,20 @@ use tests::shared_gpu;
 use super::folders::{documented, example};
 use crate::filter_files::FilterFiles;
 
-/// Makes the documented example with these passes, of the shaders in tests/fixtures/shaders.
+/// Makes the documented example with these passes over the shaders in tests/fixtures/shaders.
 fn with_passes(passes: &str) -> FilterFiles {
     let head = example("toml").split_once("[[pass]]").unwrap().0;
     FilterFiles::fixture("shaders").with("filter.toml", format!("{head}{passes}"))
 }
 
-/// Makes a filter of these declarations and the shaders of a folder in tests/fixtures/filters.
+/// Makes a filter from these declarations and the shaders of a folder in tests/fixtures/filters.
 fn make(folder: &str, declarations: &str) -> FilterFiles {
     let head = "name = \"made\"\nsummary = \"Made for a test.\"\nalignment = \"centred\"\n";
     let files = FilterFiles::fixture(&format!("filters/{folder}"));
     files.with("filter.toml", format!("{head}{declarations}"))
 }
 
-/// Makes a picture in which two things move before a pattern, and one turns.
+/// Makes a picture with two objects that move in front of a pattern, and one that turns.
 fn busy_picture() -> Picture {
     Picture {
         exposure: 0.7,
@@ -67,7 +68,7 @@ fn blur(filter: &Filter, settings: &Settings, picture: &Picture) -> Image {
     blur.run(&input).unwrap().remove(0)
 }
 
-/// Fails unless a filter blurs the busy picture as the documented example does, with each preset.
+/// Fails unless a filter blurs the busy picture like the documented example, with each preset.
 fn assert_as_documented(filter: &Filter, tolerance: f32) {
     let (documented, picture) = (documented().load().unwrap(), busy_picture());
     for preset in ["fast", "fine"] {

@@ -1,4 +1,4 @@
-//! One blur by every route: the pictures are the same.
+//! One blur by every route, with equal pictures.
 
 use std::fs;
 use std::process::Command;
@@ -34,7 +34,7 @@ fn spir_v_blurs_as_the_glsl_that_it_was_made_from() {
     assert_as_documented(&files.load().unwrap(), ROUNDING);
 }
 
-/// The modules are what slangc 2026.14.1 makes of centre_blur.slang: with images that have no format, and fetches without a level.
+/// The modules are slangc 2026.14.1's output for centre_blur.slang: with images without a format, and fetches without a level.
 #[test]
 fn spir_v_of_slang_blurs_as_wgsl_does() {
     let mut passes = include_str!("../../fixtures/shaders/slang.toml").to_owned();

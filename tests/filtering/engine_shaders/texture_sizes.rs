@@ -56,7 +56,7 @@ fn textures_are_divided_by_what_an_engine_computes_of_the_picture() {
         let error = declare(divided_by).load().unwrap_err();
         assert_contains(&error.to_string(), parts);
     }
-    // The value shows with the picture.
+    // The picture contains the value.
     for (divided_by, found) in [
         ("\"height / 20 + 0 * unit\"", "is 2.15;"),
         ("\"floor(height / 60) * unit\"", "is 0;"),

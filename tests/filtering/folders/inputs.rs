@@ -1,4 +1,4 @@
-//! Names, settings, sizes, frames and adapters that do not fit.
+//! Unsuitable names, settings, sizes, frames and adapters.
 
 use filters::{Blur, Filter, FilterError, Gpu, Input, Value, list_adapters};
 use frame::Raster;

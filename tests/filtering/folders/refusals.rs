@@ -92,7 +92,7 @@ fn an_error_of_the_gpu_names_file_and_pass() {
         "@workgroup_size(8, 8)\nfn gather",
         "@workgroup_size(999, 999)\nfn gather",
     );
-    // How large a workgroup may be, only the adapter knows.
+    // Only the adapter knows the largest workgroup.
     let error = ready(&large.load().unwrap(), (8, 8)).unwrap_err();
     assert!(matches!(error, FilterError::Folder { .. }), "{error}");
     let parts = ["centre_blur.wgsl:33: pass \"gather\": @workgroup_size(999, 999, 1)"];

@@ -6,7 +6,7 @@ use tests::presets::{every_preset, gain, preset_name};
 use super::{HEIGHT, WIDTH, blur, blur_colors, random};
 use crate::fields::Field;
 
-/// Fails unless every preset leaves the colours of a field, but for its gain, bit for bit.
+/// Fails unless every preset leaves the colours of a field, except for its gain, unchanged bit for bit.
 fn assert_unchanged(field: &Field) {
     for (filter, settings) in every_preset() {
         let gain = gain(&filter, &settings);
@@ -26,7 +26,7 @@ fn a_still_frame_comes_out_unchanged() {
     let mut field = random(1);
     field.velocity = Raster::filled(WIDTH, HEIGHT, [0.0, 0.0]);
     field.reprojection = Some(Reprojection::STILL);
-    // A pixel that does not move has nothing to average.
+    // A still pixel has nothing to average.
     assert_unchanged(&field);
 }
 

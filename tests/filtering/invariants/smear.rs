@@ -1,4 +1,4 @@
-//! Smears beside a mover.
+//! Smears next to a mover.
 
 use filters::{Filter, Settings};
 use frame::{Alignment, FAR_DEPTH, Raster, Reprojection};
@@ -10,7 +10,7 @@ use crate::fields::Field;
 
 const EDGE: u32 = 120;
 
-/// Makes a white wall left or right of an edge that moves right, before a black sky.
+/// Makes a white wall left or right of an edge that moves right, in front of a black sky.
 fn wall(left: bool, speed: f32) -> Field {
     let (width, height) = (2 * EDGE, 31);
     let wall = |x: u32| (x < EDGE) == left;
@@ -29,7 +29,7 @@ fn wall(left: bool, speed: f32) -> Field {
     }
 }
 
-/// Measures the light that a white wall, with its edge at the left or right and moving right over black, leaves on the
+/// Measures the light of a white wall, with its edge at the left or right and moving right over black, on the
 /// black.
 fn light_beside_a_wall(filter: &Filter, settings: &Settings, left: bool) -> f64 {
     let output = blur(&wall(left, 24.0), filter, settings);
@@ -43,11 +43,11 @@ fn filters_smear_beyond_a_mover_where_they_carry_motion_and_only_there() {
         println!("{}", preset_name(&filter, &settings));
         let [ahead, behind] =
             [true, false].map(|left| light_beside_a_wall(&filter, &settings, left));
-        // The wall has not touched what lies ahead of its edge.
+        // The wall has not touched anything ahead of its edge.
         if filter.alignment == Alignment::Trailing {
             assert_eq!(ahead, 0.0);
         }
-        // An even trail of 24 pixels leaves the light of 12 behind the wall; a centred one leaves that of 3 on either
+        // An even trail of 24 pixels leaves the light of 12 behind the wall; a centred one leaves the light of 3 on either
         // side.
         match (filter.name.as_str(), settings.preset.as_str()) {
             ("jump_flood" | "jump_flood_packed", _) => assert_within(behind, 6.0..),

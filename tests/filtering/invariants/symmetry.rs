@@ -37,8 +37,8 @@ fn mirror_camera(field: &Field, axis: usize) -> Option<Reprojection> {
     Some(Reprojection { rows })
 }
 
-/// Counts pixels that differ by more than 1e-3 of the brightest tap. That is many times the rounding of positions (1e-5
-/// pixels) times the contrast of neighbours, and far below the weight of one tap of twenty.
+/// Counts pixels that differ by more than 1e-3 of the brightest tap. That is many times the rounding of positions (1e-5 pixels)
+/// times the contrast of neighbours, and far below the weight of one tap of twenty.
 fn asymmetric_pixels(field: &Field, filter: &Filter, settings: &Settings) -> usize {
     let output = blur(field, filter, settings);
     let count = [true, false].map(|horizontal| {

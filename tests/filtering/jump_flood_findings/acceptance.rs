@@ -1,9 +1,9 @@
-//! The candidate that the published comparison keeps, which looks as if distances along the path mattered. That the kernel keeps the
-//! same one, `jump_flood_reference` shows.
+//! The candidate that the published comparison keeps; it looks as if distances along the path mattered. `jump_flood_reference` shows
+//! that the kernel keeps the same one.
 
 use tests::random::Random;
 
-/// Candidate of the paper's listing.
+/// Candidate in the paper's listing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Candidate {
     /// Distance along the path: |tau - m/2|.
@@ -13,14 +13,14 @@ struct Candidate {
     valid: bool,
 }
 
-/// Candidate that the listing begins with.
+/// The listing's first candidate.
 const NOTHING: Candidate = Candidate {
     from_middle: f32::MAX as f64,
     depth: f32::MAX as f64,
     valid: false,
 };
 
-/// Compares as the listing does: two valid candidates by depth, others by distances times validity.
+/// Compares like the listing: two valid candidates by depth, others by distances times validity.
 fn is_better(candidate: Candidate, best: Candidate) -> bool {
     let number = |truth: bool| if truth { 1.0 } else { 0.0 };
     if candidate.valid && best.valid {
@@ -30,7 +30,7 @@ fn is_better(candidate: Candidate, best: Candidate) -> bool {
     candidate.from_middle * number(best.valid) * nearer < best.from_middle * number(candidate.valid)
 }
 
-/// Returns the index that the listing ends with, if any.
+/// Returns the listing's final index, if any.
 fn choose_as_published(candidates: &[Candidate]) -> Option<usize> {
     let mut best = (NOTHING, None);
     for (index, candidate) in candidates.iter().enumerate() {

@@ -6,15 +6,15 @@ use tests::picture::{BLACK_WALL, Picture, Surface, column, white};
 /// Source of the trail.
 const BACKGROUND: Surface = BLACK_WALL.moving(21.0, 0.0);
 
-/// Returns the weight of the one tap of eight that meets something white in front. It moves right by `other`, and the
-/// trail's source by 21 pixels.
+/// Returns the weight of the one tap of eight that reaches a white surface in front. It moves right by `other`, and the trail's source
+/// by 21 pixels.
 fn weight_in_front(preset: &str, other: f32) -> f64 {
     let picture = Picture::halves(160, 24, BACKGROUND, white(other));
-    // One step of 64 pixels carries nothing, so every pixel is its own source. Taps lie 3 pixels apart, on pixel
+    // One step of 64 pixels carries nothing, so every pixel is its own source. Taps are 3 pixels apart, on pixel
     // centres.
     let overrides = "jitter=none passes=1 step_multiplier=64";
     let output = picture.blur("jump_flood", preset, overrides);
-    // Only the seventh tap lies beyond. All others weigh 1, so it gets w / (7 + w).
+    // Only the seventh tap is beyond. All others weigh 1, so it gets w / (7 + w).
     let share = f64::from(output.at(80 - 21, 12)[0]);
     7.0 * share / (1.0 - share)
 }
@@ -55,7 +55,7 @@ fn a_faster_surface_in_the_same_direction_counts_fully() {
 
 #[test]
 fn a_still_surface_in_front_neither_blurs_nor_is_smeared() {
-    // Taps 3 pixels apart lie on pixel centres; between them, half a pixel at the post's edge would mix.
+    // Taps 3 pixels apart are on pixel centres; between them, half a pixel at the post's edge would mix.
     let light = |depth: f32| {
         let picture = Picture::new(200, 24, |x, _| match x {
             90..110 => white(0.0).at(depth),
@@ -65,7 +65,7 @@ fn a_still_surface_in_front_neither_blurs_nor_is_smeared() {
         let post = (90..110).map(|x| column(&output, x));
         [column(&output, 80), post.fold(1.0, f64::min)]
     };
-    // Its own pixels find no source, and taps that meet it do not count.
+    // Its own pixels find no source, and taps that reach it do not count.
     assert_eq!(light(2.0), [0.0, 1.0]);
     // Behind the background it counts in full, and the background smears over it.
     let [background, darkest] = light(30.0);

@@ -1,4 +1,4 @@
-//! Claims that the paper and the demo of the jump flood suggest, each shown to be true or false.
+//! Claims suggested by the paper and the demo of the jump flood, each shown to be true or false.
 //!
 //! shaders/jump_flood/README.md lists the outcomes.
 

@@ -11,7 +11,7 @@ const SPEED: f64 = 21.0;
 const AHEAD: f64 = 0.25;
 const BEHIND: f64 = 0.75;
 
-/// Makes a white bar that moves right in front of something still, which is darker ahead of the bar than behind.
+/// Makes a white bar that moves right in front of a still background, which is darker ahead of the bar than behind.
 fn bar() -> Picture {
     Picture::new(240, 24, |x, _| match x {
         0..MOVER_START => BLACK_WALL.gray(BEHIND as f32),
@@ -22,7 +22,7 @@ fn bar() -> Picture {
 
 /// Returns the part of a column that shows the mover; the rest shows the background ahead.
 fn share(x: u32) -> f64 {
-    // Taps 3 pixels apart lie on pixel centres.
+    // Taps 3 pixels apart are on pixel centres.
     let output = bar().blur("jump_flood", "paper", "jitter=none");
     (column(&output, x) - AHEAD) / (1.0 - AHEAD)
 }
@@ -43,7 +43,7 @@ fn the_leading_edge_fades_and_does_not_stay_hard() {
 #[test]
 fn the_leading_part_takes_its_background_from_ahead() {
     let output = bar().blur("jump_flood", "paper", "jitter=none");
-    // Seven of eight taps lie beyond the edge; 32-bit floats.
+    // Seven of eight taps are beyond the edge; 32-bit floats.
     let expected = (1.0 + 7.0 * AHEAD) / 8.0;
     assert_near(column(&output, MOVER_END - 1), expected, 1e-5);
 }

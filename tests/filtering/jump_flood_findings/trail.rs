@@ -4,7 +4,7 @@ use frame::Raster;
 use tests::near::assert_near;
 use tests::picture::{Picture, column, moving_edge, white};
 
-/// Measures how far ahead the mean of each pixel's taps lies, in pixels, away from the border. Returns them sorted.
+/// Measures how far ahead the mean of each pixel's taps is, in pixels, away from the border. Returns sorted distances.
 fn displacements(preset: &str, jitter: &str, speed: f32) -> Vec<f32> {
     // A pixel's brightness is its column.
     let slope = Picture::new(200, 32, |x, _| white(speed).gray(x as f32));
@@ -18,7 +18,7 @@ fn displacements(preset: &str, jitter: &str, speed: f32) -> Vec<f32> {
 #[test]
 fn noise_scales_whole_trails_evenly_by_a_half_to_one_and_a_half() {
     let found = displacements("paper", "step_scale", 20.0);
-    // The mean of a trail of 20 pixels lies 10 ahead.
+    // The mean of a trail of 20 pixels is 10 ahead.
     for part in [0.0, 0.25, 0.5, 0.75, 1.0] {
         let index = (part * (found.len() - 1) as f64) as usize;
         // Noise of 3840 pixels, which is more even than random numbers: 0.024 would be 3 sigma of those.
@@ -34,8 +34,7 @@ fn behind_an_edge(preset: &str, distance: u32) -> f64 {
 
 #[test]
 fn the_mean_trail_ends_in_a_ramp_and_not_in_a_step() {
-    // Eight taps lie at i / 7 of the trail. Those with i = 5, 6 and 7 exceed its whole length where the scale is above
-    // 1.4, 7/6 and 1.
+    // Eight taps are at i / 7 of the trail. Taps 5, 6 and 7 exceed its whole length if the scale is above 1.4, 7/6 and 1.
     let expected = (0.1 + 1.0 / 3.0 + 0.5) / 8.0;
     // Noise of 64 rows; half a pixel of the edge.
     assert_near(behind_an_edge("paper", 24), expected, 0.03);
@@ -78,7 +77,7 @@ fn reach(preset: &str, vertical: bool, speed: f32, exposure: f64) -> u32 {
 #[test]
 fn trails_are_cut_at_32_pixels_and_two_days_later_at_64_at_any_speed() {
     for speed in [70.0, 100.0, 150.0] {
-        // The last tap lies on the cut.
+        // The last tap is on the cut.
         assert_eq!(reach("paper", false, speed, 1.0), 32, "{speed}");
         assert_eq!(reach("july_2024", false, speed, 1.0), 64, "{speed}");
         assert!(reach("corrected", false, speed, 1.0) > 64, "{speed}");

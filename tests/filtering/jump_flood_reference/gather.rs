@@ -14,8 +14,8 @@ struct Share {
 }
 
 impl Reference<'_> {
-    /// Blurs one pixel with a given map of sources, in pixels. Returns the colour and its error from 32-bit noise; none
-    /// where a tap lies too near an edge to tell its texel.
+    /// Blurs one pixel with a given map of sources, in pixels. Returns the colour and its error from 32-bit noise; none if a tap is too
+    /// near an edge to determine its texel.
     pub fn blur(
         &self,
         pixel: [i64; 2],
@@ -110,7 +110,7 @@ impl Reference<'_> {
         }
     }
 
-    /// Computes w = 1 - fg * D^0.1; none where the root would amplify rounding noise in D and the weight matters.
+    /// Computes w = 1 - fg * D^0.1; none if the root would amplify rounding noise in D and the weight matters.
     fn weight(&self, own: Vec2, other: Vec2) -> Option<f64> {
         let v = self.to_path_space(self.velocity(own));
         let w = self.to_path_space(self.velocity(other));

@@ -29,7 +29,7 @@ const CASES: [Case; 12] = [
     ("jump_flood", "corrected", "fetch=bilinear jitter=none probes=5", 0.5),
 ];
 
-/// A run, its reference, and the map of sources that the reference dilates.
+/// A run, its reference, and the reference's dilated map of sources.
 struct Flood {
     run: &'static Run,
     reference: Reference<'static>,
@@ -103,9 +103,8 @@ fn the_dilation_agrees_with_a_64_bit_reference() {
             ties += usize::from(outcomes.len() > 1);
             found += usize::from(chosen.valid && chosen.pixel != pixel);
         }
-        // A decision is a tie within 4e-6 of its threshold. A pixel takes up to 9 x 3 decisions in each of up to 8
-        // passes: one pixel in a thousand has a tie, and most ties do not change the winner. The factor of two is for
-        // chance.
+        // A decision is a tie within 4e-6 of its threshold. A pixel makes up to 9 x 3 decisions in each of up to 8 passes: one pixel in a
+        // thousand has a tie, and most ties do not change the winner. The factor of two is for chance.
         let count = seeds.len();
         assert!(500 * ties <= count, "{}: {ties} ties of {count}", run.name);
         all += count;
@@ -162,8 +161,8 @@ fn the_gather_weights_taps_like_the_reference() {
         let mut compared = 0;
         for pixel in run.pixels() {
             if let Some((expected, misplaced)) = reference.blur(pixel, &source) {
-                // Colours lie in [0, 2) and change by 2 per pixel at most on both axes. A weight is off by 1e-4 where
-                // its tenth root is steepest.
+                // Colours are in [0, 2) and change by 2 per pixel at most on both axes. A weight is off by 1e-4 where its tenth root is
+                // steepest.
                 run.assert_color(pixel, expected, 1e-3 + 4.0 * misplaced);
                 compared += 1;
             }

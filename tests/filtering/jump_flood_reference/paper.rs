@@ -1,8 +1,7 @@
-//! Golan 2024 in 64-bit floats, from its description: UV coordinates, the velocity V that leads back to the previous
-//! frame, reverse depth. The code is plain loops and shares nothing with the kernels.
+//! Golan 2024 in 64-bit floats, from its description: UV coordinates, the velocity V that points to the previous frame, reverse
+//! depth. The code is plain loops and shares nothing with the kernels.
 //!
-//! Where a decision depends on less than 32-bit floats resolve, every result is kept: a pixel holds all sources that a
-//! correct run may choose.
+//! If a decision is too close for 32-bit floats, every result is kept: a pixel has all sources that a correct run may choose.
 
 use tests::vector::{Vec2, dot};
 
@@ -28,11 +27,11 @@ pub struct Paper {
     /// Factor on the paper's cut of trails in the gather; infinite for no cut, on the way back too.
     pub reach_factor: f64,
     pub jitter: Jitter,
-    /// Difference of reverse depth, in the demo of two days later, over which a pixel turns from level with its source
-    /// to behind it. None where taps are weighted.
+    /// Difference of reverse depth, in the demo of two days later, over which a pixel changes from level with its source to behind it.
+    /// None if taps are weighted.
     pub behind_extent: Option<f64>,
-    /// Difference of reverse depth, two days later, below which a probe matches; three matches end the way back. None
-    /// where the first match of velocities ends it.
+    /// Difference of reverse depth, two days later, below which a probe matches; three matches end the way back. None if the first
+    /// match of velocities ends it.
     pub third_match: Option<f64>,
     /// True if the map has 16 bits, as two days later.
     pub half_map: bool,
@@ -61,7 +60,7 @@ pub enum Answer {
     Either,
 }
 
-/// Returns whether `value <= limit`, or none where they are nearer than `margin`.
+/// Returns whether `value <= limit`, or none if they are closer than `margin`.
 pub fn at_most(value: f64, limit: f64, margin: f64) -> Answer {
     if (value - limit).abs() <= margin {
         Answer::Either
@@ -100,7 +99,7 @@ impl<'f> Reference<'f> {
         (0..2).all(|axis| (0..self.size[axis]).contains(&pixel[axis]))
     }
 
-    /// Samples as a linear, clamp-to-edge sampler does, or reads the nearest texel.
+    /// Samples like a linear, clamp-to-edge sampler, or reads the nearest texel.
     pub fn sample(&self, uv: Vec2, nearest: bool, texel: impl Fn(i64, i64) -> f64) -> f64 {
         let place = self.pixels(uv);
         match nearest {
@@ -109,7 +108,7 @@ impl<'f> Reference<'f> {
         }
     }
 
-    /// Returns V: the vector from here to where the surface was one frame before, in UV.
+    /// Returns V: the vector from here to the surface's position in the previous frame, in UV.
     pub fn velocity(&self, uv: Vec2) -> Vec2 {
         [0, 1].map(|axis| {
             let motion = self.sample(uv, self.paper.nearest, |x, y| {
@@ -135,7 +134,7 @@ impl<'f> Reference<'f> {
         }
     }
 
-    /// Rounds a UV as the map does: 11 binary digits, towards zero.
+    /// Rounds a UV like the map: 11 binary digits, towards zero.
     pub fn round_as_stored(&self, uv: Vec2) -> Vec2 {
         match self.paper.half_map {
             true => uv.map(|c| f64::from_bits(c.to_bits() & !((1 << 42) - 1))),

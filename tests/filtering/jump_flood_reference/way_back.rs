@@ -5,7 +5,7 @@ use tests::vector::{Vec2, cross, dot, minus};
 use super::flood::Chosen;
 use super::paper::{Answer, POSITION, ROUNDING, Reference, at_most, both};
 
-/// Position that a pixel's velocity comes from after the way back, in pixels, and the paper's flag.
+/// Source position of a pixel's velocity after the way back, in pixels, and the paper's flag.
 #[derive(Clone, Copy, Debug)]
 pub struct Source {
     pub position: Vec2,
@@ -24,8 +24,7 @@ struct Row {
 }
 
 impl Reference<'_> {
-    /// Applies rejection and the way back to a pixel whose dilated source is certain. Returns every result that a
-    /// correct run may store.
+    /// Applies rejection and the way back to a pixel with a certain dilated source. Returns every result that a correct run may store.
     pub fn backtrack(&self, pixel: [i64; 2], chosen: Chosen) -> Vec<Source> {
         let p = self.uv(pixel);
         let own = |flag| Source {
@@ -99,7 +98,7 @@ impl Reference<'_> {
         outcomes
     }
 
-    /// Returns what the map may hold for a UV that 32-bit floats round to either side.
+    /// Returns the possible map values for a UV that 32-bit floats round to either side.
     fn ends(&self, uv: Vec2) -> Vec<Source> {
         let mut sources: Vec<Source> = Vec::new();
         for (right, down) in [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)] {
@@ -143,7 +142,7 @@ impl Reference<'_> {
             let [width, height] = self.size.map(|side| side as f64);
             let q = [q[0] + dx * POSITION / width, q[1] + dy * POSITION / height];
             let difference = self.difference(v, self.velocity(q));
-            // The difference is a sum of ratios, each of which may be far above 1 before the clamp.
+            // The difference is a sum of ratios, and each may be far above 1 before the clamp.
             let alike = at_most(
                 difference,
                 self.paper.match_threshold,

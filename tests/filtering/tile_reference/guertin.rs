@@ -99,7 +99,7 @@ fn asked_tile(run: &Run, pixel: [i64; 2]) -> Option<[i64; 2]> {
     Some([0, 1].map(|axis| across[axis].clamp(0, tiles.count()[axis] - 1)))
 }
 
-/// Returns whether tap i follows the pixel's own motion; none where rounding decides.
+/// Returns whether tap i follows the pixel's own motion; none if rounding decides.
 fn is_own(run: &Run, i: i64, variance: f64) -> Option<bool> {
     if run.choice("split") == "alternate" {
         return Some(i % 2 == 1);
@@ -126,7 +126,7 @@ fn center_direction(largest: Vec2, own: Vec2, gamma: f64) -> Vec2 {
     direction([0, 1].map(|axis| across[axis] + trust * (own[axis] - across[axis])))
 }
 
-/// Truncates towards zero; none where `margin` decides.
+/// Truncates towards zero; none if `margin` decides.
 fn truncate_clearly(offset: Vec2, margin: f64) -> Option<[i64; 2]> {
     let clear = offset
         .iter()

@@ -51,7 +51,7 @@ pub fn reconstruct(run: &Run, pixel: [i64; 2]) -> Option<([f64; 3], f64)> {
     Some((sum.map(|component| component / weight), 0.0))
 }
 
-/// Rounds to the nearest whole pixel; none where `margin` decides.
+/// Rounds to the nearest whole pixel; none if `margin` decides.
 fn round_clearly(offset: Vec2, margin: f64) -> Option<[i64; 2]> {
     let clear = offset
         .iter()

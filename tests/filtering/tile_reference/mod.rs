@@ -1,4 +1,4 @@
-//! Tile filters on the GPU against their papers in 64-bit floats. Each pass gets the output of the pass before.
+//! Tile filters on the GPU against their papers in 64-bit floats. Each pass gets the previous pass's output.
 
 mod guertin;
 mod mcguire;
@@ -38,7 +38,7 @@ const ROUNDING: f64 = 16.0 * 6e-8;
 /// Error of the gradient noise in 32-bit floats: 53 times the rounding of a number up to 64, twice.
 const NOISE: f64 = 4e-4;
 
-/// Reference for a pixel: its colour and the error that 32-bit noise may cause; none where rounding decides which texel is read.
+/// Reference for a pixel: its colour and the error that 32-bit noise may cause; none if rounding decides which texel is read.
 type Reference = fn(&Run, [i64; 2]) -> Option<([f64; 3], f64)>;
 
 /// Returns the half-velocity that the first pass wrote, in pixels.
@@ -106,7 +106,7 @@ fn full_and_partial_tiles_hold_their_longest_half_velocity() {
                 lengths().fold(0.0, f64::max),
             );
             let found = vector(held, tile);
-            // Motion that is cut has one length, so a correct run may choose any of the longest.
+            // Cut motion has one length, so a correct run may choose any of the longest.
             assert!(
                 motion.contains(&found) && length(found) >= longest * (1.0 - ROUNDING),
                 "{}: tile {tile:?} holds {found:?}; its longest has {longest} pixels",
@@ -192,8 +192,8 @@ fn expect_pictures(filter: &str, reference: Reference) {
             let Some((expected, error)) = reference(run, pixel) else {
                 continue;
             };
-            // Colours lie in [0, 2). A weight is off by 1e-4 at most, where a depth of 20 m in 32-bit floats is divided
-            // by an extent of 0.1 m.
+            // Colours are in [0, 2). A weight is off by 1e-4 at most, where a depth of 20 m in 32-bit floats is divided by an extent of 0.1
+            // m.
             run.assert_color(pixel, expected, 1e-3 + error);
             compared += 1;
             match expected == color(run, pixel) {
@@ -201,8 +201,8 @@ fn expect_pictures(filter: &str, reference: Reference) {
                 false => blurred += 1,
             }
         }
-        // Up to 35 taps, each with a chance of 2 x 1.5e-3 per axis to be undecided. A sixth of the pixels may lie as
-        // near to one border of a small tile as to another.
+        // Up to 35 taps, each with a chance of 2 x 1.5e-3 per axis to be undecided. A sixth of the pixels may be as near to one border of a
+        // small tile as to another.
         let count = run.output.pixels.len();
         let name = &run.name;
         assert!(2 * compared > count, "{name}: {compared} of {count}");

@@ -1,4 +1,4 @@
-//! Claims about the published repository behind the preset `motion_blur_demo`, each shown to be true or false.
+//! Claims about the published repository of the preset `motion_blur_demo`, each shown to be true or false.
 //!
 //! shaders/mcguire/README.md lists the outcomes.
 
@@ -8,9 +8,9 @@ use tests::picture::{BLACK_WALL, Picture, white};
 
 const WIDTH: u32 = 97;
 const HEIGHT: u32 = 31;
-/// Speed in pixels per frame: 8 of half-velocity, so that 15 unshifted taps lie on the whole pixels from -7 to 7.
+/// Speed in pixels per frame: 8 of half-velocity, so that 15 unshifted taps are on the whole pixels from -7 to 7.
 const SPEED: f32 = 16.0;
-/// Column at which things begin or end, in the middle of the image.
+/// Column where objects begin or end, in the middle of the image.
 const EDGE: u32 = 48;
 
 /// Makes a picture in which everything moves right alike, at one depth.
@@ -18,7 +18,7 @@ fn steady(gray: impl Fn(u32) -> f32) -> Picture {
     Picture::new(WIDTH, HEIGHT, |x, _| white(SPEED).at(5.0).gray(gray(x)))
 }
 
-/// Makes a white surface left of the edge that moves right, beside a black one that stands still.
+/// Makes a white surface left of the edge that moves right, next to a still black one.
 fn mover_beside_still(mover_depth: f32, still_depth: f32) -> Picture {
     let [mover, still] = [white(SPEED).at(mover_depth), BLACK_WALL.at(still_depth)];
     Picture::halves(WIDTH, HEIGHT, mover, still)
@@ -28,7 +28,7 @@ fn motion_blur_demo(picture: &Picture, changes: &str) -> Image {
     picture.blur("mcguire", "motion_blur_demo", changes)
 }
 
-/// Returns the part that a pixel takes of the tap -7 to 7 pixels from it.
+/// Returns the weight of the tap -7 to 7 pixels from a pixel.
 fn tap_weights(changes: &str) -> impl Fn(i64) -> f32 {
     let output = motion_blur_demo(&steady(|x| if x == EDGE { 1.0 } else { 0.0 }), changes);
     move |offset| output.at((i64::from(EDGE) - offset) as u32, HEIGHT / 2)[0]
@@ -51,8 +51,8 @@ fn the_filter_averages_moving_taps_and_not_every_tap() {
     let changes: &str = "jitter=none center_tap=skipped";
     let output = motion_blur_demo(&mover_beside_still(5.0, 5.0), changes);
     for (beside, movers) in [(0, 7.0), (3, 4.0), (6, 1.0)] {
-        // Each mover within reach weighs a cone of 0.99 to 1, near or far. Still taps weigh nothing on a still pixel,
-        // whose own weight is 1 / 0.5.
+        // Each mover within reach weighs a cone of 0.99 to 1, near or far. Still taps weigh nothing on a still pixel, and its own weight is
+        // 1 / 0.5.
         let found = output.at(EDGE + beside, HEIGHT / 2)[0];
         assert_near(found, movers / (movers + 2.0), 0.005);
     }

@@ -1,4 +1,4 @@
-//! Half-velocities, tiles and neighbourhoods in 64-bit floats, as plain loops that share nothing with the kernels.
+//! Half-velocities, tiles and neighbourhoods in 64-bit floats, in plain loops that share nothing with the kernels.
 
 use frame::Raster;
 use tests::vector::{Vec2, direction, dot, length, scaled};
@@ -13,7 +13,7 @@ pub fn vector(raster: &Raster<[f32; 4]>, pixel: [i64; 2]) -> Vec2 {
     [horizontal, vertical]
 }
 
-/// Tiles of `side` pixels over an image, and the half-velocity that each holds.
+/// Tiles of `side` pixels over an image, with each one's half-velocity.
 pub struct Tiles<'r> {
     pub side: i64,
     pub image: [i64; 2],
@@ -42,7 +42,7 @@ impl Tiles<'_> {
         pixel.map(|coordinate| coordinate / self.side)
     }
 
-    /// Returns a tile and the up to eight around it: their offsets and half-velocities.
+    /// Returns a tile and its up to eight neighbours: their offsets and half-velocities.
     pub fn around(&self, tile: [i64; 2]) -> impl Iterator<Item = ([i64; 2], Vec2)> {
         let offsets = (-1..=1).flat_map(|y| (-1..=1).map(move |x| [x, y]));
         offsets.filter_map(move |offset| {
@@ -52,7 +52,7 @@ impl Tiles<'_> {
         })
     }
 
-    /// Computes 1 - the mean |cosine| between a tile's half-velocity and those of the moving tiles around it.
+    /// Computes 1 - the mean |cosine| between a tile's half-velocity and its moving neighbours'.
     pub fn variance(&self, tile: [i64; 2]) -> f64 {
         let own = direction(vector(self.vectors, tile), [0.0; 2]);
         let cosines: Vec<f64> = self

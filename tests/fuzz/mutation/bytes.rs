@@ -1,4 +1,4 @@
-//! Changes of bytes, whatever they mean.
+//! Changes of bytes, whatever their meaning.
 
 use fastrand::Rng;
 
@@ -30,7 +30,7 @@ const LIMITS: [u8; 10] = [0, 1, 9, 10, 13, 27, 34, 127, 128, 255];
 pub fn edit(bytes: &mut Vec<u8>, random: &mut Rng) {
     let kind = random.u8(..4);
     let end = match kind == 2 && random.bool() {
-        // Lengths lie in headers.
+        // Lengths are in headers.
         true => bytes.len().min(64),
         false => bytes.len(),
     };

@@ -46,12 +46,12 @@ pub fn change(input: &mut Vec<u8>, place: &Place, random: &mut Rng) {
     }
 }
 
-/// Makes a text that the format can hold.
+/// Makes a text that the format allows.
 fn make_plain_text(random: &mut Rng) -> String {
     make_text(random).replace(|c: char| !c.is_ascii() || c == '\0', "")
 }
 
-/// Changes some samples of a channel, or its kind.
+/// Changes some samples of a channel, or its type.
 fn change_samples(samples: &mut Samples, random: &mut Rng) {
     let number = pick_number(random);
     let mut count = |length| magnitude(length, random);

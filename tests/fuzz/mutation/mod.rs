@@ -13,10 +13,10 @@ use crate::dictionary::words;
 use crate::place::Place;
 use crate::target::{Shape, Target};
 
-/// Longest input that is made.
+/// Longest generated input.
 const MAX_LENGTH: usize = 400_000;
 
-/// Material that changes are made with.
+/// Material for changes.
 pub struct Source<'a> {
     /// Words of the target.
     words: &'static [String],

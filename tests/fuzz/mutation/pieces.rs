@@ -4,17 +4,17 @@ use fastrand::Rng;
 
 use super::{Source, magnitude};
 
-/// How inputs of one format are cut, changed and put together.
+/// How inputs of one format are cut, changed and joined.
 pub struct Format {
     /// Bytes before the first piece.
     pub header: usize,
-    /// Cuts what follows the header.
+    /// Cuts the rest after the header.
     pub cut: fn(&[u8], &mut Rng) -> Vec<Vec<u8>>,
     /// Appends a piece, with its length and checksum.
     pub write: fn(&mut Vec<u8>, &[u8]),
-    /// Changes the content of one of the pieces, of which there is at least one.
+    /// Changes the content of one of the pieces; there is at least one.
     pub edit: fn(&mut Vec<Vec<u8>>, &Source, &mut Rng),
-    /// Of eight changes so many add, remove or move pieces; the others edit one.
+    /// Number of changes in eight that add, remove or move pieces; the others edit one.
     pub moves: u8,
 }
 
@@ -58,7 +58,7 @@ fn change_list(pieces: &mut Vec<Vec<u8>>, others: &[Vec<u8>], random: &mut Rng) 
         4 if !others.is_empty() => pieces.insert(to, others[random.usize(..others.len())].clone()),
         _ => {
             pieces.truncate(at);
-            // Half of the inputs go on as another does.
+            // Half of the inputs continue like another.
             if random.bool() {
                 let from = random.usize(..=others.len());
                 pieces.extend_from_slice(&others[from..]);

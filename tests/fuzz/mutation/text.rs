@@ -42,7 +42,7 @@ pub static WORDS: Format = Format {
     moves: 1,
 };
 
-/// Pairs of brackets that can be nested: what opens them, and what closes them.
+/// Pairs of nestable brackets: opening and closing text.
 const BRACKETS: [[&str; 2]; 7] = [
     ["[", "]"],
     ["{", "}"],
@@ -78,7 +78,7 @@ fn cut_words(mut rest: &[u8], has_texts: bool) -> Vec<Vec<u8>> {
     words
 }
 
-/// Changes a number, a text, a word or a bracket: each kind has its share, however many there are.
+/// Changes a number, a text, a word or a bracket: each kind has a fixed share, whatever its count.
 fn edit_words(pieces: &mut Vec<Vec<u8>>, source: &Source, random: &mut Rng) {
     let kind = random.u8(..16);
     let suits = |word: &[u8]| match (kind, word.first()) {

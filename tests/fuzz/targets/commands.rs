@@ -1,4 +1,4 @@
-//! Files that commands of the program read, as `commands.toml` says.
+//! Files read by commands of the program, from `commands.toml`.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -9,7 +9,7 @@ use serde::Deserialize;
 use super::program::run_line;
 use crate::place::Place;
 
-/// A file that an input takes the place of, and the commands that read it.
+/// A file that an input replaces, and the commands that read it.
 #[derive(Deserialize)]
 struct Reading {
     file: String,
@@ -20,7 +20,7 @@ static READINGS: LazyLock<BTreeMap<String, Vec<Reading>>> = LazyLock::new(|| {
     toml::from_str(include_str!("../commands.toml")).expect("a table of commands")
 });
 
-/// Returns the files of the fixture that inputs take the place of.
+/// Returns the files of the fixture that inputs replace.
 pub fn replaced(place: &Place) -> Vec<Vec<u8>> {
     let files = READINGS[place.target].iter().map(|reading| &reading.file);
     let contents = files.map(|file| fs::read(place.fixture.join(file)));

@@ -1,4 +1,4 @@
-//! Captures of an engine: their description, and what `ingest` leaves for a run.
+//! Captures of an engine: their description, and the result of `ingest` for a run.
 
 use std::fs;
 use std::path::{Component, Path};
@@ -9,7 +9,7 @@ use suite::{EngineScene, INGESTED_FILE};
 
 use crate::place::Place;
 
-/// Reads a capture.toml beside pictures of 16 x 16 pixels.
+/// Reads a capture.toml with pictures of 16 x 16 pixels.
 pub fn capture(place: &mut Place, input: &[u8]) -> Option<()> {
     let folder = place.copy("capture");
     place.write("capture/capture.toml", input);
@@ -27,7 +27,7 @@ pub fn capture(place: &mut Place, input: &[u8]) -> Option<()> {
     fs::remove_dir_all(out).ok()
 }
 
-/// Reads an ingested.json, whoever wrote it.
+/// Reads an ingested.json by any author.
 pub fn ingested(place: &mut Place, input: &[u8]) -> Option<()> {
     place.write(&format!("scene/{INGESTED_FILE}"), input);
     let scene = EngineScene::read(&place.folder.join("scene")).ok()?;
@@ -35,7 +35,7 @@ pub fn ingested(place: &mut Place, input: &[u8]) -> Option<()> {
     Some(())
 }
 
-/// Panics if a run would write elsewhere than into one folder of a scene, and in it one of the engine.
+/// Panics if a run would write anywhere except one folder of a scene, and in it one of the engine.
 fn check_names(scene: &EngineScene) {
     for name in [&*scene.id.to_string(), scene.filter_name()] {
         let parts: Vec<Component> = Path::new(name).components().collect();

@@ -8,7 +8,7 @@ use filters::Filter;
 use crate::place::{CANARY, Place};
 use crate::seeds::shipped;
 
-/// Loads a filter.toml beside the kernels of all built-in filters.
+/// Loads a filter.toml together with the kernels of all built-in filters.
 pub fn manifest(place: &mut Place, input: &[u8]) -> Option<()> {
     let folder = place.folder.join("filter");
     if !folder.exists() {
@@ -43,12 +43,12 @@ pub fn spirv(place: &mut Place, input: &[u8]) -> Option<()> {
     Filter::load(&vertex).ok().map(drop)
 }
 
-/// Loads GLSL that includes files; a file outside of the filter's folder is never read. A line `//// NAME` begins another one
+/// Loads GLSL with includes; a file outside the filter's folder is never read. A line `//// NAME` begins another one
 /// of its files.
 pub fn includes(place: &mut Place, input: &[u8]) -> Option<()> {
     const FILES: [&str; 3] = ["top.h", "p/near.h", "p/q/deep.h"];
     let folder = place.copy("includes");
-    // Compilers work on copies, from where a path that begins at the root leads there.
+    // Compilers work on copies, where a path that begins at the root leads there.
     let outside = format!("{}{}", "../".repeat(12), place.canary().display());
     let text = String::from_utf8_lossy(input).replace("@canary@", &outside);
     let mut parts = text.split("//// ");
@@ -62,7 +62,7 @@ pub fn includes(place: &mut Place, input: &[u8]) -> Option<()> {
         }
     }
     let said = Filter::load(&folder).err()?.to_string();
-    // A compiler quotes the word that it stumbles over.
+    // A compiler quotes the word where it fails.
     for word in CANARY.split(' ') {
         let quoted = format!("'{word}'");
         let is_said = said.contains(&quoted) || (word.len() > 5 && said.contains(word));
@@ -79,7 +79,7 @@ pub fn kernels(_: &Place) -> Vec<Vec<u8>> {
 
 const MARK: &str = "// filter: ";
 
-/// Makes a filter folder of kernels, with the manifest of the filter that their first line names, or the identity's.
+/// Makes a filter folder from kernels, with the manifest of the filter named in their first line, or the identity's.
 pub fn write(place: &Place, input: &[u8]) -> PathBuf {
     let text = String::from_utf8_lossy(input);
     let line = text.split('\n').next().unwrap_or_default();
@@ -93,7 +93,7 @@ pub fn write(place: &Place, input: &[u8]) -> PathBuf {
     place.folder.join(name)
 }
 
-/// Reads the only file of a built-in filter whose name ends this way.
+/// Reads the only file of a built-in filter with this ending.
 fn only_file(name: &str, end: &str) -> String {
     let mut found = shipped(&format!("shaders/{name}"), end);
     assert_eq!(found.len(), 1, "shaders/{name} has one {end}");

@@ -1,4 +1,4 @@
-//! Packs of truths: archives that come from other people.
+//! Packs of truths: archives from other people.
 
 use std::fs;
 use std::path::Path;
@@ -8,15 +8,15 @@ use store::Pack;
 
 use crate::place::Place;
 
-/// What the files of a pack hold. No pack is read as pictures here.
+/// Contents of a pack's files. No pack is read as pictures here.
 const CONTENTS: [&[u8]; 3] = [b"a frame", b"a truth", b"a replicate"];
 
-/// Unpacks an archive with this manifest, whose files have the names that it gives them, whatever these are.
+/// Unpacks an archive with this manifest and files with the names in it, whatever these are.
 pub fn manifest(place: &mut Place, input: &[u8]) -> Option<()> {
     unpack(place, &pack_up(input))
 }
 
-/// Compresses an archive, reads it, and unpacks it as a run does. Panics if anything lies outside of the folder then.
+/// Compresses an archive, reads it, and unpacks it like a run. Panics if that writes anything outside the folder.
 pub fn unpack(place: &mut Place, archive: &[u8]) -> Option<()> {
     let path = place.write("pack.tar.zst", zstd::encode_all(archive, 1).unwrap());
     let folder = place.folder.join("out");
@@ -54,7 +54,7 @@ fn pack_up(manifest: &[u8]) -> Vec<u8> {
     archive.into_inner().unwrap()
 }
 
-/// Adds a file under a name that may be forbidden; longer names are cut off.
+/// Adds a file under a name that may be forbidden; cuts off longer names.
 fn add(archive: &mut tar::Builder<Vec<u8>>, name: &str, content: &[u8]) {
     let mut header = tar::Header::new_ustar();
     let field = &mut header.as_ustar_mut().unwrap().name;

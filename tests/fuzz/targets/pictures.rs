@@ -1,4 +1,4 @@
-//! Pictures that the program rendered and reads again: frames, truths, replicates, ladders, blurs.
+//! Pictures that the program rendered and reads back: frames, truths, replicates, ladders, blurs.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -50,12 +50,12 @@ pub fn finished(place: &Place) -> Vec<Vec<u8>> {
     [made(place, "out", &["output.exr"]), textures].concat()
 }
 
-/// Verifies a kept render in its own place by tracing it again: a file with other attributes is never taken.
+/// Verifies a kept render in its own place by tracing it again: a file with other attributes is never accepted.
 pub fn verify(place: &mut Place, input: &[u8]) -> Option<()> {
     let path = place.write("input.exr", input);
     let input = read_exr(&path).ok()?;
     let out = place.copy("out");
-    // The file whose attributes are most like those of the input.
+    // The file with attributes most like the input's.
     let alike = |path: &PathBuf| {
         let own = read_exr(path).unwrap().attributes.into_iter();
         let same = own.filter(|(name, value)| input.attributes.get(name) == Some(value));
@@ -100,7 +100,7 @@ pub fn kept(place: &Place) -> Vec<Vec<u8>> {
     kept.into_iter().flat_map(both).collect()
 }
 
-/// Lists the files of a run that are rendered, and not made by a filter.
+/// Lists the rendered files of a run, not those of filters.
 fn list_kept(out: &Path) -> Vec<PathBuf> {
     let mut found = files(&out.join("plate"), ".exr");
     found.retain(|path| {

@@ -1,10 +1,10 @@
-//! Inputs that fail on purpose, which the fuzzer must notice.
+//! Inputs that fail on purpose, to test the fuzzer.
 
 use std::time::Duration;
 
 use crate::place::Place;
 
-/// Does what the first line of the input says.
+/// Obeys the first line of the input.
 pub fn fail(place: &mut Place, input: &[u8]) -> Option<()> {
     match input.split(|byte| *byte == b'\n').next()? {
         b"panic" => panic!("it panics on purpose"),

@@ -13,7 +13,7 @@ use crate::place::{Place, last_lines};
 /// Exit codes that the README names.
 const CODES: [i32; 5] = [0, 1, 2, 3, 4];
 
-/// Time limit for a program with much work; it is then ended.
+/// Time limit for a program with much work; after that it is ended.
 const PATIENCE: Duration = Duration::from_secs(2);
 
 /// Runs a command line in a folder with scenes, a run and a tuning.
@@ -23,13 +23,17 @@ pub fn command_line(place: &mut Place, input: &[u8]) -> Option<()> {
     }
     let words = input.strip_suffix(b"\n").unwrap_or(input);
     let words = words.split(|byte| *byte == b'\n').map(OsStr::from_bytes);
-    let is_safe = |word: &&OsStr| !word.as_bytes().contains(&0) && *word != "/";
+    // A line may name any file as the one to write, also the file that no case may change.
+    let is_safe = |word: &&OsStr| {
+        let bytes = word.as_bytes();
+        !bytes.contains(&0) && *word != "/" && !bytes.ends_with(b"../canary.txt")
+    };
     let words: Vec<&OsStr> = words.filter(is_safe).collect();
     shuttertruth(place, &words, Stdio::null());
     Some(())
 }
 
-/// Runs the program where one of its records is the input.
+/// Runs the program with the input as one of its records.
 pub fn records(place: &mut Place, input: &[u8]) -> Option<()> {
     let file = match input.windows(9).any(|it| it == b"frame.exr") {
         true => "out/plate/frame.json",
@@ -39,7 +43,7 @@ pub fn records(place: &mut Place, input: &[u8]) -> Option<()> {
     commands::run(place, file, input, &[line])
 }
 
-/// Writes lines to the standard input of `serve`, and then a request that is refused at once: its answer means that all have
+/// Writes lines to the standard input of `serve`, and then a request that is refused at once: its answer means that all lines have
 /// been read.
 pub fn serve(place: &mut Place, input: &[u8]) -> Option<()> {
     place.copy("scenes");
@@ -63,7 +67,7 @@ fn split(line: &str) -> Vec<&OsStr> {
     line.split(' ').map(OsStr::new).collect()
 }
 
-/// Runs the program, whose output goes to the file `stdout`. Panics unless it ends with a documented code, and returns it.
+/// Runs the program with its output in the file `stdout`. Panics unless it ends with a documented code, and returns that.
 fn shuttertruth(place: &Place, words: &[&OsStr], stdin: Stdio) -> i32 {
     let [stdout, stderr] = ["stdout", "stderr"].map(|name| place.write(name, ""));
     let open = |path| fs::File::options().append(true).open(path).unwrap();
@@ -92,7 +96,7 @@ fn shuttertruth(place: &Place, words: &[&OsStr], stdin: Stdio) -> i32 {
     code.unwrap_or_else(|| panic!("{status}: {}", last_lines(&stderr)))
 }
 
-/// Returns whether a number is large enough for much work, or all scenes and filters are asked for.
+/// Returns whether a number is large enough for much work, or all scenes and filters are requested.
 fn asks_for_much(words: &[&OsStr]) -> bool {
     let small = ["--size", "16x16", "--samples-per-pixel", "--filters"];
     let is_large = |word: &&OsStr| {

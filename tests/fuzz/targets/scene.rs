@@ -10,7 +10,7 @@ use tracer::{RenderSettings, Scene, list_scenes, load_scene, trace_frame, trace_
 use crate::place::Place;
 use crate::seeds::shipped;
 
-/// Returns the shipped scenes, changed to use the only mesh that is there.
+/// Returns the shipped scenes, changed to use the only existing mesh.
 pub fn shipped_scenes(_: &Place) -> Vec<Vec<u8>> {
     let change = |text: Vec<u8>| {
         let text = String::from_utf8(text).expect("a scene is UTF-8");

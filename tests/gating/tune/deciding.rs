@@ -1,4 +1,4 @@
-//! Choice among candidates: which are dropped, which is chosen, and why.
+//! Choice among candidates: dropped ones, the chosen one, and why.
 
 use std::collections::BTreeMap;
 
@@ -10,8 +10,8 @@ use tune::{
 
 #[test]
 fn the_signed_rank_test_has_wilcoxons_probabilities() {
-    // In Wilcoxon's table for n = 8, the smaller sum 5 is the last one below 5 % on one side, and 3 below 2.5 %. Of 2^8
-    // arrangements, 5, 10 and 14 have a sum of at most 3, 5 and 6.
+    // In Wilcoxon's table for n = 8, the smaller sum 5 is the last one below 5 % on one side, and 3 below 2.5 %. Of 2^8 arrangements,
+    // 5, 10 and 14 have a sum of at most 3, 5 and 6.
     let eight = |below: i32| {
         let signed = |rank: i32| f64::from(if rank == below { -rank } else { rank });
         (1..=8).map(signed).collect::<Vec<f64>>()
@@ -91,9 +91,9 @@ fn the_choice_among_equal_candidates_is_the_nearest_to_the_start() {
         (8, [0.1, 0.1, 0.1, 0.1]),
         // About half the error everywhere: the best.
         (60, [0.05, 0.04, 0.06, 0.05]),
-        // Hardly worse, and much nearer to the start.
+        // Hardly worse, and much closer to the start.
         (12, [0.05, 0.042, 0.06, 0.05]),
-        // Nearer still, and clearly worse.
+        // Even closer, and clearly worse.
         (10, [0.08, 0.08, 0.08, 0.08]),
     ]);
     let choice = choose(&trials, ChoiceLimits::default());

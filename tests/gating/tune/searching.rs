@@ -162,8 +162,7 @@ fn the_next_point_depends_only_on_the_seed_and_the_losses() {
 #[test]
 fn a_converged_search_restarts_elsewhere() {
     let search = Search::new(vec![vec![0.5; 2]], 2, 1);
-    // A plane without slope ends a climb of two axes after twenty generations of six points: 400 points are at least
-    // two climbs.
+    // A plane without slope ends a climb of two axes after twenty generations of six points: 400 points are at least two climbs.
     let mut losses = Vec::new();
     let mut points = Vec::new();
     for _ in 0..400 {

@@ -22,7 +22,7 @@ fn the_frozen_truth_of_a_still_scene_equals_its_truth() {
         assert_eq!(half.color, known.frozen);
         assert!(known.unknowable.pixels.iter().all(|share| *share == 0.0));
         assert!(known.placed.pixels.iter().all(|share| *share == 1.0));
-        // Only the sample's own place in the pixel is left: the mean of stratified places, of 32 at least, and of 384 pixels.
+        // Only the sample's own position in the pixel remains: the mean of stratified positions, of 32 at least, and of 384 pixels.
         let mut mean = [0.0; 4];
         for (offset, spread) in known.offset.pixels.iter().zip(&known.spread.pixels) {
             assert!(offset.iter().all(|part| part.abs() < 0.03), "{offset:?}");
@@ -49,7 +49,7 @@ fn a_closed_mesh_does_not_hide_its_own_near_side() {
         scene.camera.motion = placed(eye);
         let at = placed(eye - DVec3::Z * 1.5 * radius);
         add(&mut scene, icosphere(radius as f32, 5), diffuse(0.5), at);
-        // Something moves behind the camera, so that everything is shaded again.
+        // An object moves behind the camera, so everything is shaded again.
         let speck = drift(eye + 50.0 * radius * DVec3::Z, 1e-3 * DVec3::X);
         add(&mut scene, rectangle(1e-4, 1e-4), glowing(1.0), speck);
         scene.background = Background::Constant(Vec3::ONE);
@@ -77,8 +77,7 @@ fn an_unlit_panel_needs_no_light_of_the_instant() {
     }
 }
 
-/// Makes a camera that flies over a mirror in a still world: each point of the floor mirrors another height of the sky
-/// at another time.
+/// Makes a camera that flies over a mirror in a still world: each point of the floor mirrors another height of the sky at another time.
 #[test]
 fn a_frozen_mirror_shows_the_view_of_the_instant_s_camera() {
     let mut scene = empty_scene("mirror");
@@ -101,14 +100,14 @@ fn a_frozen_mirror_shows_the_view_of_the_instant_s_camera() {
     let truth = render(&scene, Alignment::Trailing, 256);
     // The mirrored ray rises as steeply as the view ray falls, at all times that the camera sees the point.
     let live = 0.2_f64.sqrt();
-    // At time t the camera sees the floor 4 + 3 t metres ahead of its place at the instant.
+    // At time t the camera sees the floor 4 + 3 t metres ahead of its position at the instant.
     let steps = 1000;
     let frozen: f64 = (0..steps)
         .map(|step| -EXPOSURE * (f64::from(step) + 0.5) / f64::from(steps))
         .map(|time| 2.0 / (4.0 + 3.0 * time).hypot(2.0) / f64::from(steps))
         .sum();
     assert!((live - frozen).abs() > 0.05, "they can be told apart");
-    // 384 pixels of 256 stratified samples, a quarter of which is shaded again.
+    // 384 pixels of 256 stratified samples; a quarter of these is shaded again.
     expect_near("live", mean_of(&truth.mean().color), live, 1e-4);
     let found = mean_of(&truth.at_instant_mean().frozen);
     expect_near("frozen", found, frozen, 1e-3);
@@ -140,7 +139,7 @@ fn a_moving_shadow_stands_still_in_the_frozen_truth() {
     // Both take 256 samples per pixel of the shadow's border: a quarter of the truth's 1024 is shaded again.
     assert!(off < 0.03, "frozen and frame differ by {off}");
     assert!(moved > 0.25, "the shadow moves");
-    // The wall is always seen.
+    // The wall is always visible.
     assert!(known.unknowable.pixels.iter().all(|share| *share == 0.0));
 }
 
@@ -156,8 +155,8 @@ fn a_turning_sphere_keeps_the_shading_of_the_instant() {
     // So narrow that all pixels see nearly one normal: within 0.02 of +Z.
     scene.camera.vertical_fov = vec![(0.0, 0.1)];
     let truth = render(&scene, Alignment::Trailing, 256);
-    // The mean over the picture equals the centre except for second-order terms. A point seen there at time t stands at the instant
-    // where a turn by -rate t has brought it.
+    // The mean over the picture equals the centre except for second-order terms. A point seen there at time t is, at the instant, where
+    // a turn by -rate t has brought it.
     let found = mean_of(&truth.at_instant_mean().frozen);
     let steps = 10_000;
     let shaded = (0..steps).map(|step| {

@@ -32,8 +32,7 @@ fn render(scene: &Scene, alignment: Alignment, samples_per_pixel: u32) -> Truth 
     render_truth(scene, &settings, alignment)
 }
 
-/// Makes an unlit wall, `gap` metres behind an unlit panel whose middle passes `at` at `t = 0`. Both are higher than
-/// any blur.
+/// Makes an unlit wall, `gap` metres behind an unlit panel with its middle passing `at` at `t = 0`. Both are higher than any blur.
 fn panel_over_wall(gap: f64, at: f64, width: f32) -> Scene {
     let mut scene = empty_scene("panel");
     let wall = placed(DVec3::new(0.0, 0.0, -DISTANCE - gap));
@@ -43,8 +42,7 @@ fn panel_over_wall(gap: f64, at: f64, width: f32) -> Scene {
     scene
 }
 
-/// Calls `check` with each column's left border, in pixels from the picture's centre, and the index of its pixel in the
-/// middle row.
+/// Calls `check` with each column's left border, in pixels from the picture's centre, and the index of its pixel in the middle row.
 fn for_each_column(mut check: impl FnMut(f64, usize)) {
     for column in 0..WIDTH {
         let left = f64::from(column) - 0.5 * f64::from(WIDTH);

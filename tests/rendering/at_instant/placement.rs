@@ -1,4 +1,4 @@
-//! Places at the instant, and parts that no frame can know.
+//! Positions at the instant, and parts that no frame can know.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -25,7 +25,7 @@ fn uncovered_background_and_pixels_beyond_the_border_are_unknowable() {
             let expected = mean_over(left, alignment, |x, t| {
                 let covered = |x: f64, t: f64| (x - at - SPEED * t).abs() < half;
                 let unknown = if covered(x, t) {
-                    // The place of the panel's point at the instant.
+                    // The position of the panel's point at the instant.
                     (x - SPEED * t).abs() > 0.5 * f64::from(WIDTH)
                 } else {
                     covered(x, 0.0)
@@ -49,7 +49,7 @@ fn a_sliding_panel_s_samples_come_from_its_whole_way() {
             let shutter = alignment.shutter(EXPOSURE).unwrap();
             let [open, close] = [shutter.open, shutter.close].map(|t| -SPEED * t);
             let offset = 0.5 * (open + close);
-            // The mean square of a number that is uniform between two others, and of the place in the pixel.
+            // The mean square of a uniform number between two others, and of the position in the pixel.
             let spread = (open * open + open * close + close * close) / 3.0 + 1.0 / 12.0;
             assert_eq!(mean.placed.pixels[pixel], 1.0);
             let [x, y] = mean.offset.pixels[pixel].map(f64::from);
@@ -87,7 +87,7 @@ fn the_other_side_of_a_sheet_is_unknowable() {
         let angle = PI / EXPOSURE * t;
         f64::from(angle.abs() < FRAC_PI_2 && met(x, angle).abs() < 4.0)
     };
-    // The axis lies between two pixels. Their mean does not depend on which of them sees the sheet's nearer half.
+    // The axis is between two pixels. Their mean does not depend on which of them sees the sheet's nearer half.
     let shown = [0.0, -1.0].map(|left| mean_over(left, Alignment::Trailing, front));
     let expected = 1.0 - 0.5 * (shown[0] + shown[1]);
     let centre = (HEIGHT / 2 * WIDTH + WIDTH / 2) as usize;
@@ -103,14 +103,14 @@ fn points_behind_the_camera_have_no_place() {
     scene.camera.motion = spin(DVec3::ZERO, DVec3::Y, rate);
     let known = render(&scene, Alignment::Trailing, 1024).at_instant_mean();
     for_each_column(|left, pixel| {
-        // The view turns left: earlier views lie to the right, and behind the camera beyond a right angle.
+        // The view turns left: earlier views are to the right, and behind the camera beyond a right angle.
         let expected = mean_over(left, Alignment::Trailing, |x, t| {
             f64::from((x / DISTANCE).atan() - rate * t < FRAC_PI_2)
         });
         let found = f64::from(known.placed.pixels[pixel]);
         expect_near(&format!("column {left}"), found, expected, STEP_ERROR);
         let unknown = f64::from(known.unknowable.pixels[pixel]);
-        // What has no place cannot be known.
+        // A point without a position cannot be known.
         assert!(unknown >= 1.0 - found - 1e-6, "{unknown} {found}");
     });
 }

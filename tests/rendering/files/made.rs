@@ -9,7 +9,7 @@ use frame::{
 pub const WIDTH: u32 = 13;
 pub const HEIGHT: u32 = 7;
 
-/// Makes values of every magnitude, subnormal and negative ones too, so that any rounding shows.
+/// Makes values of every magnitude, including subnormal and negative ones, so that any rounding is noticed.
 pub fn plane(salt: u32) -> Plane {
     Raster::from_fn(WIDTH, HEIGHT, |x, y| {
         let mut bits = (x + 17 * y + 1009 * salt).wrapping_mul(0x9e37_79b9);
@@ -92,6 +92,8 @@ pub fn a_frame() -> Frame {
         objects: objects(),
         color: image(1),
         velocity: pairs(8),
+        velocity_next: Some(pairs(90)),
+        velocity_z: Some(plane(92)),
         depth: plane(10),
         object_id: Raster::from_fn(WIDTH, HEIGHT, |x, y| u32::MAX - x * y),
         coverage: vec![plane(11), plane(12)],

@@ -1,4 +1,4 @@
-//! Files of frames, truths and ladders: bit-exact, written whole or not at all, and refused with a clear reason.
+//! Files of frames, truths and ladders: bit-exact, written completely or not at all, and refused with a clear reason.
 
 mod made;
 
@@ -30,6 +30,14 @@ fn what_is_written_comes_back_bit_for_bit() {
     let (folder, path) = folder_with("new/folder/frame.exr");
     a_frame().write(&path).unwrap();
     assert_eq!(Frame::read(&path).unwrap(), a_frame());
+    let few = Frame {
+        velocity_next: None,
+        velocity_z: None,
+        ..a_frame()
+    };
+    few.write(&path).unwrap();
+    assert_eq!(Frame::read(&path).unwrap(), few);
+    a_frame().write(&path).unwrap();
     // Equal frames make equal files.
     let again = folder.path().join("again.exr");
     a_frame().write(&again).unwrap();
@@ -70,7 +78,7 @@ fn halves_come_back_bit_for_bit_from_a_smaller_file_and_larger_numbers_too() {
         assert_eq!(Truth::read(&path).unwrap(), *truth);
         fs::metadata(&path).unwrap().len()
     };
-    // The made-up numbers have every magnitude. Those beyond any half stay what they are.
+    // The made-up numbers have every magnitude. Those beyond any half stay unchanged.
     let offsets = |truth: &Truth| truth.at_instant[0].offset.pixels.clone();
     let large = |offset: &[f32; 2]| offset.iter().all(|axis| axis.abs() > 65_520.0);
     let mut pairs = offsets(&exact).into_iter().zip(offsets(&short));
@@ -89,7 +97,7 @@ fn halves_come_back_bit_for_bit_from_a_smaller_file_and_larger_numbers_too() {
     let long = written(&small);
     small.at_instant = small.at_instant.map(AtInstant::rounded);
     let short = written(&small);
-    // Five channels of each half lose two bytes a pixel, a few of which deflate had saved.
+    // Five channels of each half lose two bytes a pixel; deflate had saved a few of these.
     let lost = 10 * 2 * u64::from(WIDTH * HEIGHT);
     assert!(long - short > lost * 3 / 4, "{short} {long}");
 }
@@ -211,7 +219,7 @@ fn files_of_another_kind_are_refused_by_name() {
 
 #[test]
 fn a_failed_write_leaves_the_old_file_and_no_other() {
-    // A folder has the file's name, so that the last step, the rename, must fail.
+    // A folder has the file's name, so the last step, the rename, must fail.
     let (folder, path) = folder_with("taken");
     fs::create_dir(&path).unwrap();
     fs::write(path.join("inside"), "kept").unwrap();

@@ -20,7 +20,7 @@ use crate::scenery::heights;
 const BLURS: [[f64; 2]; 2] = [[5.0, 0.5 * DISTANCE], [10.0, 2.0 * DISTANCE]];
 const CIRCLE: f64 = 5.0;
 
-/// Returns the integral up to `at` of the part of a disc around 0 that lies below a chord, over the chord's place.
+/// Returns the integral up to `at` of the part of a disc around 0 below a chord, over the chord's position.
 fn disc_below(at: f64, radius: f64) -> f64 {
     if at.abs() >= radius {
         return at.max(0.0);
@@ -48,7 +48,7 @@ fn motion_and_defocus_are_the_convolution_of_a_box_and_a_disc() {
         );
         let what = format!("speed {speed}, focus {focus}");
         expect_coverage(&what, &scene, alignment, |pixel, shutter| {
-            // Dense enough for what a lens leaves of an edge.
+            // Dense enough for an edge blurred by a lens.
             mean_over_pixel(pixel, 32, |point| {
                 let [open, close] = [shutter.open, shutter.close]
                     .map(|time| disc_below(along(time) - normal.dot(point), 0.5 * CIRCLE));
@@ -86,12 +86,12 @@ fn a_small_disc_becomes_its_circle_of_confusion_and_keeps_its_light() {
             square += color * offset * offset;
         }
         let area = PI * radius * radius;
-        // 130,000 samples meet the disc: three times the root of that is 0.8 %.
+        // 130,000 samples hit the disc: three times the root of that is 0.8 %.
         let what = format!("focus {focus}");
         expect_near(&what, light / area, 1.0, 8e-3);
         assert!((moment / light).length() < 0.01, "{what}: {moment}");
-        // Variances add up: of the circle of confusion, of the disc, and of a pixel. Measured to 0.6 %; a circle that is a hundredth
-        // too wide is off by 1.7 %.
+        // Variances add up: the circle's of confusion, the disc's, and a pixel's. Measured to 0.6 %; a circle a hundredth too wide is off
+        // by 1.7 %.
         let expected = CIRCLE * CIRCLE / 16.0 + radius * radius / 4.0 + 1.0 / 12.0;
         for found in (square / light).to_array() {
             expect_near(&what, found, expected, 0.012 * expected);
@@ -109,8 +109,8 @@ fn a_plane_in_focus_is_what_the_pinhole_sees() {
     let focused = render(&with_lens(scene.clone(), 3.0, DISTANCE));
     let differ = (sharp.color.pixels.iter().zip(&focused.color.pixels))
         .map(|(sharp, focused)| (sharp[0] - focused[0]).abs());
-    // The same places of the plane are sampled. One sample that falls to the other side of the edge changes its pixel by 7e-4: of
-    // 40,000 in pixels at the edge, a focus that is wrong by a ten-thousandth moves two.
+    // The same points of the plane are sampled. One sample that falls to the other side of the edge changes its pixel by 7e-4: of
+    // 40,000 in pixels at the edge, a focus wrong by a ten-thousandth moves two.
     assert!(differ.fold(0.0, f32::max) < 1e-5);
     let blurred = render(&with_lens(scene, 3.0, 0.8 * DISTANCE));
     assert_ne!(sharp.color, blurred.color);
@@ -136,7 +136,7 @@ fn the_sky_at_infinity_has_a_circle_of_aperture_over_focus() {
             if shift.length() < 1.0 {
                 points += 1.0;
                 let corner = pixel_corner(column, row) + 0.5 * circle * shift;
-                // Three places of the pixel's height stand for all: 0.01.
+                // Three positions in the pixel's height are enough for all: 0.01.
                 let places = [0.5, 0.1, 0.9].map(|up| radiance(corner + DVec2::new(0.5, up)));
                 sum += places.iter().sum::<f64>() / 3.0;
             }

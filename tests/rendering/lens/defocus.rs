@@ -1,4 +1,4 @@
-//! The pass of depth of field on pictures of a pinhole, against the defocused instant that is traced.
+//! The pass of depth of field on pictures of a pinhole, against the traced, defocused instant.
 
 use frame::Image;
 use glam::DVec3;
@@ -22,7 +22,7 @@ fn trace_pass(scene: &Scene) -> Defocus {
     trace_defocus(scene, &own_settings(), &unwatched).unwrap()
 }
 
-/// Renders the frame of a scene, and what the pass makes of the frame of its pinhole; with the frame of the pinhole.
+/// Renders the frame of a scene, the pass's output for the pinhole's frame, and the pinhole's frame.
 fn render(scene: &Scene) -> [Image; 3] {
     let pinhole = render_frame(&scene.clone().pinhole(), &own_settings()).color;
     let pass = trace_pass(scene).apply_to_color(&pinhole);
@@ -48,7 +48,7 @@ fn where_the_pinhole_shows_everything_the_pass_is_the_lens() {
     let [own, without] = [&pass, &pinhole].map(|picture| rms_difference(picture, &lens));
     // 256 rays of a circle of 20 pixels, and the pixels' own width once more: measured 0.008, against 0.16.
     assert!(own < 0.02 && without > 5.0 * own, "{own} {without}");
-    // What the pass keeps of light, but for what leaves the picture on one side and comes back on the other.
+    // The pass keeps light, except what leaves the picture on one side and comes back on the other.
     expect_near("light", mean_of(&pass) / mean_of(&lens), 1.0, 0.02);
     let cancelled = trace_defocus(&scene, &own_settings(), &|_| {
         std::ops::ControlFlow::Break(())
@@ -62,13 +62,13 @@ fn where_the_pinhole_shows_everything_the_pass_is_the_lens() {
 fn what_is_in_focus_and_what_has_no_lens_stays_as_it_is() {
     let [lens, pass, pinhole] = render(&with_lens(spotted_wall(), 5.0, DISTANCE));
     assert!(rms_difference(&lens, &pinhole) < 1e-3);
-    // The discs lie a millimetre in front of the focus: a ray in some thousands reads the next pixel.
+    // The discs are a millimetre in front of the focus: a ray in some thousands reads the next pixel.
     assert!(rms_difference(&pass, &pinhole) < 1e-3);
     let [_, pass, pinhole] = render(&spotted_wall());
     assert_eq!(pass, pinhole);
 }
 
-/// Makes a near ball, out of focus, before the wall, in focus.
+/// Makes a near ball, out of focus, in front of the wall, in focus.
 fn ball_before_wall() -> Scene {
     let mut scene = spotted_wall();
     let place = placed(DVec3::new(0.5, 0.0, -4.0));
@@ -80,7 +80,7 @@ fn ball_before_wall() -> Scene {
 fn what_the_pinhole_hides_behind_an_edge_is_traced() {
     let [lens, pass, pinhole] = render(&ball_before_wall());
     let [own, without] = [&pass, &pinhole].map(|picture| rms_difference(picture, &lens));
-    // A pass that leaves out what the ball hides of the wall makes the ball's rim too dense: 0.7 of the pinhole's difference.
+    // A pass without the wall behind the ball makes the ball's rim too dense: 0.7 of the pinhole's difference.
     assert!(own < 0.3 * without, "{own} {without}");
 }
 
@@ -96,7 +96,7 @@ fn colour_comes_from_the_picture_and_coverage_sums_to_one() {
         let sum: f32 = parts.sum();
         assert!((sum - 1.0).abs() < 1e-5, "{sum}");
     }
-    // Far from the ball everything is read: a picture twice as bright comes out twice as bright.
+    // Far from the ball no sample is left out: a picture twice as bright comes out twice as bright.
     let bright = frame.color.map(|color| color.map(|value| 2.0 * value));
     let bright = pass.apply_to_color(&bright).at(1, 1)[0];
     let own = picture.color.at(1, 1)[0];

@@ -1,4 +1,4 @@
-//! What a lens changes of frames and truths, and what it leaves.
+//! A lens's effect on frames and truths, and what it leaves unchanged.
 
 use frame::{Alignment, Picture, Truth};
 use glam::DVec3;
@@ -16,7 +16,7 @@ fn settings(samples_per_pixel: u32) -> RenderSettings {
     settings_of_two([32, 18], samples_per_pixel)
 }
 
-/// Returns `fan` with a lens that is focused before it.
+/// Returns `fan` with a lens focused in front of it.
 fn fan() -> Scene {
     with_lens(load_shipped("fan"), 0.3, 3.0)
 }
@@ -30,7 +30,7 @@ fn velocity_depth_and_objects_of_a_frame_are_the_pinhole_s() {
     assert_eq!(lens.velocity, pinhole.velocity);
     assert_eq!(lens.depth, pinhole.depth);
     assert_eq!(lens.object_id, pinhole.object_id);
-    // Without its lens the scene is the one that never had one.
+    // Without its lens the scene equals the one that never had one.
     assert_eq!(shipped, pinhole);
 }
 
@@ -40,7 +40,7 @@ fn where_nothing_moves_everything_is_known_and_in_its_place() {
     scene.background = Background::Constant(glam::Vec3::splat(0.4));
     let floor = placed(DVec3::new(0.0, 0.0, -6.0));
     add(&mut scene, rectangle(40.0, 40.0), diffuse(0.6), floor);
-    // Gloss changes with the place that it is seen from, so that nothing is taken for unchanging.
+    // Gloss changes with the viewpoint, so nothing is treated as unchanging.
     let glossy = Material {
         finish: Finish::Conductor { roughness: 0.2 },
         ..diffuse(0.8)
@@ -54,12 +54,12 @@ fn where_nothing_moves_everything_is_known_and_in_its_place() {
     for pixel in 0..known.unknowable.pixels.len() {
         assert_eq!(known.unknowable.pixels[pixel], 0.0);
         let [x, y] = known.offset.pixels[pixel];
-        // The mean of stratified places in a pixel, of 32 at least.
+        // The mean of stratified positions in a pixel, of 32 at least.
         assert!(x.abs() < 0.03 && y.abs() < 0.03, "{x} {y}");
         let [xx, _, yy] = known.spread.pixels[pixel];
         let square = 1.0 / 12.0;
         assert!((xx - square).abs() < 0.02 && (yy - square).abs() < 0.02);
-        // Shading from the same point of the lens is the same, but for rounding of the ray.
+        // Shading from the same point of the lens is the same, except for rounding of the ray.
         let [frozen, live] = [known.frozen.pixels[pixel][0], mean.color.pixels[pixel][0]];
         assert!((frozen - live).abs() < 1e-4, "{frozen} {live}");
     }

@@ -1,4 +1,4 @@
-//! Translucent surfaces in velocity and depth, in what the shutter sees, and in bytes.
+//! Translucent surfaces in velocity and depth, in the shutter's view, and in bytes.
 
 use frame::{Alignment, FAR_DEPTH, Frame, Truth, VelocityKind};
 use glam::{DVec3, Vec3};
@@ -17,7 +17,7 @@ fn render_truth(scene: &Scene) -> Truth {
     renders::render_truth(scene, &renders::settings([32, 18], 32), Alignment::Trailing)
 }
 
-/// Makes a still wall, and a pane of this material that moves to the right before it. One metre of the pane is one pixel.
+/// Makes a still wall, and a pane of this material that moves to the right in front of it. One metre of the pane is one pixel.
 fn pane_scene(pane: Material) -> Scene {
     let mut scene = empty_scene("pane");
     let wall = placed(DVec3::new(0.0, 0.0, -20.0));
@@ -47,7 +47,7 @@ fn velocity_and_depth_are_those_of_what_lies_behind_unless_a_material_says_other
         (written(half()), true),
         (glass(1.5, Vec3::ONE), false),
         (written(glass(1.5, Vec3::ONE)), true),
-        // What changes no light is not there.
+        // A surface that changes no light is absent.
         (written(none), false),
     ];
     for (pane, is_written) in cases {
@@ -62,7 +62,7 @@ fn velocity_and_depth_are_those_of_what_lies_behind_unless_a_material_says_other
         assert!((velocity - speed).abs() < 1e-4, "{velocity}");
         assert_eq!(found, expected);
     }
-    // Nothing opaque lies behind.
+    // Nothing opaque is behind.
     let mut scene = pane_scene(half());
     scene.objects[0].motion = placed(DVec3::new(0.0, 0.0, 20.0));
     assert_eq!(*render_frame(&scene).depth.at(16, 9), FAR_DEPTH);
@@ -72,20 +72,20 @@ fn velocity_and_depth_are_those_of_what_lies_behind_unless_a_material_says_other
 fn a_film_is_seen_wherever_it_passes_and_hides_nothing() {
     let faint = render_truth(&pane_scene(film(Vec3::ONE, 0.01, Vec3::ONE)));
     let opaque = render_truth(&pane_scene(glowing(1.0)));
-    // Rays of the support meet every film, however faint.
+    // Rays of the support hit every film, however faint.
     assert_eq!(faint.support.seen[2], opaque.support.seen[2]);
     assert_eq!(faint.support.moving, opaque.support.moving);
-    // Where the pane stays before the wall while the shutter is open, a film shows both and an opaque pane itself.
+    // If the pane stays in front of the wall while the shutter is open, a film shows both and an opaque pane itself.
     let seen = |truth: &Truth| [1, 2].map(|object| *truth.support.seen[object].at(14, 9));
     assert_eq!((seen(&faint), seen(&opaque)), ([true, true], [false, true]));
-    // The wall is seen behind it at all times, and so is each point of the film at the instant.
+    // The wall is visible behind it at all times, and so is each point of the film at the instant.
     let count = |truth: &Truth| {
         let unknowable = truth.support.unknowable.pixels.iter();
         unknowable.filter(|unknowable| **unknowable).count()
     };
     assert_eq!(count(&faint), 0);
     assert!(count(&opaque) > 10);
-    // Coverage follows the opacity: samples of both truths lie elsewhere.
+    // Coverage follows the opacity: samples of both truths are at different positions.
     let sum = |truth: &Truth| truth.mean().coverage[2].pixels.iter().sum::<f32>();
     let ratio = sum(&faint) / sum(&opaque);
     assert!((ratio - 0.01).abs() < 2e-4, "{ratio}");

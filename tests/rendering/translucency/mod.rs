@@ -22,7 +22,7 @@ pub fn film(radiance: Vec3, opacity: f32, filter: Vec3) -> Material {
     }
 }
 
-/// Makes clean glass of this index, which takes `1 - filter` from light inside it.
+/// Makes clean glass of this index, which absorbs `1 - filter` of the light inside it.
 pub fn glass(index: f32, filter: Vec3) -> Material {
     Material {
         opacity: 0.0,

@@ -48,7 +48,7 @@ fn films_mix_their_own_light_with_what_they_let_pass() {
     for films in stacks {
         let mut scene = sky_scene("films");
         let mut expected = SKY;
-        // A film covers what its opacity says, whatever its colour.
+        // A film covers by its opacity, whatever its colour.
         let mut shares = vec![1.0];
         for (index, (opacity, own, filter)) in films.into_iter().enumerate() {
             hang(&mut scene, film(own, opacity, filter), -10.0 + index as f64);
@@ -73,7 +73,7 @@ fn films_mix_their_own_light_with_what_they_let_pass() {
 
 #[test]
 fn a_ray_through_the_common_edge_of_two_triangles_passes_one_film() {
-    // Every pixel's centre on the diagonal lies on the edge between the square's triangles.
+    // Every pixel's centre on the diagonal is on the edge between the square's triangles.
     let mut scene = sky_scene("edge");
     hang(&mut scene, film(Vec3::ZERO, 0.5, Vec3::ONE), -4.0);
     let frame = render_frame(&scene, [9, 9], ColorSampling::Point);
@@ -82,7 +82,7 @@ fn a_ray_through_the_common_edge_of_two_triangles_passes_one_film() {
     }
 }
 
-/// Composites rectangles from far to near at a pixel's centre: no tracer takes part.
+/// Composites rectangles from far to near at a pixel's centre, without the tracer.
 #[test]
 fn films_at_random_look_as_a_painter_puts_them_on() {
     let mut random = Random::new(7);

@@ -1,4 +1,4 @@
-//! Light through translucent surfaces: shadows, and two ways to the same light.
+//! Light through translucent surfaces: shadows, and two paths to the same light.
 
 use glam::{DVec3, Vec3};
 use tests::shapes::*;
@@ -8,7 +8,7 @@ use super::{assert_near, film, glass};
 use crate::renders::render_small_truth;
 use crate::scenery::{self, facing_up, heights, sun};
 
-/// Makes a floor of albedo 0.6, of which the camera sees a spot around the origin from below any pane.
+/// Makes a floor of albedo 0.6, with a spot around the origin that the camera sees from below any pane.
 fn floor_scene(panes: &[Material]) -> Scene {
     let mut scene = scenery::floor_scene(diffuse(0.6));
     for (index, pane) in panes.iter().enumerate() {
@@ -50,8 +50,8 @@ fn the_shadow_of_a_film_has_its_colour() {
 fn the_shadow_of_glass_is_what_fresnel_lets_pass() {
     let mut scene = floor_scene(&[glass(1.5, Vec3::ONE)]);
     scene.sun = sun(DVec3::Y, 2.0, 0.0);
-    // Each side reflects 4 % straight on. What the floor sends up comes back by the series of floor and pane, so the floor
-    // is black for the reflection: only direct light counts here.
+    // Each side reflects 4 % straight on. Light that the floor sends up comes back by the series of floor and pane, so the floor is
+    // black for the reflection: only direct light counts here.
     scene.materials[0] = diffuse(0.01);
     let direct = 0.01 * 2.0 / std::f32::consts::PI * (0.96 / 1.04);
     let found = mean(&scene, 256);
@@ -60,7 +60,7 @@ fn the_shadow_of_glass_is_what_fresnel_lets_pass() {
     assert!(range.contains(&found.x), "{found} {direct}");
 }
 
-/// A sky that is bright above is sampled as a light, and so is one bright below. Their sum is even, so it is not.
+/// A sky bright above is sampled as a light, and so is one bright below. Their sum is even, so it is not.
 #[test]
 fn light_that_is_sampled_and_light_that_is_met_agree_behind_panes() {
     let panes = [

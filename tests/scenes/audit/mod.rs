@@ -1,6 +1,6 @@
-//! Audits of captures: what is wrong is named, and right ones pass.
+//! Audits of captures: mistakes are named, and correct captures pass.
 //!
-//! Most look at `fixtures/audit`, a scene of few triangles.
+//! Most use `fixtures/audit`, a scene of few triangles.
 
 mod motion;
 mod numbers;
@@ -30,7 +30,7 @@ fn load_moving() -> Scene {
     load_small(Some("moving"))
 }
 
-/// Settings of what an engine hands over: the motion since the frame before, unless it is another.
+/// Makes settings of an engine's output: the motion since the previous frame, unless stated otherwise.
 fn settings(velocity: VelocityKind) -> RenderSettings {
     let mut settings = RenderSettings {
         width: WIDTH,
@@ -67,6 +67,8 @@ fn draw(scene: &Scene, time: f64) -> Capture {
         convention: Convention::default(),
         color: frame.color,
         velocity: frame.velocity,
+        velocity_next: None,
+        velocity_z: None,
         depth: frame.depth,
         object_id: Some(frame.object_id),
         blurred: None,
@@ -79,13 +81,13 @@ fn audit(scene: &Scene, capture: &Capture) -> CaptureAudit {
     audit_capture(capture, scene).unwrap().0
 }
 
-/// Audits a right capture with another velocity.
+/// Audits a correct capture with another velocity.
 fn audit_velocity(scene: &Scene, velocity: Vectors) -> CaptureAudit {
     let drawn = draw(scene, 0.0);
     audit(scene, &Capture { velocity, ..drawn })
 }
 
-/// Audits a right capture whose depth is changed, but for that of the background.
+/// Audits a correct capture with changed depth, except the background's.
 fn audit_depth(scene: &Scene, change: impl Fn(usize, f32) -> f32) -> (Capture, CaptureAudit) {
     let mut capture = draw(scene, 0.0);
     for (at, depth) in capture.depth.pixels.iter_mut().enumerate() {
@@ -115,7 +117,7 @@ fn names(defect: &Defect, is_cause: impl Fn(&Cause) -> bool) -> bool {
     causes.any(is_cause)
 }
 
-/// Expects one finding, in a buffer and of all objects or one, whose cause is such a one or looks like it.
+/// Expects one finding, in a buffer and of all objects or one, with this cause or one that looks like it.
 #[track_caller]
 fn expect<'a>(
     audit: &'a CaptureAudit,

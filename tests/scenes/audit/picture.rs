@@ -8,14 +8,14 @@ use super::{
     audit, draw, expect, id_of, load_moving, load_shipped, load_small, names, without_ids,
 };
 
-/// What is wrong with a capture.
+/// A mistake in a capture.
 type Change = fn(&mut Capture);
 
 fn is(cause: Cause) -> impl Fn(&Cause) -> bool {
     move |it| *it == cause
 }
 
-/// Turns the order of the rows round.
+/// Reverses the order of the rows.
 fn flip<T: Clone>(raster: &mut Raster<T>) {
     let rows = raster.pixels.chunks_exact(raster.width as usize).rev();
     raster.pixels = rows.flatten().cloned().collect();
@@ -64,7 +64,7 @@ fn colour_tells_the_time_where_nothing_else_does() {
     assert!(late.velocity.iter().all(|object| object.is_right));
     assert!(!late.shows_scene);
     expect(&late, Buffer::Picture, None, is(Cause::DrawnLate(1)));
-    // The colour alone, if all else says another time.
+    // Only the colour, if all else shows another time.
     let scene = load_moving();
     let mixed = Capture {
         color: draw(&scene, -1.0).color,
@@ -152,7 +152,7 @@ fn the_colours_of_unlit_scenes_are_compared() {
     let is_twice = |it: &Cause| matches!(it, Cause::Brightness(by) if (by - 2.0).abs() < 0.05);
     let finding = expect(&bright, Buffer::Color, None, is_twice);
     assert!(finding.text.contains("`color_scale` 2.0"), "{finding:#?}");
-    // Light is an engine's own affair.
+    // Light is the engine's own choice.
     let lit = load_small(None);
     let mut dark = draw(&lit, 0.0);
     dark.color = dark.color.map(|_| [0.0; 3]);

@@ -18,7 +18,7 @@ fn filters_miss_motion_from_beyond_the_border() {
     };
     let [cut, whole] = [0, 24].map(render);
     let border = |x: u32, y: u32| x.min(159 - x).min(y).min(89 - y) < 6;
-    // Measured 6.3 and 6.8: the trailing shutter saw a part of each smear that lies beyond the border.
+    // Measured 6.3 and 6.8: the trailing shutter saw a part of each smear that is beyond the border.
     for filter in ["jump_flood:corrected", "velocity_gather:fine"] {
         let error = [&cut, &whole].map(|scene| scene.squared_error(filter, border));
         assert_worse(&format!("border in {filter}"), error, 3.0);
@@ -37,12 +37,12 @@ fn motion_below_a_pixel_is_left_sharp() {
     };
     let [creeping, hurried] =
         ["creep", "creep@hurried"].map(|name| RenderedScene::with_settings(name, settings));
-    // Share of the moving pixels whose colour a filter changes.
+    // Share of the moving pixels that a filter changes.
     let changed = |scene: &RenderedScene, filter: &str| {
         let (filter, preset) = find_preset(filter);
         let color = &scene.frame.color;
         let output = scene.run_filter(&filter, &preset, &[color]).remove(0);
-        // A fifth of the slowest speed; rounding moves still things a little.
+        // A fifth of the slowest speed; rounding moves still pixels a little.
         let moves = |velocity: &[f32; 2]| velocity[0].hypot(velocity[1]) > 0.02;
         let moving: Vec<usize> = (scene.frame.velocity.pixels.iter().enumerate())
             .filter(|(_, velocity)| moves(velocity))
@@ -51,8 +51,7 @@ fn motion_below_a_pixel_is_left_sharp() {
         let differs = |at: &&usize| output.pixels[**at] != color.pixels[**at];
         moving.iter().filter(differs).count() as f64 / moving.len() as f64
     };
-    // Their thresholds are 2, 1 and 0.5 pixels. Measured: 0.61, 1.00 and 0.61 of the fast pixels, and 0, 0.40 and 0 of
-    // the slow ones.
+    // Their thresholds are 2, 1 and 0.5 pixels. Measured: 0.61, 1.00 and 0.61 of the fast pixels, and 0, 0.40 and 0 of the slow ones.
     for (filter, most) in [
         ("kino:default", 0.0),
         ("bevy:high", 0.5),

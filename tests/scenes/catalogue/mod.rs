@@ -1,5 +1,5 @@
-//! Proofs that each scene of the catalogue exposes its cause: a filter that fails is clearly worse there than in the
-//! variant without the cause.
+//! Proofs that each scene of the catalogue exposes its cause: a filter that fails is clearly worse there than in the variant without
+//! the cause.
 //!
 //! Renders are small, so speeds in pixels are a quarter of those in the scenes' files.
 
@@ -19,7 +19,7 @@ struct Proof<'a> {
     score: &'a str,
     is_more: bool,
     number: f64,
-    /// Variant or filter whose score the number multiplies; `-` for none.
+    /// Variant or filter whose score is multiplied by the number; `-` for none.
     than: &'a str,
 }
 
@@ -82,7 +82,7 @@ fn render(name: &str) -> RenderedScene {
     RenderedScene::with_settings(name, settings)
 }
 
-/// Proves all rows of the scenes whose names are chosen.
+/// Proves all rows of the scenes with chosen names.
 fn prove_scenes(is_chosen: impl Fn(&str) -> bool) {
     let rows = include_str!("proofs.txt").lines();
     let mut proofs: Vec<Proof> = rows.filter_map(Proof::read).collect();
@@ -96,7 +96,7 @@ fn prove_scenes(is_chosen: impl Fn(&str) -> bool) {
     }
 }
 
-/// Scenes of which each `make test` proves the rows: they try all that a row can say.
+/// Scenes with rows that each `make test` proves: they try every kind of row.
 const SMALL: [&str; 3] = ["crossing", "ramp_floor", "wires"];
 
 #[test]

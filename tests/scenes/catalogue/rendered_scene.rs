@@ -11,7 +11,7 @@ use tracer::{RenderSettings, Scene, trace_frame, trace_truth};
 
 use crate::load_shipped;
 
-/// Settings of a small frame and its truths. The two replicates of a truth share as many samples as the frame has.
+/// Settings of a small frame and its truths. A truth's two replicates together have as many samples as the frame.
 pub fn small_settings() -> RenderSettings {
     RenderSettings {
         width: 160,
@@ -90,8 +90,8 @@ impl RenderedScene {
         reference.measure(picture).unwrap().scores
     }
 
-    /// Returns a score of a filter, or of the reference `scatter_oracle`, against the truth of its shutter: a metric,
-    /// `object.metric`, or `left:metric`, the metric relative to the identity's.
+    /// Returns a score of a filter, or of the reference `scatter_oracle`, against the truth of its shutter: a metric, `object.metric`, or
+    /// `left:metric`, the metric relative to the identity's.
     pub fn score(&self, filter: &str, score: &str) -> f64 {
         let (picture, alignment) = match filter {
             "scatter_oracle" => {

@@ -1,4 +1,4 @@
-//! Export to glTF: what a player of the format shows is what the tracer renders.
+//! Export to glTF: a player of the format shows what the tracer renders.
 
 mod played;
 
@@ -12,9 +12,9 @@ use tracer::{Interpolation, Key, Mesh, Motion, Scene, Turn};
 
 use crate::{load_shipped, shipped_with_variants};
 
-/// Random times at which poses are compared.
+/// Random times for comparing poses.
 const TIMES: usize = 100;
-/// Upper limit of the distance between two poses of a point, relative to the larger of a metre and its distance from the origin.
+/// Upper limit on the distance between two poses of a point, relative to the larger of a metre and its distance from the origin.
 const TOLERANCE: f64 = 1e-5;
 
 #[test]
@@ -182,7 +182,7 @@ fn assert_plays(scene: &Scene) {
     }
 }
 
-/// Compares where two poses put the origin and a point on each axis.
+/// Compares two poses' positions of the origin and of a point on each axis.
 fn assert_close(scene: &Scene, what: &str, time: f64, own: DAffine3, played: DAffine3) {
     for point in [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z] {
         let [own, played] = [own, played].map(|pose| pose.transform_point3(point));
@@ -210,7 +210,7 @@ fn assert_vertices(scene: &Scene, index: usize, played: &Played, timeline: &Time
             assert_eq!(sorted(found), sorted(own.collect()), "{}", scene.id);
             continue;
         }
-        // Rounding may change the order of moved vertices: sums over all of them tell.
+        // Rounding may change the order of moved vertices, so sums over all of them are compared.
         let sum = |corners: &[DVec3]| corners.iter().map(|own| *own * own.length()).sum::<DVec3>();
         let own: Vec<DVec3> = own.collect();
         let error = (sum(&own) - sum(&found)).length() / own.len() as f64;
@@ -218,7 +218,7 @@ fn assert_vertices(scene: &Scene, index: usize, played: &Played, timeline: &Time
     }
 }
 
-/// Returns where a vertex is in its object's space: on a straight line between two shapes, or beyond the last two.
+/// Returns a vertex in its object's space: on a straight line between two shapes, or beyond the last two.
 fn vertex(mesh: &Mesh, corner: u32, time: f64) -> DVec3 {
     let at = |positions: &[glam::Vec3]| positions[corner as usize].as_dvec3();
     if mesh.shapes.is_empty() {

@@ -1,4 +1,4 @@
-//! A player of exported scenes, written from the specification of glTF 2.0, on documents that the crate `gltf` reads.
+//! A player of exported scenes, written from the specification of glTF 2.0, for documents read by the crate `gltf`.
 
 use std::path::Path;
 
@@ -31,7 +31,7 @@ impl Played {
         }
     }
 
-    /// Returns the node of a number.
+    /// Returns the node with a number.
     pub fn node(&self, index: usize) -> Node<'_> {
         self.document
             .nodes()
@@ -39,7 +39,7 @@ impl Played {
             .expect("a node of this number")
     }
 
-    /// Tells whether a material cuts its texture's transparent parts out.
+    /// Returns whether a material cuts its texture's transparent parts out.
     pub fn has_holes(&self, material: &str) -> bool {
         let own = (self.document.materials()).find(|own| own.name() == Some(material));
         own.expect("a material of this name").alpha_mode() == gltf::material::AlphaMode::Mask

@@ -12,7 +12,7 @@ fn a_material_can_change_for_one_object_only() {
         |object: usize, slot: usize| &scene.materials[scene.objects[object].materials[slot]];
     assert_eq!(paint(0, 0).diffuse, Vec3::new(0.5, 0.6, 0.7));
     assert_eq!(paint(1, 1).diffuse, Vec3::new(0.1, 0.2, 0.3));
-    // What is not changed stays.
+    // Everything else stays unchanged.
     assert_eq!(paint(1, 1).diffuse_texture, Some(0));
     let glow = paint(0, 1);
     assert_eq!(glow.emission, Vec3::new(1.0, 2.0, 3.0));
@@ -126,7 +126,7 @@ fn blended_opacity_lets_light_pass_and_other_objects_keep_their_holes() {
         ("map_d dots.png", "", clear),
         (pane, "", glass(1.5)),
         ("d 0\nTf 0.5 1 0.25\nillum 4\nNi 1.3", "", glass(1.3)),
-        // Other models say nothing.
+        // Other models have no effect.
         ("d 0\nTf 0.5 1 0.25\nillum 2\nNi 1.3", "", amber),
         // Glass of index 1 reflects nothing.
         ("d 0\nTf 0.5 1 0.25\nillum 4\nNi 1", "", amber),

@@ -94,7 +94,7 @@ fn bent_obj() -> String {
 const SHAPES: &str =
     "shapes = [{ time = -1, mesh = \"mesh.obj\" }, { time = 1, mesh = \"bent.obj\" }]";
 
-/// Makes a scene in which the mesh before some key has a second shape.
+/// Makes a scene with a second shape for the mesh that this key follows.
 fn deforming(bent: String, key: &str) -> Folder {
     let folder = Folder::new();
     folder.write("bent.obj", bent);

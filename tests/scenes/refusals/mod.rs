@@ -1,6 +1,6 @@
-//! Refusals of slips in a scene's files. Each names its place, what was found and what is allowed.
+//! Refusals of mistakes in a scene's files. Each message has the place, what was found and what is allowed.
 //!
-//! Most stand in `slips/`, a file of them per kind of file.
+//! Most are in `slips/`, one file per kind of file.
 
 use image::{ImageBuffer, Rgb32FImage};
 use tracer::{SceneError, list_scenes, load_scene};
@@ -44,7 +44,7 @@ fn read_slips(text: &str) -> Vec<Slip<'_>> {
     blocks.map(read).collect()
 }
 
-/// Puts each slip into a fresh folder, in the first of the files that holds its text, and compares the messages.
+/// Puts each slip into a new folder, in the first of the files that contains its text, and compares the messages.
 fn check_slips(slips: &str, count: usize, files: &[&str], prepare: impl Fn(&Folder)) {
     let slips = read_slips(slips);
     assert_eq!(slips.len(), count);

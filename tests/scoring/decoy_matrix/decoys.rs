@@ -1,11 +1,11 @@
-//! Blurs that are wrong in one way each, and some that are right.
+//! Blurs with one mistake each, and some correct ones.
 
 use frame::{Frame, Picture, Plane, Raster};
 use tests::synthetic::{Blur, EXPOSURE, Sampling, Scene, constant};
 
 use crate::{dilated, mix, shifted, smear};
 
-/// Samples of a render whose noise differs from the truth's.
+/// Samples of a render with other noise than the truth's.
 pub const APART: Sampling = Sampling {
     samples: 512,
     seed: Some(99),
@@ -89,7 +89,7 @@ pub fn map_planes(picture: &Picture, change: impl Fn(&Plane) -> Plane) -> Pictur
     }
 }
 
-/// Averages for each pixel what lies ahead along its own velocity, in 64 steps. Nothing is carried beyond an outline.
+/// Averages for each pixel what is ahead along its own velocity, in 64 steps. Nothing is carried beyond an outline.
 fn gather(frame: &Frame) -> Picture {
     let (width, height) = frame.size();
     let taps = |x: u32, y: u32| {

@@ -1,5 +1,4 @@
-//! Wrong blurs against the bounds that hold for all filters. On every scene each wrong blur breaks a bound, and the
-//! right ones break none.
+//! Wrong blurs against the bounds for all filters. On every scene each wrong blur breaks a bound, and the right ones break none.
 
 pub mod decoys;
 mod scenes;
@@ -39,7 +38,7 @@ fn score_decoys(scene: &Scene) -> Vec<(&'static str, Scores)> {
     rows
 }
 
-/// Scores that should see each decoy: the first one that applies to a scene must.
+/// Scores that should detect each decoy: the first one that applies to a scene must.
 const SEEN_BY: [(&str, &[&str]); 14] = [
     ("identity", &["misplacement", "label_tv"]),
     ("constant", &["bleed_lateral"]),
@@ -72,7 +71,7 @@ fn broken_bounds(scores: &Scores, bounds: &Bounds) -> Vec<String> {
 /// A scene, and for each decoy the bounds that it breaks there.
 type Column<'a> = (&'a str, Vec<(&'a str, Vec<String>)>);
 
-/// Formats the page's table: the bounds that each decoy breaks on all scenes, and those that it breaks on some, with how many.
+/// Formats the page's table: the bounds that each decoy breaks on all scenes, and those that it breaks on some, with their number.
 fn format_table(columns: &[Column]) -> String {
     let scenes = columns.len();
     let mut text =

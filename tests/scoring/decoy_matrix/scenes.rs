@@ -1,4 +1,4 @@
-//! Scenes by formula, for wrong blurs.
+//! Synthetic scenes for wrong blurs.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -10,7 +10,7 @@ fn scene(objects: Vec<Object>) -> Scene {
     crate::scene([112, 84], objects)
 }
 
-/// Makes scenes by name: a translation, a rotation, two crossing ways, thin things, and a mover between still things.
+/// Makes scenes by name: a translation, a rotation, two crossing paths, thin objects, and a mover between still objects.
 pub fn scenes() -> Vec<(&'static str, Scene)> {
     let still = [0.0, 0.0];
     let turning = Object {

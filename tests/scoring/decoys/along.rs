@@ -1,4 +1,4 @@
-//! Errors along the motion: length and place of the smear.
+//! Errors along the motion: length and position of the smear.
 
 use metrics::{Ideal, ImageMetric, Measured, Metric, Score};
 use tests::synthetic::Blur;

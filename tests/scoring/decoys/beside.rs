@@ -14,8 +14,8 @@ fn lateral_growth_equals_the_dilation_in_pixels() {
             let dilations = [0.5, 1.0, 2.0, 6.0];
             let found = case.score_blurs(dilations.map(dilated));
             for (scores, dilation) in found.iter().zip(dilations) {
-                // The silhouette's length is known to 2 % for a disc at any angle, and to 4 % for a bar: its gradients
-                // span two pixels. A hundredth of a pixel is gained inside.
+                // The silhouette's length is known to 2 % for a disc at any angle, and to 4 % for a bar: its gradients span two
+                // pixels. A hundredth of a pixel is gained inside.
                 let tolerance = match name {
                     "disc" => (0.01 + 0.02 * dilation).min(0.1),
                     _ => 0.04 * dilation,

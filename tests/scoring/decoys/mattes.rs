@@ -43,11 +43,11 @@ fn a_half_erased_bar_has_half_its_energy_and_half_a_hole() {
 
 #[test]
 fn label_total_variation_measures_the_time_of_wrong_objects() {
-    // A bar as long as its way, moving along itself: the visible time at each of its three places is known.
+    // A bar as long as its path, moving along itself: the visible time at each of its three positions is known.
     let case = Case::new(slide(bar([15.0, 8.0], 0.0), 0.0));
     let [scores] = case.score_blurs([Blur::IDENTITY]);
-    // Ahead and behind, the truth ramps over 30 px, and the instant covers one of the ramps. |a - a*| sums to 15 px
-    // ahead and to 15 px behind, over 16 rows. Half of it counts twice, for bar and background.
+    // Ahead and behind, the truth ramps over 30 px, and the instant covers one of the ramps. |a - a*| sums to 15 px ahead and to 15 px
+    // behind, over 16 rows. Half of it counts twice, for bar and background.
     let wrong = 16.0 * (15.0 + 15.0);
     let pixels = metrics::regions(&case.truth).moving.pixels;
     let region = pixels.iter().filter(|inside| **inside).count() as f64;

@@ -22,13 +22,13 @@ const ANGLES: [f64; 4] = [0.0, 30.0, 45.0, 90.0];
 /// over the angles here. A filter's bleed matters above 0.2 px.
 const ROWS: f64 = 0.05;
 
-/// Tolerance of sums of single-precision mattes with 512 samples, which geometry makes exactly 0.
+/// Tolerance of sums of single-precision mattes with 512 samples that are exactly 0 by geometry.
 const NOTHING: f64 = 1e-6;
 
 /// Scores of the mass that rows along the motion gain or lose.
 const ROW_MASS: [&str; 3] = ["lateral_growth", "row_gain", "row_loss"];
 
-/// Makes a shape whose smear has its middle a little off the picture's, and stays inside if it is too long or too late.
+/// Makes a shape with its smear's middle a little off the picture's, which stays inside if it is too long or too late.
 fn slide(shape: Shape, degrees: f64) -> Scene {
     let (sin, cos) = degrees.to_radians().sin_cos();
     let [right, down] = [cos, sin].map(|component| component * TRAVEL);
@@ -71,7 +71,7 @@ fn discs() -> impl Iterator<Item = (f64, &'static Case)> {
     ANGLES.into_iter().zip(DISCS.iter())
 }
 
-/// Expects scores above 1: pixels that nobody overlooks.
+/// Expects scores above 1: pixels that everybody notices.
 #[track_caller]
 fn assert_large(what: &str, scores: &Scores, names: &[&str]) {
     for name in names {

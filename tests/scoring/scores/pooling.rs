@@ -1,4 +1,4 @@
-//! Regions and maps that scores are pooled from.
+//! Regions and maps for pooling scores.
 
 use frame::Raster;
 use metrics::{Measured, Metric, ObjectMetric, Viewing, measure, regions};

@@ -7,10 +7,10 @@ use tests::synthetic::VIEWING;
 use super::{BESIDE, small_scene};
 use crate::clean_truth;
 
-/// What is wrong with what is given.
+/// A mistake in the input.
 type Change = fn(&mut Given);
 
-/// Everything that is measured.
+/// Input of a measurement.
 #[derive(Clone)]
 struct Given {
     output: Picture,

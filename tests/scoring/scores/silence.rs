@@ -1,4 +1,4 @@
-//! Scenes in which a score means nothing, and the reason that it gives.
+//! Scenes where a score means nothing, and its reason.
 
 use frame::Raster;
 use metrics::{Measured, ObjectMetric};
@@ -28,7 +28,7 @@ fn an_object_cut_off_by_the_border_has_no_row_scores_but_bleeds() {
     assert_eq!(find_value(&scores, "bleed_trailing"), 0.0);
 }
 
-/// Makes an arm that turns by so many radians while it travels, in place of the disc.
+/// Makes an arm that turns by `turn` radians while it travels, in place of the disc.
 fn turning_arm(turn: f64, travel: f64) -> Scene {
     let mut scene = small_scene(BESIDE);
     scene.objects[1] = Object {
@@ -66,7 +66,7 @@ fn turning_too_far_bleeds_ahead_of_the_local_motion() {
 fn an_object_behind_another_cannot_tell_growth_from_occlusion() {
     let scores = measure_blur(&small_scene(BEFORE), Blur::IDENTITY).scores;
     assert!(find_reason(&scores, "lateral_growth").contains("rows do not keep their mass"));
-    // Rows are normalised there: half of the way of 12 px, and the part that the bar hides of it.
+    // Rows are normalised there: half of the path of 12 px, and the part of it that the bar hides.
     assert!((find_value(&scores, "misplacement") - 6.0).abs() < 1.5);
 }
 

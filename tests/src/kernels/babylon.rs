@@ -20,7 +20,7 @@ pub fn babylon_trail(steady: &Steady) -> [f64; 2] {
     scaled(step, count)
 }
 
-/// Places the taps of the screen based mode, if the camera alone makes the motion: along all of it, from behind.
+/// Places the taps of the screen based mode, if only the camera moves: along all of the motion, from behind.
 pub fn by_camera(steady: &Steady) -> Vec<Tap> {
     let trail = steady.trail();
     let count = length(trail).clamp(1.0, SAMPLES).floor();
@@ -28,7 +28,7 @@ pub fn by_camera(steady: &Steady) -> Vec<Tap> {
     with_nearest(parts.map(|part| scaled(trail, part)))
 }
 
-/// Returns a vector of one pixel, and how many taps there are. Its direction is that of the motion in parts of width and
+/// Returns a vector of one pixel, and the number of taps. Its direction is the motion's in parts of width and
 /// height.
 fn steps(steady: &Steady) -> ([f64; 2], f64) {
     let [width, height] = steady.size();
@@ -42,14 +42,14 @@ fn steps(steady: &Steady) -> ([f64; 2], f64) {
     )
 }
 
-/// Returns what 8 bits leave of a part of width or height: its cube root is stored.
+/// Rounds a part of width or height to 8 bits of its cube root, as stored.
 fn packed(part: f64) -> f64 {
     let bits = ((0.5 * part.cbrt() + 0.5) * 255.0).round() / 255.0;
     (2.0 * bits - 1.0).powi(3)
 }
 
-/// Reads the pixel itself and the nearest ones to these offsets. Between two that are equally near, the last bit of a
-/// float decides: each counts half.
+/// Reads the pixel itself and the nearest ones to these offsets. Between two equally near ones, the last bit of a float decides: each
+/// counts half.
 fn with_nearest(offsets: impl Iterator<Item = [f64; 2]>) -> Vec<Tap> {
     let taps = offsets.flat_map(|[x, y]| {
         let [columns, rows] = [nearest_two(x), nearest_two(y)];

@@ -32,8 +32,8 @@ pub fn jump_flood(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     }
 }
 
-/// Returns the motion that is gathered along. It is cut at the largest step of the dilation, 32 pixels, or at twice
-/// that, both as parts of the picture's longer side and of a path in parts of width and height.
+/// Returns the motion for the gather. It is cut at the largest step of the dilation, 32 pixels, or at twice that, both as parts of the
+/// picture's longer side and of a path in parts of width and height.
 pub fn jump_flood_trail(preset: &str, steady: &Steady) -> [f64; 2] {
     let cut = match preset {
         "paper" | "tuned" => 32.0,
@@ -99,7 +99,7 @@ pub fn realism_effects(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
         _ => panic!("say here how long the trail of {preset} is"),
     };
     let trail = scaled(steady.trail(), strength);
-    // Together they fill the square, as two noises do that know nothing of each other.
+    // Together they fill the square, like two independent noises.
     let noises = [noise, (617.0 * noise).fract()];
     let taps = (0..=16).flat_map(|i| {
         let part = f64::from(i) / 16.0 - 0.5;

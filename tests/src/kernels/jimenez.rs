@@ -1,6 +1,6 @@
 //! Jimenez 2014 and the engines that follow it, from their sources.
 //!
-//! Where everything moves alike at one depth, weights are 1, except those of kajiya, which compare in pixels.
+//! If everything moves alike at one depth, weights are 1, except those of kajiya, which compare in pixels.
 
 use super::{Steady, Tap, bilinear, on_trail, own};
 use crate::vector::{length, scaled};
@@ -26,7 +26,7 @@ pub fn place_taps(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     }
 }
 
-/// Places eight pairs in the middles of steps, a quarter of a step to and fro in turn between pixels.
+/// Places eight pairs in the middles of steps, shifted by a quarter of a step to and fro, alternating between pixels.
 fn slides(steady: &Steady, noise: f64) -> Vec<Tap> {
     let shift = if noise < 0.5 { -0.25 } else { 0.25 };
     let sides = (0..8).flat_map(|i| [0.5 + f64::from(i) + shift, -0.5 - f64::from(i) - shift]);
@@ -56,7 +56,7 @@ fn hdrp(steady: &Steady, noise: f64) -> Vec<Tap> {
         .collect()
 }
 
-/// Places the taps of MotionBlur.azsl of O3DE at quality High, whose offsets are cut to whole pixels.
+/// Places the taps of MotionBlur.azsl of O3DE at quality High, with offsets cut to whole pixels.
 fn o3de(steady: &Steady, strength: f64, noise: f64) -> Vec<Tap> {
     let motion = scaled(steady.trail(), strength);
     if length(motion) < 1.0 {
@@ -74,7 +74,7 @@ fn o3de(steady: &Steady, strength: f64, noise: f64) -> Vec<Tap> {
         .collect()
 }
 
-/// Places the taps of motionblurCS.hlsl of Wicked Engine: 16 from end to end of a trail that noise scales.
+/// Places the taps of motionblurCS.hlsl of Wicked Engine: 16 from end to end of a trail scaled by noise.
 fn wicked(half: [f64; 2], noise: f64) -> Vec<Tap> {
     let steps = (0..16).map(|i| f64::from(i) - 7.5);
     steps

@@ -1,6 +1,6 @@
 //! Filters that weight taps by a cone and a cylinder.
 //!
-//! Where everything moves alike at one depth, every tap is both in front and behind: two cones and two cylinders.
+//! If everything moves alike at one depth, every tap is both in front and behind: two cones and two cylinders.
 
 use super::{Steady, Tap, bilinear, nearest, own};
 use crate::vector::{length, scaled};

@@ -12,9 +12,9 @@ pub use operator::Operator;
 pub struct Mutant {
     /// Kind of the change.
     pub operator: Operator,
-    /// Bytes of the text that are replaced.
+    /// Range of replaced bytes.
     pub place: Range<usize>,
-    /// Text in their place.
+    /// The replacement.
     pub replacement: String,
 }
 
@@ -32,7 +32,7 @@ impl Mutant {
         format!("{before}{}{after}", self.replacement)
     }
 
-    /// Describes the change by its line and column: `12:9 "0.5" becomes "1.0"`. No two mutants of a text have one description.
+    /// Describes the change by its line and column: `12:9 "0.5" becomes "1.0"`. No two mutants of a text have the same description.
     pub fn describe(&self, kernels: &str) -> String {
         let before = &kernels[..self.place.start];
         let line = before.matches('\n').count() + 1;
@@ -46,7 +46,7 @@ impl Mutant {
         format!("{line}:{column} \"{}\" {becomes}", replaced.join(" "))
     }
 
-    /// Returns the whole line that the change begins in, without the space around it.
+    /// Returns the trimmed line where the change begins.
     pub fn line<'t>(&self, kernels: &'t str) -> &'t str {
         let start = kernels[..self.place.start]
             .rfind('\n')
@@ -55,12 +55,12 @@ impl Mutant {
     }
 }
 
-/// Chooses up to `count` mutants: as many of each operator, or all that it has, spread evenly over the text.
+/// Chooses up to `count` mutants: equally many of each operator, or all that it has, spread evenly over the text.
 pub fn choose_mutants(all: &[Mutant], count: usize) -> Vec<Mutant> {
     let mut groups: Vec<Vec<&Mutant>> = (Operator::ALL.into_iter())
         .map(|operator| (all.iter().filter(|mutant| mutant.operator == operator)).collect())
         .collect();
-    // The smallest groups first: what they cannot give is left to the larger ones.
+    // The smallest groups first: what they lack is left to the larger ones.
     groups.sort_by_key(Vec::len);
     let mut left = count;
     let mut chosen = Vec::new();
@@ -120,7 +120,7 @@ mod tests {
             Operator::ALL.map(|operator| own(operator).count())
         };
         assert_eq!(counts(12), [2, 2, 2, 2, 2, 2]);
-        // Only 2 functions are there.
+        // There are only 2 functions.
         assert_eq!(counts(19), [4, 3, 4, 3, 2, 3]);
         let constants = choose_mutants(&all, 12);
         let picked = [&all[0], &all[5]];

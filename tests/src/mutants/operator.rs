@@ -1,11 +1,11 @@
-//! Operators: the ways in which a mutant changes kernels.
+//! Operators: the kinds of changes that mutants make to kernels.
 
 use std::ops::Range;
 
 use super::Mutant;
 use super::tokens::{Kind, Token};
 
-/// A way in which a mutant changes kernels.
+/// A kind of change that mutants make to kernels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Operator {
     /// A number doubled or halved; a whole number one larger or smaller.
@@ -22,7 +22,7 @@ pub enum Operator {
     Statement,
 }
 
-/// Signs, comparisons and functions, and what they become.
+/// Signs, comparisons and functions, with their replacements.
 #[rustfmt::skip]
 const SIGNS: [(&str, &[&str]); 8] = [
     ("+", &["-"]), ("-", &["+"]), ("*", &["/"]), ("/", &["*"]),
@@ -89,7 +89,7 @@ impl Operator {
         }
     }
 
-    /// Lists what a token becomes.
+    /// Lists the replacements of a token.
     fn replacements(self, before: &[Token], token: &Token) -> Vec<String> {
         let text = token.text;
         let is_component = before.last().is_some_and(|last| last.text == ".");
@@ -110,7 +110,7 @@ impl Operator {
     }
 }
 
-/// Tells whether a minus behind these tokens stands in front of a value, and not between two.
+/// Returns whether a minus after these tokens is in front of a value, and not between two.
 fn is_prefix(before: &[Token]) -> bool {
     before.last().is_none_or(|last| match last.kind {
         Kind::Number => false,
@@ -149,7 +149,7 @@ fn split_suffix<'t>(text: &'t str, suffixes: &[char]) -> (&'t str, &'t str) {
     text.split_at(digits.len())
 }
 
-/// Exchanges `x` and `y`, takes `x` for `z` and `w`, and turns the order of several round.
+/// Exchanges `x` and `y`, replaces `z` and `w` with `x`, and reverses the order of several.
 fn swap_components(text: &str) -> Vec<String> {
     let is_component = |sign| matches!(sign, 'x' | 'y' | 'z' | 'w');
     if text.len() > 4 || !text.chars().all(is_component) {

@@ -28,7 +28,7 @@ const LONG_SIGNS: [&str; 20] = [
     ">=", "&&", "||", "->", "<<",
 ];
 
-/// Splits a text into its tokens. Leaves out comments, attributes, and lists such as `<f32>`, which begin right behind a word.
+/// Splits a text into its tokens. Leaves out comments, attributes, and lists such as `<f32>`, which begin directly after a word.
 pub fn split(text: &str) -> Vec<Token<'_>> {
     let mut tokens: Vec<Token> = Vec::new();
     let mut start = 0;
@@ -98,7 +98,7 @@ fn attribute_length(rest: &str) -> usize {
     }
 }
 
-/// Measures what begins with an opening bracket, up to the bracket that closes it.
+/// Measures a text that begins with an opening bracket, up to its closing bracket.
 fn bracketed_length(rest: &str, [open, close]: [char; 2]) -> usize {
     let mut depth = 0;
     let end = rest.find(|sign| {

@@ -7,7 +7,7 @@ use crate::vector::{direction, dot, length};
 pub enum Shape {
     /// A disc of this radius, in pixels.
     Disc(f64),
-    /// A rectangle of these half sides, in pixels, the first one turned by `tilt` radians from +x.
+    /// A rectangle of these half sides, in pixels; the first one is turned by `tilt` radians from +x.
     Bar {
         /// Half lengths along and across its axis.
         half: [f64; 2],
@@ -84,7 +84,7 @@ impl Object {
     }
 }
 
-/// An object with what all samples of a blur have in common.
+/// An object with everything that all samples of a blur share.
 pub(crate) struct Posed {
     object: Object,
     blur: Blur,

@@ -1,4 +1,4 @@
-//! Arguments on the frame rates that scenes are taken at.
+//! Arguments for the frame rates of scenes.
 
 use clap::Args;
 use suite::Error;
@@ -22,7 +22,7 @@ pub struct FrameRateArgs {
 }
 
 impl FrameRateArgs {
-    /// Lists the frame rates, without that of the scenes' files: those of a shutter in frames, then those of each shutter time.
+    /// Lists the frame rates, except the scene files' own: first with the shutter in frames, then with each shutter time.
     fn list(&self) -> Result<Vec<FrameRate>, Error> {
         if let Some(rate) = find_twin(&self.frame_rate) {
             refuse!("--frame-rate: {rate} is named twice; allowed: each once");
@@ -45,7 +45,7 @@ impl FrameRateArgs {
         Ok(all.filter(|rate| *rate != FrameRate::WRITTEN).collect())
     }
 
-    /// Adds each scene at each of the frame rates behind the scene itself. Without names, that is every scene.
+    /// Adds each scene at each frame rate, after the scene itself. Without names, adds every scene.
     pub fn add_to(&self, names: Vec<String>) -> Result<Vec<String>, Error> {
         let rates = self.list()?;
         if rates.is_empty() {
@@ -77,7 +77,7 @@ fn parse_frame_rate(text: &str) -> Result<f64, String> {
     })
 }
 
-/// Parses `1/48` as 48, the number of such times in a second.
+/// Parses a shutter time: `1/48` is 48, the number of such times in a second.
 fn parse_shutter_time(text: &str) -> Result<f64, String> {
     let is_allowed = |count| (SLOWEST_SHUTTER..=FASTEST_SHUTTER).contains(&count);
     parse_number(

@@ -5,7 +5,7 @@ use suite::InputFormat;
 
 use crate::selection::suggest_names;
 
-/// Forms to try on every filter beside the full one.
+/// Forms to try on every filter in addition to the full one.
 #[derive(Clone, Debug, Args)]
 pub struct InputFormArgs {
     /// Form of the input to try on every filter, in addition to the full one: velocity=float16. Repeatable; each form is tried alone;
@@ -19,7 +19,7 @@ pub struct InputFormArgs {
 pub struct InputForms(Vec<InputFormat>);
 
 impl InputFormArgs {
-    /// Lists the full form, and then each of the others alone, so that a change of scores has one cause.
+    /// Lists the full form, then each of the others alone, so that each change of scores has one cause.
     pub fn one_by_one(&self) -> Vec<InputFormat> {
         let mut formats = vec![InputFormat::default()];
         for format in self.input.iter().flat_map(|forms| &forms.0) {

@@ -10,12 +10,12 @@ use suite::{MAX_FRAMES, SIDES};
 use tracer::{MAX_SAMPLES, RenderSettings};
 use tune::Objective;
 
-/// Number of replicates, or a part of them.
+/// Number of replicates, or a range of them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Replicates {
-    /// All replicates of a truth, by their number.
+    /// All replicates of a truth: their number.
     All(u32),
-    /// Some replicates, by their indices.
+    /// Some replicates: their indices.
     Part(Range<u32>),
 }
 
@@ -55,7 +55,7 @@ pub fn frame_count() -> RangedU64ValueParser<u32> {
     within(1..=u64::from(MAX_FRAMES))
 }
 
-/// Parses an exposure that a shutter can have.
+/// Parses an exposure within the limits of a shutter.
 pub fn parse_exposure(text: &str) -> Result<f64, String> {
     let exposure = text
         .parse()
@@ -71,7 +71,7 @@ pub fn parse_samples(text: &str) -> Result<u32, String> {
     let samples: u32 = text
         .parse()
         .map_err(|error: ParseIntError| error.to_string())?;
-    // A frame has as many samples as all replicates of a truth.
+    // A frame has as many samples as all replicates of a truth together.
     let (each, most) = (samples / replicates, MAX_SAMPLES / replicates);
     if each.is_power_of_two() && each <= most && each * replicates == samples {
         return Ok(samples);
@@ -82,7 +82,7 @@ pub fn parse_samples(text: &str) -> Result<u32, String> {
     ))
 }
 
-/// Parses a number of replicates that make two equal halves.
+/// Parses an even number of replicates.
 pub fn parse_even(text: &str) -> Result<u32, String> {
     let count = text.parse().ok().filter(|count| is_even(*count));
     count.ok_or_else(|| format!("allowed: even numbers from 2 to {MAX_REPLICATES}, such as 8"))
@@ -92,7 +92,7 @@ fn is_even(replicates: u32) -> bool {
     (2..=MAX_REPLICATES).contains(&replicates) && replicates.is_multiple_of(2)
 }
 
-/// Parses a number that `is_allowed` allows; anything else is refused with what is allowed.
+/// Parses a number that `is_allowed` allows; refuses others with a message of what is allowed.
 pub fn parse_number(
     text: &str,
     is_allowed: impl Fn(f64) -> bool,
@@ -102,7 +102,7 @@ pub fn parse_number(
     number.ok_or_else(|| format!("allowed: {}", allowed()))
 }
 
-/// Parses a number above 0 and up to another one.
+/// Parses a number above 0 and at most `most`.
 pub fn above_zero(most: f64) -> impl Fn(&str) -> Result<f64, String> + Clone {
     move |text| {
         let is_allowed = |number| number > 0.0 && number <= most;
@@ -124,7 +124,7 @@ pub fn parse_size(text: &str) -> Result<(u32, u32), String> {
     })
 }
 
-/// Parses `8` as all eight, `3..6` as the replicates 3, 4 and 5.
+/// Parses `8` as all eight, or `3..6` as the replicates 3, 4 and 5.
 pub fn parse_replicates(text: &str) -> Result<Replicates, String> {
     let number = |text: &str| (text.parse().ok()).filter(|number| *number <= MAX_REPLICATES);
     let parsed = match text.split_once("..") {
@@ -144,7 +144,7 @@ pub fn parse_replicates(text: &str) -> Result<Replicates, String> {
     })
 }
 
-/// Parses a pattern as shells have it.
+/// Parses a shell pattern.
 pub fn parse_glob(text: &str) -> Result<glob::Pattern, String> {
     glob::Pattern::new(text)
         .map_err(|error| format!("{error}; allowed: a pattern such as 'fan/*' or '*/jump_flood:*'"))

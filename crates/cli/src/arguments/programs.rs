@@ -1,4 +1,4 @@
-//! What filters run on: the adapter, and programs of their own.
+//! What filters run on: an adapter, or programs of their own.
 
 use clap::Args;
 
@@ -14,7 +14,7 @@ pub struct ProgramArgs {
 }
 
 impl ProgramArgs {
-    /// Makes the permission for selecting filters.
+    /// Returns the permission for selecting filters.
     pub fn programs(self) -> Programs {
         match self.allow_commands {
             true => Programs::Allowed,

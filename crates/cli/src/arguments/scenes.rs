@@ -71,7 +71,7 @@ pub struct SceneArgs {
 }
 
 impl SceneArgs {
-    /// Names the scenes, each in its sealed variant where --seal asks for one, and at the frame rates that are asked for.
+    /// Names the scenes: sealed if --seal is given, and at the requested frame rates.
     pub fn names(&self) -> Result<Vec<String>, Error> {
         let names = self.rates.add_to(self.variant_names()?)?;
         let has_shutter_time = |name: &&String| {

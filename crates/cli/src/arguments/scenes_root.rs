@@ -6,7 +6,7 @@ use clap::Args;
 use clap::builder::{PathBufValueParser, TypedValueParser};
 use tracer::Location;
 
-/// Folder that holds the scenes where no other is named.
+/// Default folder of scenes.
 const DEFAULT: &str = "scenes";
 
 /// Choice of the folder of scenes.
@@ -18,7 +18,7 @@ pub struct RootArgs {
     pub scenes_dir: Location,
 }
 
-/// Finds the folder of scenes where none is named: `scenes`, or the program's own where there is no such folder.
+/// Finds the default folder of scenes: `scenes`, or the program's own if there is no such folder.
 fn default_scenes_root() -> Location {
     let folder = PathBuf::from(DEFAULT);
     match folder.exists() {
@@ -27,7 +27,7 @@ fn default_scenes_root() -> Location {
     }
 }
 
-/// Finds the folder that `--scenes-dir` names: the program's own scenes, or any folder by its path.
+/// Finds the folder that `--scenes-dir` names: the program's own scenes, or a path.
 fn scenes_root(path: PathBuf) -> Location {
     match path.to_str() == Some(catalogue::SCENES.name) {
         true => Location::of_bundle(&catalogue::SCENES),

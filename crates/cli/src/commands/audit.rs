@@ -35,7 +35,7 @@ pub struct AuditArgs {
     pub json: bool,
 }
 
-/// Compares what an engine drew with the scene; fails if anything is wrong, and decides nothing if the engine shows something else.
+/// Compares what an engine drew with the scene; fails if anything is wrong, and is undecided if the engine drew something else.
 pub fn execute(args: &AuditArgs) -> Result<Ending, Error> {
     let capture = Capture::read(&args.capture, args.convention.as_deref())?;
     for note in &capture.notes {

@@ -50,7 +50,7 @@ pub struct BenchArgs {
     pub json: bool,
 }
 
-/// Time to run a filter on a pixel by llvmpipe on two cores, in seconds: the built-in filters' mean at 320x180.
+/// Time that llvmpipe on two cores needs to filter a pixel, in seconds: the built-in filters' mean at 320x180.
 const SECONDS_PER_PIXEL: f64 = 1.4e-6;
 
 /// Times the selected filters, writes `bench.json`, prints the tables.
@@ -81,7 +81,7 @@ pub fn execute(args: &BenchArgs) -> Result<(), Error> {
     write_result(&path, &done, &bench_table(&done), args.json)
 }
 
-/// Prints the expected time of a bench. On a graphics card it is short.
+/// Prints the expected time of a bench. It is short on a graphics card.
 fn print_expected_bench(plan: &BenchPlan, gpu: &Gpu) {
     if gpu.adapter.kind == "software" {
         let pixels = plan.count_runs() * u64::from(plan.width) * u64::from(plan.height);

@@ -1,6 +1,6 @@
 //! The command `engine blur`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use filters::{Convention, FilterError, Gpu, Input};
@@ -31,7 +31,8 @@ pub struct BlurArgs {
     /// picture's].
     #[arg(long)]
     pub as_written: bool,
-    /// OpenEXR file with the channels R G B, Z, velocity.X, velocity.Y. With --frames the first frame's file, as `run` and `truths render`
+    /// OpenEXR file with the channels R G B, Z, velocity.X, velocity.Y, and velocity_next.X, velocity_next.Y, velocity_z for filters
+    /// that read them. With --frames the first frame's file, as `run` and `truths render`
     /// write it, or a folder of 0000.exr, 0001.exr and so on.
     #[arg(long, value_name = "FILE|DIR")]
     pub frame: PathBuf,
@@ -61,7 +62,7 @@ pub struct BlurArgs {
     pub adapter: AdapterArgs,
 }
 
-/// Runs one filter on one frame file, or on those of a sequence, and writes its colours.
+/// Runs one filter on a frame file or a sequence of them, and writes its colours.
 pub fn execute(args: &BlurArgs) -> Result<(), Error> {
     let out = choose_out(args)?;
     check_frame_numbers(args)?;
@@ -78,7 +79,7 @@ pub fn execute(args: &BlurArgs) -> Result<(), Error> {
     let gpu = open_gpu(std::slice::from_ref(&choice), adapter, monitor)?;
     let mut runner = Runner::new(gpu.as_ref(), &choice, size, monitor)?;
     let first_path = first.path.clone();
-    // The first frame stands in for the one before it.
+    // The first frame has no previous one; it serves as its own.
     let mut before = first;
     for frame in 0..args.frames {
         let own = match frame {
@@ -90,16 +91,7 @@ pub fn execute(args: &BlurArgs) -> Result<(), Error> {
             )?),
         };
         let now = own.as_ref().unwrap_or(&before);
-        let (width, height) = (now.color.width, now.color.height);
-        if (width, height) != size {
-            refuse!(
-                "{}: has {width}x{height} pixels, {} has {}x{}; the frames of a sequence have one size",
-                now.path.display(),
-                first_path.display(),
-                size.0,
-                size.1
-            );
-        }
+        check_same_size(now, &first_path, size)?;
         let index = args.frame_index + frame;
         let colors = [[&now.color], [&before.color]];
         let input = now.input(&colors[0], index);
@@ -127,6 +119,21 @@ pub fn execute(args: &BlurArgs) -> Result<(), Error> {
     Ok(())
 }
 
+/// Refuses a frame of another size than the first.
+fn check_same_size(now: &Buffers, first: &Path, size: (u32, u32)) -> Result<(), Error> {
+    let (width, height) = (now.color.width, now.color.height);
+    if (width, height) != size {
+        refuse!(
+            "{}: has {width}x{height} pixels, {} has {}x{}; the frames of a sequence have one size",
+            now.path.display(),
+            first.display(),
+            size.0,
+            size.1
+        );
+    }
+    Ok(())
+}
+
 /// Refuses frames whose numbers would pass the largest one.
 fn check_frame_numbers(args: &BlurArgs) -> Result<(), Error> {
     let last = u32::MAX - (args.frames - 1);
@@ -140,7 +147,7 @@ fn check_frame_numbers(args: &BlurArgs) -> Result<(), Error> {
     Ok(())
 }
 
-/// Makes a file without a picture that says what blurred it.
+/// Makes a file without a picture that records what blurred it.
 fn describe_picture(choice: &FilterChoice, gpu: Option<&Gpu>, size: (u32, u32)) -> ExrFile {
     let mut file = ExrFile::new(size.0, size.1);
     file.set("kind", "output");
@@ -153,7 +160,7 @@ fn describe_picture(choice: &FilterChoice, gpu: Option<&Gpu>, size: (u32, u32)) 
     file
 }
 
-/// Chooses the picture to write, or the folder for those of a sequence.
+/// Chooses the picture to write, or the folder for a sequence.
 fn choose_out(args: &BlurArgs) -> Result<PathBuf, Error> {
     let (frames, is_one) = (args.frames, args.frames == 1);
     let default = if is_one {
@@ -171,7 +178,7 @@ fn choose_out(args: &BlurArgs) -> Result<PathBuf, Error> {
     Ok(out)
 }
 
-/// Names the file of a frame.
+/// Names a frame's file.
 fn frame_file(args: &BlurArgs, frame: u32) -> PathBuf {
     match args.frames {
         1 => args.frame.clone(),
@@ -180,11 +187,13 @@ fn frame_file(args: &BlurArgs, frame: u32) -> PathBuf {
     }
 }
 
-/// Buffers of a frame file that a filter needs. Any OpenEXR file with these channels will do.
+/// Buffers of a frame file for a filter. Any OpenEXR file with these channels will do.
 struct Buffers {
     path: PathBuf,
     color: Image,
     velocity: Vectors,
+    velocity_next: Option<Vectors>,
+    velocity_z: Option<Plane>,
     depth: Plane,
     reprojection: Option<Reprojection>,
     camera: Option<Camera>,
@@ -194,7 +203,7 @@ struct Buffers {
 }
 
 impl Buffers {
-    /// Reads the buffers, and converts them from the convention of their engine.
+    /// Reads the buffers, and converts them from their engine's convention.
     fn read(path: PathBuf, exposure: Option<f64>, convention: &Convention) -> Result<Self, Error> {
         let file = read_exr(&path)?;
         let has = |attribute| file.attributes.contains_key(attribute);
@@ -203,9 +212,7 @@ impl Buffers {
         } else {
             0
         };
-        let velocity = file
-            .plane("velocity.X")?
-            .zip(&file.plane("velocity.Y")?, |x, y| [*x, *y]);
+        let next = file.optional("velocity_next.X", || file.vectors("velocity_next"))?;
         let exposure = match exposure {
             Some(exposure) => exposure,
             None if has("exposure") => file.get("exposure")?,
@@ -222,7 +229,9 @@ impl Buffers {
         };
         Ok(Self {
             color: convention.restore_color(&file.color("")?),
-            velocity: convention.restore_velocity(&velocity, exposure),
+            velocity: convention.restore_velocity(&file.vectors("velocity")?, exposure),
+            velocity_next: next.map(|next| convention.restore_velocity(&next, exposure)),
+            velocity_z: file.optional("velocity_z", || file.plane("velocity_z"))?,
             depth: convention.restore_depth(&file.plane("Z")?),
             reprojection,
             camera: Camera::from_exr(&file)?,
@@ -238,6 +247,8 @@ impl Buffers {
         Input {
             color,
             velocity: &self.velocity,
+            velocity_next: self.velocity_next.as_ref(),
+            velocity_z: self.velocity_z.as_ref(),
             depth: &self.depth,
             reprojection: self.reprojection,
             camera: self.camera,

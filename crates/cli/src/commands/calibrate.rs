@@ -38,7 +38,7 @@ pub struct CalibrateArgs {
     pub metrics: Vec<Metric>,
 }
 
-/// Runs once per seed and adapter, and prints the limits that follow as one bounds.toml per scene.
+/// Runs once per seed and adapter, and prints the resulting limits as one bounds.toml per scene.
 pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
     let out = &args.measure.scenes.out;
     let (mut plan, bounds) = make_plan(&args.measure, out.clone())?;
@@ -53,7 +53,7 @@ pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
     plan.frames = args.sequence.frames();
     plan.intervals = true;
     plan.check()?;
-    // No limit is on a filter's noise apart from its error.
+    // Filter noise has no limit of its own.
     plan.jitter_frames = 0;
     plan.ladders = match args.metrics.as_slice() {
         [] => bound_subframes(bounds.values(), &plan.filters),
@@ -72,7 +72,7 @@ pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
         named => named.iter().map(|name| Some(name.as_str())).collect(),
     };
     let count = adapters.len() * args.runs as usize;
-    // None of them was made before.
+    // Assumes that nothing is cached.
     let one = estimate_run(&plan, None);
     print_expected_time(
         one.seconds * count as f64,
@@ -92,7 +92,7 @@ pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
     Ok(())
 }
 
-/// Refuses metrics of sequences where single frames are measured.
+/// Refuses metrics of sequences if single frames are measured.
 fn refuse_single_frames(args: &CalibrateArgs) -> Result<(), Error> {
     let is_of_sequence = |metric: &&Metric| matches!(metric, Metric::Sequence(_));
     match args.metrics.iter().find(is_of_sequence) {
@@ -104,7 +104,7 @@ fn refuse_single_frames(args: &CalibrateArgs) -> Result<(), Error> {
     }
 }
 
-/// Lists the seeds of a calibration's runs. Refuses a first one that leaves none for the last run.
+/// Lists the seeds of a calibration's runs. Refuses a first seed so large that the last run would have none.
 pub fn list_seeds(first: u64, runs: u32) -> Result<Range<u64>, Error> {
     match first.checked_add(u64::from(runs)) {
         Some(end) => Ok(first..end),
@@ -129,13 +129,13 @@ fn run_all(
     for adapter in adapters {
         let gpu = open_gpu(&plan.filters, *adapter, plan.monitor)?;
         for seed in seeds.clone() {
-            // A run that is interrupted says so itself.
+            // An interrupted run reports that itself.
             let _ = watch(Progress {
                 done: runs.len() as u64,
                 total,
             });
             plan.render.seed = seed;
-            // The truths serve every adapter.
+            // All adapters share the truths.
             plan.out = args.measure.scenes.out.join(format!("seed_{seed}"));
             let _lock = lock_out(plan)?;
             plan.truths.clone_from(&truths);

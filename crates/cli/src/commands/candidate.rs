@@ -1,4 +1,4 @@
-//! Candidates of tunings: a filter, and the rendered scenes that it is scored on.
+//! Candidates of tunings: a filter, and the rendered scenes to score it on.
 
 use filters::Gpu;
 use judge::SceneBounds;
@@ -14,7 +14,7 @@ use crate::output::{count_text, make_monitor};
 use crate::selection::select_filters;
 
 impl CandidateArgs {
-    /// Selects the filter with the preset to start from, for pictures of the size that is asked for.
+    /// Selects the filter with its start preset, for the requested picture size.
     pub fn select(&self) -> Result<FilterChoice, Error> {
         let names = [self.filter.clone()];
         let preset = self.from.as_deref();
@@ -22,27 +22,27 @@ impl CandidateArgs {
         Ok(choice.as_written(self.as_written).scaled_to(self.size.0))
     }
 
-    /// Loads the scenes, with their bounds for pictures of the size that is asked for.
+    /// Loads the scenes, with their bounds for the requested picture size.
     pub fn load_scenes(&self) -> Result<Vec<(Scene, SceneBounds)>, Error> {
         let SceneArgs { root, .. } = &self.scenes;
         load_scenes(&root.scenes_dir, &self.scenes.names()?, Some(self.size))
     }
 
-    /// Makes the settings that scenes are rendered by.
+    /// Returns the render settings of scenes.
     pub fn render_settings(&self) -> RenderSettings {
         let replicates = RenderSettings::default().replicates;
         self.scenes.render_settings(self.size, replicates)
     }
 
-    /// Opens the adapter, where the filter needs one.
+    /// Opens the adapter, if the filter needs one.
     pub fn open_gpu(&self, choice: &FilterChoice) -> Result<Option<Gpu>, Error> {
         let adapter = self.adapter.adapter.as_deref();
         let filters = std::slice::from_ref(choice);
         Ok(open_gpu(filters, adapter, make_monitor())?)
     }
 
-    /// Renders the scenes, or reads them back, and scores candidates on them. If their number is known, says how long that takes,
-    /// and keeps other processes from the folder meanwhile; otherwise others may share it.
+    /// Renders or reads the scenes, and scores candidates on them. If the number of candidates is known, prints the expected time and locks
+    /// the folder meanwhile; otherwise other processes may share it.
     pub fn score<T>(
         &self,
         choice: &FilterChoice,
@@ -62,17 +62,16 @@ impl CandidateArgs {
         };
         let SceneArgs { out, .. } = &self.scenes;
         let locked = lock_folder(out, scenes.iter().map(|(scene, _)| scene), sharing)?;
-        let alignment = choice.filter.alignment;
-        let rendered = render_scenes(&scenes, alignment, &render, out, make_monitor())?;
-        // Who shares the folder has read all of it.
+        let filter = &choice.filter;
+        let rendered = render_scenes(&scenes, filter, &render, out, make_monitor())?;
+        // A process that shares the folder has finished reading it.
         let _lock = candidates.is_some().then_some(locked);
         let mut evaluator = Evaluator::new(gpu.as_ref(), choice, &rendered, bleed, make_monitor())?;
         work(&mut evaluator)
     }
 }
 
-/// Prints the expected time of scoring a number of candidates on scenes that are not rendered yet. Scoring ends after `limit`
-/// seconds.
+/// Prints the expected time of scoring candidates on scenes that are not rendered yet. Scoring ends after `limit` seconds.
 pub fn print_expected_scoring(
     scenes: &[(Scene, SceneBounds)],
     render: &RenderSettings,

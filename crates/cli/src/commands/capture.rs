@@ -1,4 +1,4 @@
-//! What an engine made: the folder and the scene of a capture, and the convention of its files.
+//! Captures of an engine: folder, scene, and convention of the files.
 
 use std::path::{Path, PathBuf};
 
@@ -9,7 +9,7 @@ use tracer::{Location, Scene};
 
 use crate::selection::select_scenes;
 
-/// Names the folder to write: the given one, or one below a default, called as the capture's own.
+/// Names the folder to write: the given one, or one below a default with the capture's name.
 pub fn name_folder(capture: &Path, out: Option<&PathBuf>, below: &str) -> Result<PathBuf, Error> {
     let capture =
         (capture.canonicalize()).map_err(|source| frame::FileError::io(capture, "read", source))?;
@@ -28,7 +28,7 @@ pub fn load_drawn_scene(scenes: &Location, name: &str) -> Result<Scene, Error> {
     }
 }
 
-/// Reads the convention of an engine; that of frames if no file is named.
+/// Reads an engine's convention, or the convention of frames if no file is named.
 pub fn read_convention(path: Option<&Path>) -> Result<Convention, Error> {
     match path {
         None => Ok(Convention::default()),

@@ -22,7 +22,7 @@ use crate::arguments::{AdapterArgs, MeasureArgs, SequenceArgs};
 use crate::output::{is_verbose, print, print_json, print_note};
 use crate::tables::{adapter_text, annotations, check_text, junit, summary, verdict_text};
 
-/// Names the arguments that only a check that measures may have.
+/// Lists the arguments that only a measuring check may have.
 fn list_measuring() -> Vec<Id> {
     let all = MeasureArgs::augment_args(Command::new("check"));
     let all = AdapterArgs::augment_args(SequenceArgs::augment_args(all));
@@ -65,8 +65,8 @@ pub struct CheckArgs {
     pub json: bool,
 }
 
-/// Judges a run, made now or finished before, and reports in every form that is asked for. Refuses wrong arguments, bounds and
-/// baselines before anything is rendered.
+/// Judges a run, made now or finished before, and reports in every requested form. Refuses wrong arguments, bounds and baselines before
+/// anything is rendered.
 pub fn execute(args: &CheckArgs) -> Result<Ending, Error> {
     refuse_folder("--html", args.html.as_ref())?;
     refuse_folder("--junit", args.junit.as_ref())?;
@@ -124,13 +124,13 @@ pub fn execute(args: &CheckArgs) -> Result<Ending, Error> {
     }
     match checked.verdict() {
         Ok(()) => Ok(Ending::Done),
-        // Nothing but the exit code and standard error tells it beside JSON.
+        // With JSON, only the exit code and standard error report it.
         Err(error) if args.json => Err(error),
         Err(error) => Ok(Ending::Failed(error)),
     }
 }
 
-/// A run, the findings about it, its pages, and the folder of its files.
+/// A run, its findings, its pages, and the folder of its files.
 struct Judged {
     run: Run,
     findings: Vec<Finding>,
@@ -138,8 +138,8 @@ struct Judged {
     folder: PathBuf,
 }
 
-/// Measures every case, as `run` does, judges it and looks for evidence. Ladders take a quarter of the time, and are left out where
-/// nothing is judged by them.
+/// Measures every case as `run` does, judges it and looks for evidence. Ladders, which need a quarter of the time, are left out unless
+/// something is judged by them.
 fn run_and_judge(args: &CheckArgs, compared: bool, margins: &Margins) -> Result<Judged, Error> {
     let (mut plan, bounds) = make_plan(&args.measure, args.measure.scenes.out.clone())?;
     let asked = args.measure.size;
@@ -154,7 +154,7 @@ fn run_and_judge(args: &CheckArgs, compared: bool, margins: &Margins) -> Result<
         || (margins.keys()).any(|metric| matches!(metric, Metric::Equivalent(_)));
     let root = &args.measure.scenes.root.scenes_dir;
     check_names(root, bounds.values(), &plan.filters)?;
-    // With a baseline, nothing else need be bounded.
+    // With a baseline, no bound is required.
     if !compared {
         require_bounds(root, bounds.iter(), &plan.filters, plan.frames)?;
     }
@@ -184,7 +184,7 @@ fn run_and_judge(args: &CheckArgs, compared: bool, margins: &Margins) -> Result<
     })
 }
 
-/// Judges a finished run by the bounds beside its scenes: nothing is rendered, and no adapter is opened.
+/// Judges a finished run by its scenes' bounds; renders nothing and opens no adapter.
 fn judge_finished(args: &CheckArgs, path: &Path, compared: bool) -> Result<Judged, Error> {
     let side = StoredRun::read(path)?;
     let folder = match side.folder() {
@@ -220,7 +220,7 @@ fn judge_finished(args: &CheckArgs, path: &Path, compared: bool) -> Result<Judge
     })
 }
 
-/// Reads the bounds of a run's scenes, for pictures of the run's size, from the folder of scenes.
+/// Reads the bounds of a run's scenes, for the run's picture size, from the folder of scenes.
 fn read_run_bounds(run: &Run, root: &Location) -> Result<RunBounds, Error> {
     let mut bounds = RunBounds::new();
     add_bounds(&mut bounds, run, root)?;
@@ -248,7 +248,7 @@ fn find_summary_file() -> Result<PathBuf, Error> {
     }
 }
 
-/// Adds to a step's summary, which other programs may have written to as well.
+/// Appends to a step's summary, which other programs may share.
 fn append(path: &Path, text: &str) -> Result<(), Error> {
     let write = || {
         let mut file = (std::fs::OpenOptions::new().create(true).append(true)).open(path)?;

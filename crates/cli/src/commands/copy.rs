@@ -10,7 +10,7 @@ use tracer::{Location, list_scenes};
 use crate::output::{count_text, print};
 use crate::selection::choose_names;
 
-/// Writes the folders of the named built-in scenes, or of all, and their bounds below `out`. Overwrites nothing.
+/// Writes the named built-in scenes, or all, and their bounds below `out`. Overwrites nothing.
 pub fn copy_scenes(names: &[String], out: &Path) -> Result<(), Error> {
     let names: &[String] = if names == ["scenes"] { &[] } else { names };
     let listings = list_scenes(Location::of_bundle(&catalogue::SCENES))?;

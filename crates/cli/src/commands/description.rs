@@ -21,7 +21,7 @@ pub struct CompletionsArgs {
 pub fn print_completions(args: &CompletionsArgs, mut program: clap::Command) -> Result<(), Error> {
     let mut text = Vec::new();
     clap_complete::generate(args.shell, &mut program, "shuttertruth", &mut text);
-    // As it is: a script is no table, and goes to a file.
+    // Printed unchanged: a script is no table, and goes to a file.
     write_out(std::io::stdout(), &text)
 }
 
@@ -32,7 +32,7 @@ pub struct ManArgs {
     pub out: PathBuf,
 }
 
-/// Writes a page of the manual for the program and for each command.
+/// Writes a manual page for the program and for each command.
 pub fn write_manual(args: &ManArgs, program: clap::Command) -> Result<(), Error> {
     let fail = |source| FileError::io(&args.out, "write", source);
     std::fs::create_dir_all(&args.out).map_err(fail)?;

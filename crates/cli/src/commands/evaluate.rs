@@ -21,7 +21,7 @@ pub struct EvaluateArgs {
     pub params: PathBuf,
 }
 
-/// Scores one set of parameters on every scene and prints JSON.
+/// Scores one set of parameters on every scene, and prints JSON.
 pub fn execute(args: &EvaluateArgs) -> Result<(), Error> {
     let candidate = &args.candidate;
     let choice = candidate.select()?;
@@ -52,7 +52,7 @@ pub fn change_settings(
 ) -> Result<Settings, filters::FilterError> {
     let mut settings = choice.settings.clone();
     for (name, value) in values {
-        // JSON writes 2.0 as 2 as well.
+        // JSON may write 2.0 as 2.
         let kind = choice.filter.parameters.iter().find(|it| it.name == name);
         let value = match (kind.map(|it| &it.kind), value) {
             (Some(filters::Kind::Real { .. }), Value::Integer(whole)) => {

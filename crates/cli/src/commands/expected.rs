@@ -1,4 +1,4 @@
-//! The line before long work: the time, disk and memory that it takes.
+//! The line before long work: its time, disk space and memory.
 
 use std::path::Path;
 use std::time::Duration;
@@ -8,10 +8,10 @@ use suite::RunEstimate;
 
 use crate::output::{is_quiet, print_error};
 
-/// Time from which work is announced, in seconds.
+/// Shortest time of work that is announced, in seconds.
 const LONG: f64 = 5.0;
 
-/// Prints the expected time, disk and memory of a run, if it takes long.
+/// Prints the expected time, disk space and memory of a run, if it is long.
 pub fn print_expected(estimate: &RunEstimate, out: &Path) {
     let mut text = format!(
         "{:.0} MB in {}, {:.1} GB of memory; {} cases",
@@ -26,7 +26,7 @@ pub fn print_expected(estimate: &RunEstimate, out: &Path) {
     print_expected_time(estimate.seconds, &text);
 }
 
-/// Prints the expected time of work, with more about it, if it takes long.
+/// Prints the expected time of long work, followed by `more`.
 pub fn print_expected_time(seconds: f64, more: &str) {
     if seconds < LONG || is_quiet() {
         return;

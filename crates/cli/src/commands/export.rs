@@ -26,7 +26,7 @@ pub struct ExportArgs {
     pub unlit: bool,
 }
 
-/// Writes each scene as glTF and prints where, and at which time of the animation the frame is.
+/// Writes each scene as glTF, and prints its path and the frame's time in the animation.
 pub fn execute(args: &ExportArgs) -> Result<(), Error> {
     let names = match args.unlit {
         true => (args.scenes.iter())

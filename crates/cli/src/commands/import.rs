@@ -38,7 +38,7 @@ pub struct ImportArgs {
     pub exposure: f64,
 }
 
-/// Makes the scene folder and prints what it holds.
+/// Makes the scene folder and prints its contents.
 pub fn execute(args: &ImportArgs) -> Result<(), Error> {
     let out = match &args.out {
         Some(out) => out.clone(),

@@ -30,14 +30,14 @@ pub struct IngestArgs {
     pub root: RootArgs,
 }
 
-/// Motion between two sub-frames beyond which more are advised, in pixels.
+/// Largest motion between two sub-frames before more sub-frames are advised, in pixels.
 const LONG_STEP: f64 = 0.5;
-/// Change of the mean radiance from which it is said.
+/// Smallest change of the mean radiance to report.
 const LEAST_GAIN: f64 = 0.01;
-/// Part of the pixels that change without velocity from which it is said: shadows and what comes out of hiding are few.
+/// Smallest part of pixels that change without velocity to report; shadows and disocclusions are few.
 const LEAST_RESTLESS: f64 = 0.03;
 
-/// Ingests a capture and prints what came of it, and what its truth can tell.
+/// Ingests a capture, prints the result, and says how far its truth can be trusted.
 pub fn execute(args: &IngestArgs) -> Result<(), Error> {
     let capture = Capture::read(&args.capture, args.convention.as_deref())?;
     let out = choose_folder(args)?;
@@ -56,7 +56,7 @@ pub fn execute(args: &IngestArgs) -> Result<(), Error> {
     print(&describe(&ingested, &out, traced.as_ref()))
 }
 
-/// Names the folder to write: as the capture's own is named, if none is given.
+/// Names the folder to write: the given one, or one with the capture's name.
 fn choose_folder(args: &IngestArgs) -> Result<PathBuf, Error> {
     let out = name_folder(&args.capture, args.out.as_ref(), "out/engine")?;
     let capture = args.capture.canonicalize().ok();
@@ -69,7 +69,7 @@ fn choose_folder(args: &IngestArgs) -> Result<PathBuf, Error> {
     }
 }
 
-/// Loads the scene that the capture names; none where it names none, or there is no such scene.
+/// Loads the scene that the capture names; none if it names none, or there is no such scene.
 fn find_scene(capture: &Capture, scenes: &Location) -> Option<Scene> {
     let name = capture.description.scene.as_ref()?.to_string();
     let found = load_drawn_scene(scenes, &name).ok();
@@ -144,7 +144,7 @@ fn describe(ingested: &Ingested, out: &Path, traced: Option<&Scene>) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Adds what the truth is, and how far it can be trusted.
+/// Adds the kind of truth, and how far it can be trusted.
 fn push_truth(lines: &mut Vec<String>, scene: &EngineScene, truth: &Truth) {
     let length = scene.step * f64::from(scene.subframes);
     let most = scene.ladder.last().copied().unwrap_or(1);

@@ -1,4 +1,4 @@
-//! Truths that `--truths` names: a folder, or a pack.
+//! Truths of `--truths`: a folder, or a pack.
 
 use std::collections::hash_map::RandomState;
 use std::hash::{BuildHasher, Hasher};
@@ -9,10 +9,10 @@ use suite::{Error, RunPlan, Unpacked, Verification, take_pack};
 
 use crate::output::{count_text, print_note};
 
-/// Files that a note names before it counts the others.
+/// Files that a note names before it counts the rest.
 const MAX_NAMED: usize = 4;
 
-/// Refuses what is neither a folder nor a pack, before anything is rendered.
+/// Refuses a path that is neither a folder nor a pack, before anything is rendered.
 pub fn check_truths(truths: &Path) -> Result<(), Error> {
     match truths.is_file() {
         true => Ok(Pack::open(truths).map(drop)?),
@@ -29,7 +29,7 @@ pub fn check_truths(truths: &Path) -> Result<(), Error> {
     }
 }
 
-/// Takes what the plan needs from a pack into the locked folder of the plan, and says so. A folder is left for the run to take from.
+/// Unpacks the truths that the plan needs into the plan's locked folder, and says so. A folder is left for the run to read.
 pub fn take_packed_truths(plan: &mut RunPlan) -> Result<(), Error> {
     let Some(path) = plan.truths.as_ref().filter(|truths| truths.is_file()) else {
         return Ok(());
@@ -41,14 +41,14 @@ pub fn take_packed_truths(plan: &mut RunPlan) -> Result<(), Error> {
     };
     let unpacked = take_pack(plan, &pack, &verification)?;
     print_note(&unpacked_text(&pack, &unpacked, &verification));
-    // All that it had lies there now.
+    // They are all there now.
     plan.truths = Some(plan.out.clone());
     Ok(())
 }
 
-/// Chooses a seed that nobody knows before.
+/// Chooses an unpredictable seed.
 pub fn choose_seed() -> u64 {
-    // Small enough to be typed.
+    // Short enough to type.
     RandomState::new().build_hasher().finish() % 1_000_000_000
 }
 

@@ -40,7 +40,7 @@ pub struct ListArgs {
     pub json: bool,
 }
 
-/// Prints scenes and filters: in brief, or those that are named in detail.
+/// Prints scenes and filters in brief, or the named ones in detail.
 pub fn execute(args: &ListArgs) -> Result<(), Error> {
     if let Some(folder) = &args.copy_to {
         return copy_scenes(&args.what, folder);
@@ -77,7 +77,7 @@ pub fn execute(args: &ListArgs) -> Result<(), Error> {
     print(&(text + "details: shuttertruth list NAME\n"))
 }
 
-/// Lists the scenes and filters that are named, or all. Tries out filters of the user's own.
+/// Lists the named scenes and filters, or all. Tries out the user's own filters.
 fn find_named(args: &ListArgs) -> Result<(Vec<SceneListing>, Vec<Filter>), Error> {
     let builtin = Filter::builtin_names();
     let asked = match args.what.is_empty() && args.filters.is_empty() {
@@ -85,7 +85,7 @@ fn find_named(args: &ListArgs) -> Result<(Vec<SceneListing>, Vec<Filter>), Error
         false => args.what.clone(),
     };
     let folder = &args.root.scenes_dir;
-    // Built-in filters can be listed where there are no scenes.
+    // Built-in filters can be listed without any scenes.
     let needs_scenes = asked
         .iter()
         .any(|what| what != "filters" && !builtin.contains(what));
@@ -133,7 +133,7 @@ fn find_named(args: &ListArgs) -> Result<(Vec<SceneListing>, Vec<Filter>), Error
     Ok((scenes, filters))
 }
 
-/// Lists one adapter a line, numbered as `--adapter` takes them.
+/// Lists one adapter per line, numbered as for `--adapter`.
 fn adapters_text() -> String {
     let line = |(number, adapter): (usize, &AdapterDescription)| {
         format!(
@@ -144,8 +144,8 @@ fn adapters_text() -> String {
     list_adapters().iter().enumerate().map(line).collect()
 }
 
-/// Holds kernels to the adapter's limits and runs them with every preset and at both ends of every range. Without an adapter,
-/// holds them to the lowest common limits, and says so.
+/// Checks kernels against the adapter's limits, and runs them with every preset and at both ends of every range. Without an adapter,
+/// checks them against the lowest common limits, and says so.
 fn try_filters(filters: &[&Filter], adapter: Option<&str>) -> Result<(), Error> {
     let have_kernels = filters.iter().any(|filter| filter.command.is_none());
     if !have_kernels && adapter.is_none() {

@@ -1,4 +1,4 @@
-//! A run that is measured now, beside the cases of an earlier run in the same folder.
+//! A run that is measured now, together with an earlier run's cases in the same folder.
 
 use filters::Gpu;
 use store::FolderLock;
@@ -11,16 +11,16 @@ use crate::output::{count_text, is_quiet, print_note};
 
 /// A finished run.
 pub struct MeasuredRun {
-    /// The cases that were asked for.
+    /// The requested cases.
     pub run: Run,
-    /// These, and the cases of an earlier run that run.json keeps.
+    /// The requested cases, and the earlier run's cases that run.json keeps.
     pub whole: Run,
-    /// Lock on the folder, until all files are written.
+    /// Lock on the folder until all files are written.
     pub lock: FolderLock,
 }
 
-/// Runs every case of a plan. Cases of an earlier run in the same folder are kept beside them; a run of another picture size is
-/// left alone, and the plan gets a folder below it.
+/// Runs every case of a plan. Keeps an earlier run's cases in the same folder, except a run of another picture size: that is left alone,
+/// and the plan gets a subfolder.
 pub fn measure(plan: &mut RunPlan, gpu: Option<&Gpu>) -> Result<MeasuredRun, Error> {
     choose_folder(plan)?;
     let lock = lock_out(plan)?;
@@ -44,7 +44,7 @@ pub fn measure(plan: &mut RunPlan, gpu: Option<&Gpu>) -> Result<MeasuredRun, Err
     })
 }
 
-/// Leaves a run of another picture size alone, and says where this one goes.
+/// Leaves a run of another picture size alone, and prints where this one goes.
 fn choose_folder(plan: &mut RunPlan) -> Result<(), Error> {
     let size = (plan.render.width, plan.render.height);
     let folder = match folder_for_size(&plan.out, size) {
@@ -64,7 +64,7 @@ fn choose_folder(plan: &mut RunPlan) -> Result<(), Error> {
     Ok(())
 }
 
-/// Names the options for an earlier run that cannot be kept.
+/// Adds the options that help if an earlier run cannot be kept.
 fn name_options(error: Error) -> Error {
     match error {
         Error::Usage(reason) => Error::Usage(format!(

@@ -24,7 +24,7 @@ pub struct MergeArgs {
     pub command: Vec<String>,
 }
 
-/// Joins runs where every part is one, and replicates otherwise; prints the run, or the truths, that they made.
+/// Joins runs if every part is one, or else replicates; prints the run or the truths.
 pub fn execute(args: &MergeArgs) -> Result<(), Error> {
     match args.parts.iter().all(|part| holds_run(part)) {
         true => join_runs(args),
@@ -49,7 +49,7 @@ fn join_runs(args: &MergeArgs) -> Result<(), Error> {
         words => words.to_vec(),
     };
     let (run, _lock) = merge_runs(&args.parts, command, &args.out)?;
-    // It would be about another run.json.
+    // It would describe another run.json.
     let _ = std::fs::remove_file(args.out.join(JUDGEMENT_FILE));
     write_run(&run, &args.out)?;
     let mut text = failures_text(&run.failures);

@@ -1,4 +1,4 @@
-//! One file per command, and the work that commands share.
+//! One file per command, and their shared work.
 
 pub mod accept;
 pub mod ask;

@@ -27,7 +27,7 @@ impl WrittenFile {
         })
     }
 
-    /// Makes a line: `written: report.html (4.5 MB)`.
+    /// Formats a line: `written: report.html (4.5 MB)`.
     pub fn line(&self, label: &str) -> String {
         format!(
             "{label}: {} ({:.1} MB)\n",
@@ -37,7 +37,7 @@ impl WrittenFile {
     }
 }
 
-/// Refuses a folder where a file is to be written, before the work that the file is about.
+/// Refuses a folder as the file to write, before the work starts.
 pub fn refuse_folder(option: &str, path: Option<&PathBuf>) -> Result<(), Error> {
     match path.filter(|path| path.is_dir()) {
         None => Ok(()),
@@ -48,12 +48,12 @@ pub fn refuse_folder(option: &str, path: Option<&PathBuf>) -> Result<(), Error> 
     }
 }
 
-/// Returns the page that is asked for, or report.html in a folder.
+/// Returns the requested page, or report.html in a folder.
 pub fn page_path(html: Option<&PathBuf>, folder: &Path) -> PathBuf {
     html.cloned().unwrap_or_else(|| folder.join("report.html"))
 }
 
-/// Writes the page of a run whose pictures lie below `folder`, and the files beside the page.
+/// Writes the page of a run with pictures below `folder`, and the page's files next to it.
 pub fn write_run_page(
     run: &Run,
     findings: &[Finding],
@@ -77,7 +77,7 @@ pub fn write_run(run: &Run, out: &Path) -> Result<(), Error> {
     )?)
 }
 
-/// Writes `run.json`, the findings about it, and the page.
+/// Writes `run.json`, its findings, and the page.
 pub fn write_judged_run(
     run: &Run,
     findings: &[Finding],
@@ -95,7 +95,7 @@ pub fn write_page(page: &str, html: &Path) -> Result<WrittenFile, Error> {
     WrittenFile::new(html.to_owned())
 }
 
-/// Makes one line per page, and one for all files that a page loads.
+/// Formats one line per page, and one for all files that a page loads.
 pub fn page_lines(label: &str, files: &[WrittenFile]) -> String {
     let is_loaded = |file: &&WrittenFile| file.path.extension().is_some_and(|own| own == "js");
     let (loaded, pages): (Vec<_>, Vec<_>) = files.iter().partition(is_loaded);

@@ -23,7 +23,7 @@ pub struct PreferencesArgs {
     pub json: bool,
 }
 
-/// Reads the answers of people and prints a scale of filters, beside the scores of the run.
+/// Reads people's answers, and prints a scale of filters and the run's scores.
 pub fn execute(args: &PreferencesArgs) -> Result<(), Error> {
     let (study, sessions) = read_sessions(&args.answers)?;
     let run = args
@@ -38,7 +38,7 @@ pub fn execute(args: &PreferencesArgs) -> Result<(), Error> {
     }
 }
 
-/// Takes a run whose pictures are those of the study.
+/// Returns a run if its pictures are the study's.
 fn read_run(side: &StoredRun, study: &Study) -> Result<Run, Error> {
     let exact = |name: &String| Pattern::new(&Pattern::escape(name)).expect("it is escaped");
     let filters = study.shutters.iter().flat_map(|own| &own.filters);

@@ -6,7 +6,7 @@ use clap::Args;
 use frame::{Alignment, Truth};
 use store::{LADDER, MAX_REPLICATES, Sharing, lock_folder, printable_path, scene_folder};
 use suite::{Error, Rendering, deciding_floor, estimate_render_seconds};
-use tracer::{RenderSettings, Scene};
+use tracer::{RenderSettings, Scene, check_next_frame};
 
 use super::expected::print_expected_time;
 use crate::arguments::{
@@ -45,6 +45,9 @@ pub struct RenderArgs {
     /// Render the ladder of sub-frames of each truth too, which `run` measures with.
     #[arg(help_heading = "Truths", long)]
     pub ladders: bool,
+    /// Write velocity_next and velocity_z to frame.exr too, for `engine blur` with filters that read them.
+    #[arg(help_heading = "Truths", long)]
+    pub further_velocities: bool,
     /// Upper limit on replicates for --noise.
     #[arg(
         help_heading = "Truths",
@@ -107,7 +110,7 @@ pub fn execute(args: &RenderArgs) -> Result<(), Error> {
     }
 }
 
-/// Makes the settings of a scene's renders. Refuses frames at which it is not defined.
+/// Makes a scene's render settings. Refuses frames that the scene does not define.
 fn scene_settings(args: &RenderArgs, scene: &Scene) -> Result<RenderSettings, Error> {
     let size = args.size.unwrap_or((scene.width, scene.height));
     let count = match &args.replicates {
@@ -115,8 +118,11 @@ fn scene_settings(args: &RenderArgs, scene: &Scene) -> Result<RenderSettings, Er
         Replicates::Part(_) => RenderSettings::default().replicates,
     };
     let settings = args.scenes.render_settings(size, count);
-    for frame in 1..args.frames {
+    for frame in 0..args.frames {
         let later = scene.at_frame(frame);
+        if args.further_velocities {
+            check_next_frame(&later)?;
+        }
         for alignment in &args.alignments {
             settings.check_truth(&later, *alignment)?;
         }
@@ -124,14 +130,22 @@ fn scene_settings(args: &RenderArgs, scene: &Scene) -> Result<RenderSettings, Er
     Ok(settings)
 }
 
-/// Renders some replicates of a scene's truths, and its frame with the first of them. Says nothing about their noise.
+/// Renders a scene's frame, with the velocities that are asked for.
+fn render_frame(args: &RenderArgs, rendering: Rendering) -> Result<(), Error> {
+    match args.further_velocities {
+        true => rendering.write_further_velocities(),
+        false => rendering.frame().map(drop),
+    }
+}
+
+/// Renders some replicates of a scene's truths, and the frame together with replicate 0. Reports no noise.
 fn render_some(
     args: &RenderArgs,
     rendering: Rendering,
     indices: &Range<u32>,
 ) -> Result<String, Error> {
     if indices.start == 0 {
-        rendering.frame()?;
+        render_frame(args, rendering)?;
     }
     rendering.shared(&args.alignments, indices.clone())?;
     for alignment in &args.alignments {
@@ -140,13 +154,13 @@ fn render_some(
     Ok(String::new())
 }
 
-/// Renders a scene's frame and truths; returns a line for each truth. Adds one to `noisy` for each that is noisier than asked for.
+/// Renders a scene's frame and truths; returns a line per truth. Adds one to `noisy` for each truth that exceeds the requested noise.
 fn render_whole(
     args: &RenderArgs,
     rendering: Rendering,
     noisy: &mut Vec<String>,
 ) -> Result<String, Error> {
-    rendering.frame()?;
+    render_frame(args, rendering)?;
     let (target, most) = (args.noise.unwrap_or(f64::INFINITY), args.most_replicates);
     let mut report = String::new();
     let ended = |truth: &Truth, is_reached: bool| {
@@ -168,7 +182,7 @@ fn render_whole(
     Ok(report)
 }
 
-/// Makes a line: `  trailing: 8 replicates, noise: moving 0.0021, static 0.0009, full 0.0012`
+/// Formats a line: `  trailing: 8 replicates, noise: moving 0.0021, static 0.0009, full 0.0012`
 fn floors_line(truth: &Truth) -> String {
     let floors: Vec<String> = (truth.noise_floors().iter())
         .map(|(region, floor)| format!("{region} {floor:.2e}"))

@@ -31,11 +31,11 @@ pub struct ReportArgs {
     pub json: bool,
 }
 
-/// Reads a finished run, or a tuning, and writes its page, and its layers where they are asked for.
+/// Reads a finished run or a tuning, and writes its page, and its layers if requested.
 pub fn execute(args: &ReportArgs) -> Result<(), Error> {
     let path = args.run.as_path();
     let file = path.file_name().unwrap_or_default();
-    // The names that `run` and `tune search` give to their files.
+    // The file names that `run` and `tune search` use.
     let tuning = match path.is_dir() {
         true => Some(path).filter(|folder| !folder.join("run.json").is_file()),
         false if file == "tune.json" || file == "sensitivity.json" => path.parent(),
@@ -61,7 +61,7 @@ pub fn execute(args: &ReportArgs) -> Result<(), Error> {
     print(&text)
 }
 
-/// Writes the page of a run, and its layers; returns the page's files, then those of the layers.
+/// Writes a run's page and layers; returns the page's files, then the layers'.
 fn write_run_report(args: &ReportArgs) -> Result<(Vec<WrittenFile>, Vec<WrittenFile>), Error> {
     let side = StoredRun::read(&args.run)?;
     let (run, folder) = (&side.run, side.folder());

@@ -8,22 +8,22 @@ use suite::Error;
 
 use crate::output::print;
 
-/// The end of a command that did its work.
+/// How a command that did its work ended.
 pub enum Ending {
-    /// Nothing more is to say.
+    /// Without anything more to report.
     Done,
     /// A check failed or is undecided, and has printed that.
     Failed(Error),
 }
 
-/// Writes a result to a file as JSON and returns that.
+/// Writes a result to a file as JSON, and returns the JSON.
 pub fn write_json(path: &Path, result: &impl Serialize) -> Result<String, Error> {
     let json = serde_json::to_string_pretty(result).expect("a result is plain data");
     frame::write_atomically(path, json.as_bytes())?;
     Ok(json)
 }
 
-/// Writes a result to a file as JSON, then prints its table and names the file, or prints the JSON.
+/// Writes a result to a file as JSON; then prints the JSON, or its table and the file's name.
 pub fn write_result(
     path: &Path,
     result: &impl Serialize,

@@ -39,7 +39,7 @@ pub struct RunArgs {
     pub json: bool,
 }
 
-/// Runs every case, writes `run.json` and the page, prints the ranking or the table.
+/// Runs every case, writes `run.json` and the page, and prints the ranking or the table.
 pub fn execute(args: &RunArgs) -> Result<(), Error> {
     let began = Instant::now();
     refuse_folder("--html", args.html.as_ref())?;
@@ -59,7 +59,7 @@ pub fn execute(args: &RunArgs) -> Result<(), Error> {
         for bounds in bounds.values_mut() {
             *bounds = std::mem::take(bounds).at(size).over(plan.frames);
         }
-        // Bounds are the business of `check`: those that a run breaks fail nothing.
+        // Bounds are for `check`: broken ones fail nothing here.
         let mut findings = judge(&whole, &bounds);
         (findings.iter_mut()).for_each(|finding| finding.level = Level::Report);
         let pages = write_judged_run(&whole, &findings, &plan.out, args.html.as_ref())?;
@@ -79,7 +79,7 @@ pub fn execute(args: &RunArgs) -> Result<(), Error> {
     refuse_failures(&run.failures)
 }
 
-/// Makes the ranking or the table, and what it is about.
+/// Formats the ranking or the table, and its subject.
 fn scores_text(run: &Run, as_table: bool) -> String {
     let scores = match as_table {
         true => run_table(run),

@@ -18,7 +18,7 @@ use crate::arguments::{MeasureArgs, RunOptions, SceneArgs};
 use crate::output::{count_text, make_monitor, print_note, print_scene_notes};
 use crate::selection::{select_engine_scenes, select_filters, select_scenes};
 
-/// Loads scenes with their bounds, and filters; renders nothing, and does not check the plan yet. Scores are to have no intervals.
+/// Loads scenes with their bounds, and filters; renders nothing, and does not check the plan yet. The plan asks for no intervals.
 pub fn make_plan(args: &MeasureArgs, out: PathBuf) -> Result<(RunPlan, RunBounds), Error> {
     let scenes_dir = &args.scenes.root.scenes_dir;
     let (engine_scenes, names) = select_engine_scenes(scenes_dir, &args.scenes.names()?)?;
@@ -71,49 +71,51 @@ pub fn apply_options(plan: &mut RunPlan, options: &RunOptions) -> Result<(), Err
     plan.check()
 }
 
-/// Leaves out filters that no scene of an engine can be measured with, and says so. Where scenes are rendered too, those filters run
-/// on them.
+/// Leaves out filters that cannot run on an engine's scenes, and says so. If scenes are rendered too, those filters run on these.
 fn leave_out_filters(
     mut filters: Vec<FilterChoice>,
     engine_scenes: &[EngineScene],
     alone: bool,
 ) -> Result<Vec<FilterChoice>, Error> {
-    for EngineScene { id, alignment, .. } in engine_scenes {
-        let others = filters
-            .iter()
-            .filter(|it| it.filter.alignment != *alignment);
-        let lost = (filters.iter())
-            .filter(|it| it.filter.alignment == *alignment && it.filter.reads_camera());
-        let reasons = [
-            format!("of another shutter than the {alignment} one that the engine drew"),
-            "that need the camera, which no capture has".to_owned(),
-        ];
-        for (count, reason) in [others.count(), lost.count()].into_iter().zip(reasons) {
-            if count > 0 {
-                let presets = count_text(count, "preset", "presets");
-                print_note(&format!("{id}: leaves out {presets} {reason}"));
-            }
+    for scene in engine_scenes {
+        let EngineScene { id, alignment, .. } = scene;
+        let mut reasons = BTreeMap::new();
+        for FilterChoice { filter, .. } in &filters {
+            let reason = match scene.find_lacking(filter) {
+                _ if filter.alignment != *alignment => {
+                    format!("of another shutter than the {alignment} one that the engine drew")
+                }
+                Some(lacking) => format!("because the capture does not have {lacking}"),
+                None => continue,
+            };
+            *reasons.entry(reason).or_insert(0) += 1;
+        }
+        for (reason, count) in reasons {
+            let presets = count_text(count, "preset", "presets");
+            print_note(&format!("{id}: leaves out {presets} {reason}"));
         }
     }
     if !alone || engine_scenes.is_empty() {
         return Ok(filters);
     }
     filters.retain(|FilterChoice { filter, .. }| {
-        let mut scenes = engine_scenes.iter();
-        !filter.reads_camera() && scenes.any(|scene| scene.alignment == filter.alignment)
+        let can_blur = |scene: &EngineScene| {
+            scene.alignment == filter.alignment && scene.find_lacking(filter).is_none()
+        };
+        engine_scenes.iter().any(can_blur)
     });
     match filters.is_empty() {
         false => Ok(filters),
         true => refuse!(
             "--filter: no filter is left that {} can be measured with; allowed: filters with a {} shutter that need no \
-             camera motion",
+             camera motion and no other input that the capture does not have",
             engine_scenes[0].id,
             engine_scenes[0].alignment
         ),
     }
 }
 
-/// Refuses options about the frame and the shutter: an engine has drawn both.
+/// Refuses options for frame and shutter: an engine fixed both.
 fn refuse_render_options(args: &SceneArgs, scene: &EngineScene) -> Result<(), Error> {
     let default = FrameOptions::default();
     let given = [
@@ -138,7 +140,7 @@ fn refuse_render_options(args: &SceneArgs, scene: &EngineScene) -> Result<(), Er
     }
 }
 
-/// Reads the bounds beside an engine's scene; those beside our scenes were measured on frames of ours.
+/// Reads the bounds next to an engine's scene; our scenes' bounds were measured on our own frames.
 fn read_engine_bounds(folder: &Path) -> Result<SceneBounds, Error> {
     let path = folder.join(BOUNDS_FILE);
     let files = (path.is_file().then(|| read_bounds_file(&path))).transpose()?;
@@ -148,7 +150,7 @@ fn read_engine_bounds(folder: &Path) -> Result<SceneBounds, Error> {
     })
 }
 
-/// Refuses limits on sequences beside an engine's scene: it has one frame, and nothing would judge them.
+/// Refuses limits on sequences for an engine's scene: it has one frame, and nothing would judge them.
 fn refuse_sequence_limits(file: &BoundsFile) -> Result<(), Error> {
     let tables = file.filters.values().map(|table| &table.bounds);
     let mut all = std::iter::once(&file.default).chain(tables).flatten();
@@ -162,8 +164,8 @@ fn refuse_sequence_limits(file: &BoundsFile) -> Result<(), Error> {
     }
 }
 
-/// Adds the bounds of the scenes of a run's cases, for pictures of the run's size, from the folder `root`; not those of scenes that
-/// are not there. What an engine drew has none of the bounds of ours.
+/// Adds the bounds of a run's scenes, for the run's picture size, from the folder `root`; skips scenes that are not there. Engines'
+/// scenes get none of our bounds.
 pub fn add_bounds(bounds: &mut RunBounds, run: &Run, root: &Location) -> Result<(), Error> {
     let size = (run.render.width, run.render.height);
     for case in &run.cases {
@@ -189,7 +191,7 @@ pub fn lock_out(plan: &RunPlan) -> Result<FolderLock, Error> {
     Ok(lock_folder(&plan.out, &plan.scenes, Sharing::Alone)?)
 }
 
-/// Loads the named scenes of the folder `root` with their bounds, those for pictures of `size` too; all of it where none is named.
+/// Loads the named scenes of the folder `root`, or all, with their bounds, including those for pictures of `size`.
 pub fn load_scenes(
     root: &Location,
     names: &[String],
@@ -205,8 +207,8 @@ pub fn load_scenes(
         .collect()
 }
 
-/// Reads the bounds of a scene, which may be a variant. A sealed one, and one at another frame rate, have those beside the scenes alone:
-/// limits on their scene were measured at other speeds.
+/// Reads the bounds of a scene or a variant. A sealed one, or one at another frame rate, gets only the bounds common to all scenes: the
+/// scene's own limits were measured at other speeds.
 fn read_scene_bounds(
     root: &Location,
     folder: &Location,
@@ -222,7 +224,7 @@ fn read_scene_bounds(
 /// Margins by the names of metrics.
 pub type Margins = BTreeMap<Metric, Margin>;
 
-/// Reads the margins by which scores may differ before it matters; none where the folder has no bounds.
+/// Reads the score differences that matter (margins); none if the folder has no bounds.
 pub fn read_margins(root: &Location) -> Result<Margins, Error> {
     let file = root.join(BOUNDS_FILE);
     match file.exists() {

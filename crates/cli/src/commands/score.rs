@@ -45,7 +45,7 @@ pub struct ScoreArgs {
     pub json: bool,
 }
 
-/// Scores one finished picture, and prints the scores, and those that its file does not allow.
+/// Scores one finished picture; prints the scores, and those that its file does not allow.
 pub fn execute(args: &ScoreArgs) -> Result<(), Error> {
     let truth = Truth::read(&args.truth)?;
     let frame = Frame::read(&args.frame)?;
@@ -67,7 +67,7 @@ pub fn execute(args: &ScoreArgs) -> Result<(), Error> {
     }
 }
 
-/// Refuses a file of another scene than the truth's.
+/// Refuses a file of a different scene than the truth's.
 pub fn check_scene(path: &Path, provenance: &Provenance, truth: &Truth) -> Result<(), Error> {
     let (own, scene) = (&provenance.scene, &truth.provenance.scene);
     match own == scene {
@@ -101,7 +101,7 @@ fn scores_text(args: &ScoreArgs, truth: &Truth, Scored { scores, notes }: &Score
     text
 }
 
-/// Says which truth a picture was compared with.
+/// Names the truth that a picture was compared with.
 pub fn truth_text(truth: &Truth) -> String {
     let drawn = (truth.provenance.engine.as_deref()).map_or(String::new(), |engine| {
         let subframes = truth.provenance.samples_per_pixel;

@@ -46,7 +46,7 @@ pub fn execute(args: &ScoreArgs) -> Result<(), Error> {
     }
 }
 
-/// Reads frame and truth of a frame of the sequence.
+/// Reads the frame and the truth of one frame of the sequence.
 fn read_truth(args: &ScoreArgs, frame: u32) -> Result<SequenceTruth, Error> {
     let path = file_at_frame(&args.truth, frame);
     let truth = Truth::read(&path)?;

@@ -20,13 +20,13 @@ use crate::output::{print, was_interrupted};
 
 /// Upper limit on the bytes of a line.
 const LONGEST_LINE: usize = 1 << 20;
-/// Upper limit on requests that wait; more are read later.
+/// Upper limit on waiting requests; more are read later.
 const MAX_WAITING: usize = 1024;
-/// Upper limit on cancelled requests that have not come yet.
+/// Upper limit on cancellations of requests that have not come yet.
 const MAX_CANCELLED: usize = 65_536;
 /// Characters of a line that an error shows.
 const SHOWN: usize = 200;
-/// Time between two looks for Ctrl-C while nothing comes.
+/// Time between two checks for Ctrl-C while no line comes.
 const PAUSE: Duration = Duration::from_millis(50);
 
 #[derive(Debug, Args)]
@@ -69,7 +69,7 @@ impl Cancelled {
     }
 }
 
-/// Answers until standard input ends and all is answered.
+/// Answers requests until standard input ends and all are answered.
 pub fn execute(args: &ServeArgs) -> Result<(), Error> {
     let candidate = &args.candidate;
     let choice = candidate.select()?;
@@ -96,7 +96,7 @@ pub fn execute(args: &ServeArgs) -> Result<(), Error> {
     })
 }
 
-/// Reads lines while other work goes on: sends requests, and says what is wrong with lines that are none; cancels requests at once.
+/// Reads lines while other work goes on: sends requests, reports malformed lines, and cancels requests at once.
 fn read_requests(
     mut input: impl BufRead,
     cancelled: &Cancelled,
@@ -131,7 +131,7 @@ fn read_requests(
     }
 }
 
-/// Reads the next line, or its beginning if it is too long; it is empty where the input has ended.
+/// Reads the next line, or its beginning if it is too long; returns nothing at the end of the input.
 fn read_line(input: &mut impl BufRead) -> std::io::Result<Vec<u8>> {
     let mut line = Vec::new();
     let most = LONGEST_LINE as u64 + 1;
@@ -172,7 +172,7 @@ fn answer_request(
     cancelled: &Cancelled,
 ) -> Result<(), Error> {
     let id = request.id;
-    // The lock is not to be held meanwhile.
+    // The lock must not be held meanwhile.
     let is_cancelled = cancelled.lock().contains(&id);
     let found = match is_cancelled {
         true => Err(TraceError::Cancelled.into()),
@@ -200,7 +200,7 @@ fn score_request(
     })
 }
 
-/// Reports the scores of one scene; false where the request was cancelled or nobody reads.
+/// Reports the scores of one scene; false if the request was cancelled or nobody reads.
 fn report_scene(cancelled: &Cancelled, id: u64, scene: &str, score: &SceneScore) -> bool {
     let reply = json!({"id": id, "scene": scene, "flip": score.flip, "bleed": score.bleed});
     print_reply(&reply).is_ok() && !cancelled.lock().contains(&id)

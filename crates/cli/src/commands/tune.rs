@@ -72,7 +72,7 @@ pub struct TuneArgs {
     pub json: bool,
 }
 
-/// Tunes, writes `journal.jsonl`, `tune.json` and the choice's values, prints the table.
+/// Tunes a filter, writes `journal.jsonl`, `tune.json` and the chosen values, and prints the table.
 pub fn execute(args: &TuneArgs) -> Result<(), Error> {
     let options = make_options(args, args.candidate.select()?)?;
     options.check()?;
@@ -86,7 +86,7 @@ pub fn execute(args: &TuneArgs) -> Result<(), Error> {
     let label = format!("tuning {}", options.choice.filter.name);
     let tuning = options.monitor.watch(&label, |watch| {
         tune(&options, gpu.as_ref(), |trial| {
-            // The loop itself ends where it is interrupted.
+            // An interrupted loop ends itself.
             let _ = watch(Progress {
                 done: trial.trial as u64 + 1,
                 total: options.budget as u64,
@@ -110,7 +110,7 @@ fn make_options(args: &TuneArgs, choice: FilterChoice) -> Result<TuneOptions, Er
     };
     let mut open = candidate.load_scenes()?;
     if scene_args.scenes.is_empty() {
-        // Every scene means every one that is not held out.
+        // "All scenes" excludes the held-out ones.
         open.retain(|(scene, _)| held_out.iter().all(|(other, _)| other.id != scene.id));
     }
     let render = candidate.render_settings();
@@ -138,8 +138,7 @@ fn make_options(args: &TuneArgs, choice: FilterChoice) -> Result<TuneOptions, Er
     })
 }
 
-/// Writes params.json and, where the choice is worth taking, preset.toml, or else removes that of an earlier tuning; writes tune.json
-/// and prints its table.
+/// Writes tune.json and params.json, and preset.toml if the choice is an improvement (else removes an earlier tuning's); prints the table.
 fn write_tuning(tuning: &Tuning, options: &TuneOptions, as_json: bool) -> Result<(), Error> {
     let path = |name: &str| options.out.join(name);
     write_json(&path("params.json"), &tuning.values)?;

@@ -46,7 +46,7 @@ pub struct VerifyArgs {
     pub json: bool,
 }
 
-/// Traces random tiles of kept frames, truths and ladders again; fails if a file holds anything else.
+/// Traces random tiles of kept frames, truths and ladders again; fails if a file differs.
 pub fn execute(args: &VerifyArgs) -> Result<Ending, Error> {
     let unpacked = unpack(&args.truths)?;
     let folder = (unpacked.as_ref()).map_or(args.truths.as_path(), tempfile::TempDir::path);
@@ -78,7 +78,7 @@ pub fn execute(args: &VerifyArgs) -> Result<Ending, Error> {
     }
 }
 
-/// Checks a pack and unpacks it into a temporary folder; none for what is no file.
+/// Checks a pack and unpacks it into a temporary folder; none if `truths` is not a file.
 fn unpack(truths: &Path) -> Result<Option<tempfile::TempDir>, Error> {
     if !truths.exists() {
         refuse!(

@@ -1,10 +1,10 @@
-//! Styles of printed text. Inside of the program each is a mark: a character that is none, and that no file need hold. Printing makes
-//! the codes of a terminal of the marks, and of no other text: codes in a name or a file become escapes.
+//! Styles of printed text. Inside the program a style is a mark, a Unicode noncharacter that no file needs. Printing turns only marks into
+//! terminal codes; codes in names and files become escapes.
 
 use anstyle::{AnsiColor, Reset, Style};
 use store::printable;
 
-/// Marks a title, which has one line.
+/// Marks a title of one line.
 pub fn heading(text: &str) -> String {
     bold(&printable(text))
 }
@@ -14,7 +14,7 @@ pub fn bold(text: &str) -> String {
     paint('\u{fdd1}', text)
 }
 
-/// Marks text of less weight.
+/// Marks less important text.
 pub fn faint(text: &str) -> String {
     paint('\u{fdd2}', text)
 }
@@ -29,12 +29,12 @@ pub fn bad(text: &str) -> String {
     paint('\u{fdd4}', text)
 }
 
-/// Marks what is undecided.
+/// Marks an undecided result.
 pub fn doubtful(text: &str) -> String {
     paint('\u{fdd5}', text)
 }
 
-/// Mark of the end of a style.
+/// Mark that ends a style.
 const END: char = '\u{fdd0}';
 
 fn paint(mark: char, text: &str) -> String {
@@ -56,13 +56,13 @@ fn style(mark: char) -> Option<Style> {
     }
 }
 
-/// Counts the columns that a text takes on the screen.
+/// Counts the columns of a text on the screen.
 pub fn width(text: &str) -> usize {
     let is_shown = |letter: &char| *letter != END && style(*letter).is_none();
     text.chars().filter(is_shown).count()
 }
 
-/// Makes the text that a terminal gets: colours instead of marks, and escapes instead of all control characters but line breaks.
+/// Makes text for a terminal: colours for marks, escapes for control characters except line breaks.
 pub fn terminal_text(text: &str) -> String {
     let lines: Vec<_> = text.split('\n').map(printable).collect();
     let mut shown = String::new();

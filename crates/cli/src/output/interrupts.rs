@@ -1,4 +1,4 @@
-//! Signals that end the program: Ctrl-C, a request to end, a terminal that closes.
+//! Signals that end the program: Ctrl-C, a request to end, a closing terminal.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, LazyLock};
@@ -9,21 +9,21 @@ use signal_hook::flag::register_usize;
 
 use super::print_error;
 
-/// Number of the signal that arrived; 0 before one does.
+/// Number of the signal that arrived; 0 before.
 static SIGNAL: LazyLock<Arc<AtomicUsize>> = LazyLock::new(Arc::default);
 
-/// Time that work has to end by itself after a signal.
+/// Time for work to end by itself after a signal.
 const GRACE: Duration = Duration::from_millis(1500);
 
-/// Time between two looks for a signal.
+/// Time between two checks for a signal.
 const BETWEEN_LOOKS: Duration = Duration::from_millis(50);
 
 /// Words after a signal.
 pub const INTERRUPTED_TEXT: &str =
     "interrupted; files that are whole stay, and the same command goes on from there";
 
-/// Makes SIGINT, SIGTERM and SIGHUP end the work under way. Work that does not ask ends with the process a moment later. No file is
-/// left half written: files are renamed into place when they are whole.
+/// Makes SIGINT, SIGTERM and SIGHUP end the current work. Work that does not check for them ends with the process a moment later. No file
+/// is left half-written: files are renamed into place when complete.
 pub fn catch_interrupts() {
     for signal in caught_signals() {
         // A signal that cannot be caught ends the process at once.
@@ -39,7 +39,7 @@ pub fn catch_interrupts() {
     });
 }
 
-/// Lists the signals that end the program. A SIGHUP that is ignored at the start stays ignored, so that `nohup` works.
+/// Lists the signals that end the program. A SIGHUP ignored at the start stays ignored, so that `nohup` works.
 fn caught_signals() -> Vec<i32> {
     let mut signals = vec![SIGINT, SIGTERM];
     #[cfg(unix)]
@@ -50,7 +50,7 @@ fn caught_signals() -> Vec<i32> {
     signals
 }
 
-/// Returns true if the process ignores a signal, or if the system does not say so, as only Linux does.
+/// Returns true if the process ignores a signal, or if that is unknown; only Linux reports it.
 #[cfg(unix)]
 fn is_ignored(signal: i32) -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
@@ -64,7 +64,7 @@ pub fn was_interrupted() -> bool {
     SIGNAL.load(Ordering::Relaxed) != 0
 }
 
-/// Returns the exit code after a signal, as shells have it: 128 and the number of the signal.
+/// Returns the exit code after a signal, as in shells: 128 plus the signal's number.
 pub fn interrupted_code() -> u8 {
     let signal = match SIGNAL.load(Ordering::Relaxed) {
         0 => SIGINT as usize,

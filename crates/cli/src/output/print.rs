@@ -9,12 +9,12 @@ use tracer::Scene;
 
 use super::{terminal_text, wrap_lines};
 
-/// Prints to standard output, in colours where that is a terminal that shows them.
+/// Prints to standard output, in colours on a terminal that shows them.
 pub fn print(text: &str) -> Result<(), Error> {
     write_out(anstream::stdout(), terminal_text(text).as_bytes())
 }
 
-/// Writes to standard output as `out` does. A reader that has read enough, such as `head`, is no error.
+/// Writes to standard output as `out` does. A reader that stops early, such as `head`, is no error.
 pub fn write_out(mut out: impl Write, bytes: &[u8]) -> Result<(), Error> {
     match out.write_all(bytes).and_then(|()| out.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
@@ -24,13 +24,13 @@ pub fn write_out(mut out: impl Write, bytes: &[u8]) -> Result<(), Error> {
     }
 }
 
-/// Prints plain data as JSON, which ends with a line break.
+/// Prints plain data as JSON with a final line break.
 pub fn print_json(value: &impl serde::Serialize) -> Result<(), Error> {
     let json = serde_json::to_string_pretty(value).expect("results are plain data");
     print(&format!("{json}\n"))
 }
 
-/// Writes lines to standard error, with escapes instead of control characters. Nobody need read them: errors are ignored.
+/// Writes lines to standard error, with escapes for control characters. Ignores errors, since nobody need read it.
 pub fn print_error(text: &str) {
     let _ = writeln!(std::io::stderr(), "{}", terminal_text(text));
 }
@@ -40,7 +40,7 @@ pub fn print_failure(error: &Error) {
     print_wrapped(&printable_lines(&format!("error: {error}")));
 }
 
-/// Writes lines to standard error, wrapped where that is a terminal.
+/// Writes lines to standard error, wrapped on a terminal.
 fn print_wrapped(text: &str) {
     match std::io::stderr().is_terminal() {
         true => print_error(wrap_lines(text).trim_end()),
@@ -48,7 +48,7 @@ fn print_wrapped(text: &str) {
     }
 }
 
-/// Writes a note to standard error: something is worth knowing, and nothing is wrong.
+/// Writes a note to standard error: worth knowing, but nothing is wrong.
 pub fn print_note(text: &str) {
     print_wrapped(&format!("note: {}", printable(text)));
 }

@@ -13,13 +13,13 @@ use tracer::Progress;
 
 use super::{is_quiet, print_error, was_interrupted};
 
-/// Time between two lines of a log, where no terminal shows a bar.
+/// Time between two log lines without a terminal.
 const BETWEEN_LINES: Duration = Duration::from_secs(30);
 
-/// All bars on the screen: one per step under way.
+/// All bars on the screen: one per running step.
 static BARS: LazyLock<MultiProgress> = LazyLock::new(MultiProgress::new);
 
-/// Makes the monitor of a command: a bar on a terminal, lines in a log, nothing with --quiet. It ends work after Ctrl-C.
+/// Makes a command's monitor: a bar on a terminal, lines in a log, nothing with --quiet. It stops work after Ctrl-C.
 pub fn make_monitor() -> Monitor {
     Monitor {
         begin: match (is_quiet(), std::io::stderr().is_terminal()) {
@@ -31,7 +31,7 @@ pub fn make_monitor() -> Monitor {
     }
 }
 
-/// Progress as a bar on a terminal, beside others.
+/// Progress as one of several bars on a terminal.
 struct Bar(ProgressBar);
 
 impl Bar {
@@ -47,7 +47,7 @@ impl Bar {
         bar.set_style(style.with_key(
             "left",
             |state: &ProgressState, text: &mut dyn fmt::Write| {
-                // Nothing done says nothing about the rest.
+                // The remaining time is unknown before the first progress.
                 if state.pos() > 0 {
                     let _ = write!(text, "{} left", clock_text(state.eta()));
                 }
@@ -86,9 +86,9 @@ struct Lines {
 
 /// Times of a log.
 struct LineTimes {
-    /// End of what says nothing about the rest, such as a pilot.
+    /// End of work that does not predict the rest, such as a pilot.
     began: Instant,
-    /// The last line.
+    /// Time of the last line.
     last: Instant,
 }
 
@@ -111,7 +111,7 @@ impl Lines {
         }
     }
 
-    /// Makes a line, `fan trailing, replicate 3: 40 %, 1:30 left`; none where the last line is recent.
+    /// Formats a line, `fan trailing, replicate 3: 40 %, 1:30 left`; none if the last line is recent.
     fn line(&self, progress: Progress, now: Instant) -> Option<String> {
         let mut times = self.times.lock().ok()?;
         if progress.done == 0 {
@@ -144,7 +144,7 @@ mod tests {
         assert_eq!(at(29, 10), None);
         assert_eq!(at(30, 0).unwrap(), "fan: 0 %");
         assert_eq!(at(59, 40), None);
-        // A quarter in the 70 s since nothing was done: three more are left.
+        // A quarter in the 70 s since the start: three more quarters are left.
         assert_eq!(at(100, 50).unwrap(), "fan: 25 %, 3:30 left");
         assert_eq!(at(101, 60), None);
     }

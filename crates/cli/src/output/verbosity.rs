@@ -40,12 +40,12 @@ pub fn set_output(args: OutputArgs) {
     .write_global();
 }
 
-/// Tells whether progress is not to be shown.
+/// Returns whether progress is hidden.
 pub fn is_quiet() -> bool {
     OUTPUT.get().is_some_and(|output| output.quiet)
 }
 
-/// Tells whether more is to be shown than usual.
+/// Returns whether to print more than usual.
 pub fn is_verbose() -> bool {
     OUTPUT.get().is_some_and(|output| output.verbose)
 }

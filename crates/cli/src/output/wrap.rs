@@ -8,12 +8,12 @@ use terminal_size::{Width, terminal_size_of};
 
 use super::width;
 
-/// Columns of printed text where no terminal tells its own.
+/// Columns of printed text if no terminal gives its own.
 const USUAL_COLUMNS: usize = 80;
-/// Range of columns that text is wrapped to: narrower lines hold no table, longer ones are hard to read.
+/// Range of columns for wrapped text: narrower lines fit no table, longer ones are hard to read.
 const COLUMNS: RangeInclusive<usize> = 60..=120;
 
-/// Looks up the columns of the terminal that standard output goes to, or else those of the variable COLUMNS, as the help does.
+/// Looks up the columns of standard output's terminal, or else the variable COLUMNS, as the help does.
 pub fn terminal_columns() -> usize {
     static FOUND: OnceLock<usize> = OnceLock::new();
     *FOUND.get_or_init(|| {
@@ -28,8 +28,8 @@ pub fn terminal_columns() -> usize {
     })
 }
 
-/// Adds one line of text, and breaks it between words where it is too long; later lines are indented further. Line breaks in it become
-/// escapes, since names and files may hold them.
+/// Adds one line of text, broken between words if it is too long, with a deeper indent after the first line. Line breaks in it become
+/// escapes, since names and files may contain them.
 pub fn push_wrapped(text: &mut String, indent: usize, line: &str) {
     let mut column = indent;
     *text += &" ".repeat(indent);
@@ -48,7 +48,7 @@ pub fn push_wrapped(text: &mut String, indent: usize, line: &str) {
     *text += "\n";
 }
 
-/// Wraps lines, and keeps their indentation. Lines of a compiler stand below one another.
+/// Wraps lines, and keeps their indentation. Keeps compiler output aligned.
 pub fn wrap_lines(text: &str) -> String {
     let mut wrapped = String::new();
     for line in text.lines() {
@@ -61,7 +61,7 @@ pub fn wrap_lines(text: &str) -> String {
     wrapped
 }
 
-/// Counts things: `1 case`, `2 cases`.
+/// Formats a count: `1 case`, `2 cases`.
 pub fn count_text(count: usize, one: &str, many: &str) -> String {
     match count {
         1 => format!("1 {one}"),

@@ -18,11 +18,10 @@ pub enum Programs {
     Refused,
 }
 
-/// Loads the named filters; every built-in one where none is named.
+/// Loads the named filters, or every built-in one.
 ///
-/// A name is that of a built-in filter, a pattern of such names, or a filter folder, then optionally `:preset`, which may be a
-/// pattern as well. Without a preset, in
-/// the name or for all, each preset of the filter is taken. `overrides` are `filter.parameter=value`. Filters that are
+/// A name is a built-in filter, a pattern of them, or a filter folder, with an optional `:preset`, which may also be a pattern. Without a
+/// preset, in the name or for all, every preset of the filter is selected. `overrides` are `filter.parameter=value`. Filters that are
 /// programs are refused unless `programs` allows them.
 pub fn select_filters(
     names: &[String],
@@ -57,7 +56,7 @@ pub fn select_filters(
     Ok(choices)
 }
 
-/// Loads the filters of a name, a pattern or a path. A built-in filter goes before a folder of the same name.
+/// Loads the filters of a name, a pattern or a path. A built-in filter has priority over a folder of the same name.
 pub fn load_filters(name: &str) -> Result<Vec<Filter>, Error> {
     if is_path(name) {
         return Ok(vec![Filter::load(Path::new(name))?]);
@@ -77,7 +76,7 @@ pub fn load_filters(name: &str) -> Result<Vec<Filter>, Error> {
     )
 }
 
-/// Lists the presets of a filter by a name or a pattern; all where there is none.
+/// Lists a filter's presets that match a name or a pattern, or all of them.
 fn find_presets(filter: &Filter, text: Option<&str>) -> Result<Vec<String>, Error> {
     let known: Vec<String> = (filter.presets.iter())
         .map(|preset| preset.name.clone())
@@ -108,7 +107,7 @@ fn refuse_programs(choices: &[FilterChoice]) -> Result<(), Error> {
     }
 }
 
-/// Refuses a preset that is named twice, or two filters of one name: both would be written to one folder and counted as two.
+/// Refuses a preset that is named twice, and two filters of one name: both would share a folder and count twice.
 fn refuse_duplicates(choices: &[FilterChoice]) -> Result<(), Error> {
     let names: Vec<String> = choices.iter().map(FilterChoice::name).collect();
     match find_twin(&names) {

@@ -1,4 +1,4 @@
-//! Selection of scenes and filters by their names, as the command line has them.
+//! Selection of scenes and filters by their names on the command line.
 
 mod filters;
 mod names;

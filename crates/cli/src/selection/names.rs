@@ -3,20 +3,20 @@
 use glob::Pattern;
 use suite::Error;
 
-/// Similarity from which a known name is suggested for a misspelt one; 1 is equal.
+/// Smallest similarity of a known name that is suggested for a misspelt one; 1 is equal.
 const SIMILAR: f64 = 0.75;
 
-/// Tells whether a text is a pattern, such as `rail*`, and no name.
+/// Returns whether a text is a pattern, such as `rail*`, rather than a name.
 pub fn is_pattern(text: &str) -> bool {
     text.contains(['*', '?', '['])
 }
 
-/// Tells whether a text is a path. A path has a separator; a text without one is a name, whatever lies in the current folder.
+/// Returns whether a text is a path. A path has a separator; other texts are names, whatever the current folder contains.
 pub fn is_path(text: &str) -> bool {
     text.contains(['/', '\\'])
 }
 
-/// Lists the known names that a name or a pattern means; none if it means none of them.
+/// Lists the known names that match a name or a pattern.
 ///
 /// # Errors
 /// The pattern is malformed.
@@ -30,7 +30,7 @@ pub fn match_names(option: &str, text: &str, known: &[String]) -> Result<Vec<Str
     Ok(matched.cloned().collect())
 }
 
-/// Chooses the known names that are named or matched by a pattern, in the order of `known`; all where nothing is named.
+/// Chooses the known names that match, in the order of `known`; all without names.
 ///
 /// # Errors
 /// A name is unknown, or a pattern is malformed or matches nothing.
@@ -53,13 +53,13 @@ pub fn choose_names(
     Ok(known.iter().filter(is_chosen).cloned().collect())
 }
 
-/// Finds the first thing that is there twice.
+/// Finds the first duplicate.
 pub fn find_twin<T: PartialEq>(all: &[T]) -> Option<&T> {
     let is_twin = |(index, own): &(usize, &T)| all[..*index].contains(own);
     all.iter().enumerate().find(is_twin).map(|(_, own)| own)
 }
 
-/// Refuses a list with an empty name, which a comma too many makes.
+/// Refuses a list with an empty name, from a superfluous comma.
 pub fn refuse_empty_names(option: &str, names: &[String]) -> Result<(), Error> {
     match names.iter().any(String::is_empty) {
         false => Ok(()),
@@ -69,14 +69,14 @@ pub fn refuse_empty_names(option: &str, names: &[String]) -> Result<(), Error> {
     }
 }
 
-/// Compares a word with a name; 1 is equal. One slip of a finger, such as two letters that changed places, is `SIMILAR`.
+/// Compares a word with a name; 1 is equal. One slip, such as two swapped letters, is `SIMILAR`.
 fn similarity(word: &str, name: &str) -> f64 {
     let slips = strsim::damerau_levenshtein(word, name);
     let least = if slips <= 1 { SIMILAR } else { 0.0 };
     strsim::jaro_winkler(word, name).max(least)
 }
 
-/// Says which names are meant or allowed: `did you mean railing?`, or all of them where none is similar.
+/// Suggests names: `did you mean railing?`, or all of them if none is similar.
 pub fn suggest_names(text: &str, known: &[String]) -> String {
     let best = known
         .iter()

@@ -9,23 +9,23 @@ use super::names::{is_path, match_names, refuse_empty_names, suggest_names};
 
 /// A loaded scene and the folder that it came from.
 pub struct SceneChoice {
-    /// Holds scene.toml, and bounds.toml if the scene has bounds of its own.
+    /// Folder of scene.toml, and of bounds.toml if the scene has its own bounds.
     pub folder: Location,
     /// The scene.
     pub scene: Scene,
 }
 
-/// Loads the named scenes; all of `root`, each in its default variant, where none is named.
+/// Loads the named scenes, or all of `root` in their default variants.
 ///
-/// A name is that of a folder under `root`, a pattern of such names, or the path of any scene folder, then optionally
-/// `@variant`; `@all` takes every variant.
+/// A name is a folder under `root`, a pattern of such names, or the path of any scene folder, with an optional `@variant`; `@all` selects
+/// every variant.
 pub fn select_scenes(
     root: impl Into<Location>,
     names: &[String],
 ) -> Result<Vec<SceneChoice>, Error> {
     let root = &root.into();
     refuse_empty_names("--scenes", names)?;
-    // Where every scene is given by its path, `root` need not exist.
+    // If every scene is given by its path, `root` need not exist.
     let listings = match !names.is_empty() && names.iter().all(|name| is_path(name)) {
         true => Vec::new(),
         false if root.is_dir() => list_scenes(root)?,
@@ -54,8 +54,8 @@ pub fn select_scenes(
     Ok(scenes)
 }
 
-/// Reads the scenes that engines drew among the named ones; returns the names of the others as well. A scene of `root` goes before a
-/// folder of the same name elsewhere.
+/// Reads the scenes that engines drew among the named ones; returns the other names as well. A scene of `root` has priority over a folder
+/// of the same name elsewhere.
 pub fn select_engine_scenes(
     root: &Location,
     names: &[String],
@@ -75,7 +75,7 @@ pub fn select_engine_scenes(
     Ok((scenes, others.into_iter().cloned().collect()))
 }
 
-/// Finds the folders of a name, a pattern or a path. A scene of `root` goes before a folder of the same name elsewhere.
+/// Finds the folders of a name, a pattern or a path. A scene of `root` has priority over a folder of the same name elsewhere.
 fn find_folders(root: &Location, name: &str, known: &[String]) -> Result<Vec<Location>, Error> {
     if is_path(name) {
         return Ok(vec![Path::new(name).into()]);
@@ -94,7 +94,7 @@ fn find_folders(root: &Location, name: &str, known: &[String]) -> Result<Vec<Loc
     )
 }
 
-/// Says how to get a scene of the program's own, where another folder of scenes hides it.
+/// Explains how to get a built-in scene that another folder of scenes hides.
 fn suggest_built_in(root: &Location, name: &str) -> &'static str {
     let built_in = Location::of_bundle(&catalogue::SCENES).join(name);
     match root.bundle.is_none() && built_in.is_dir() {
@@ -103,7 +103,7 @@ fn suggest_built_in(root: &Location, name: &str) -> &'static str {
     }
 }
 
-/// Splits a text into the name or path of a scene, and its identity. Folders above the scene's own may have an @ in their names.
+/// Splits a text into a scene's name or path, and its identity. Parent folders may have an @ in their names.
 pub fn split_scene(text: &str) -> (&str, SceneId) {
     let name = text.trim_end_matches(['/', '\\']);
     let own = name.rfind(['/', '\\']).map_or(0, |separator| separator + 1);
@@ -134,7 +134,7 @@ fn load_all_variants(folder: &Location, all: &SceneId) -> Result<Vec<SceneChoice
         .collect()
 }
 
-/// Refuses two scenes of one name: both would be written to one folder and counted as two.
+/// Refuses two scenes of one name: both would share a folder and count twice.
 fn refuse_twins<'a>(scenes: impl Iterator<Item = (&'a SceneId, Location)>) -> Result<(), Error> {
     let mut known: Vec<(&SceneId, Location)> = Vec::new();
     for (name, folder) in scenes {

@@ -1,4 +1,4 @@
-//! Tables of filters side by side: what they score at each frame rate, and what each form of the input costs them.
+//! Tables of filters side by side: scores at each frame rate, and the cost of each input form.
 
 use judge::list_summarized;
 use metrics::Metric;
@@ -7,10 +7,10 @@ use tracer::FrameRate;
 
 use super::{Table, legend_text, list_once, mean_text};
 
-/// Columns side by side of a table that has many.
+/// Columns side by side in a table with many.
 const ABREAST: usize = 3;
 
-/// Makes tables with a few columns side by side, so that a row fits a terminal, and the note below them.
+/// Makes tables with a few columns each, so that a row fits a terminal, and the note below them.
 fn abreast_text<R>(
     title: &str,
     columns: &[String],
@@ -30,9 +30,8 @@ fn abreast_text<R>(
     format!("\n{tables}\n{}", legend_text(legend))
 }
 
-/// Makes a row per form of the input and a column per filter: the change of mean FLIP against the full form. Empty for a run that
-/// tried no other form. Rules of the shutter, which change nothing at the frame rate of the scenes' files, stand in the table of
-/// rates.
+/// Makes a row per input form and a column per filter: the change of mean FLIP against the full form. Empty for a run with no other
+/// form. Shutter rules, which change nothing at the scene files' frame rate, are in the table of rates.
 pub fn input_forms_text(cases: &[Case]) -> String {
     let cases = list_summarized(cases);
     let is_shown = |case: &&&Case| case.rate.is_some() || case.input.rule == Default::default();
@@ -66,8 +65,8 @@ pub fn input_forms_text(cases: &[Case]) -> String {
     )
 }
 
-/// Makes a row per frame rate and rule of the shutter, and a column per filter and per picture of doing nothing: the mean FLIP over the
-/// scenes. Empty for a run of one rate.
+/// Makes a row per frame rate and shutter rule, and a column per filter and per unblurred picture: mean FLIP over the scenes. Empty for a
+/// run of one rate.
 pub fn frame_rates_text(cases: &[Case]) -> String {
     let rows = list_once(cases.iter().filter_map(Row::of));
     if rows.iter().all(|row| row.rate == rows[0].rate) {
@@ -88,14 +87,14 @@ pub fn frame_rates_text(cases: &[Case]) -> String {
 /// A row of the table.
 #[derive(PartialEq)]
 struct Row {
-    /// None for the rate of the scenes' files.
+    /// None for the scene files' rate.
     rate: Option<FrameRate>,
-    /// Form in which filters get the frame: the full one, or that of another rule of the shutter.
+    /// Form of the frame that filters get: the full one, or another shutter rule's.
     input: InputFormat,
 }
 
 impl Row {
-    /// Makes the row of a case; none of another form than those of the table. At the rate of the files every rule is the right one.
+    /// Makes a case's row; none for input forms that the table does not show. At the files' rate every rule is right.
     fn of(case: &Case) -> Option<Self> {
         let input = InputFormat {
             rule: case.input.rule,
@@ -108,7 +107,7 @@ impl Row {
         })
     }
 
-    /// Tells whether a case is in the row. Doing nothing follows no rule.
+    /// Returns whether a case is in the row. Doing nothing follows no rule.
     fn holds(&self, case: &Case) -> bool {
         case.rate == self.rate && (case.input == self.input || case.is_reference)
     }
@@ -121,7 +120,7 @@ impl Row {
     }
 }
 
-/// Names the column of a case, without the form of its input; none of a reference other than doing nothing.
+/// Names a case's column, without its input form; none for a reference other than doing nothing.
 fn column(case: &Case) -> Option<String> {
     let name = case.name();
     match (case.is_reference, case.filter.as_str()) {

@@ -6,12 +6,12 @@ use store::printable;
 
 use super::{comparison_line, count_lines, markdown_table, range_text, verdict_word};
 
-/// Upper limit that GitHub sets on the annotations of a step.
+/// GitHub's upper limit on the annotations of a step.
 const MAX_ANNOTATIONS: usize = 10;
-/// Upper limit on rows of a summary: it is to be read, and GitHub takes one mebibyte per step.
+/// Upper limit on rows of a summary: people read it, and GitHub accepts one mebibyte per step.
 const MAX_ROWS: usize = 500;
 
-/// Makes one workflow command per line for each thing that keeps the check from passing. The last of ten counts the rest.
+/// Formats one workflow command per line for each thing that keeps the check from passing. The tenth counts the rest.
 pub fn annotations(check: &Check) -> String {
     let findings = (check.findings.iter())
         .filter(|finding| finding.decision() != Decision::Pass)
@@ -124,7 +124,7 @@ fn decision_word(decision: Decision) -> &'static str {
     }
 }
 
-/// Escapes the text of a cell: a vertical bar would end it, and other signs make links or pictures of names.
+/// Escapes a cell's text: a vertical bar would end it, and other characters in names make links or pictures.
 fn escape_cell(text: &str) -> String {
     let mut cell = String::new();
     for letter in printable(&text.replace('\n', " ")).chars() {
@@ -134,7 +134,7 @@ fn escape_cell(text: &str) -> String {
     cell
 }
 
-/// Characters with a meaning in Markdown: it would fetch an image in a name, and show HTML.
+/// Characters with a meaning in Markdown, which could fetch an image that a name refers to, or show HTML.
 const MARKDOWN: &str = "\\`|*<[&";
 
 /// Escapes the message of a workflow command.

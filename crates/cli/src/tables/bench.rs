@@ -6,7 +6,7 @@ use suite::{BASELINE, Bench, CaseCost, GROWTH_FROM, REACHES, Spread};
 use super::{Table, cell};
 use crate::output::push_wrapped;
 
-/// Makes the tables: cost per filter and pass, then cost against reach.
+/// Makes the tables: cost per filter and pass, then cost against blur length.
 pub fn bench_table(bench: &Bench) -> String {
     let clock = match bench.clock {
         Clock::Timestamps => "the GPU's own clock",

@@ -1,4 +1,4 @@
-//! Table of a run: one row per case, and its failed cases.
+//! Table of a run: one row per case, and failed cases.
 
 use judge::lag_text;
 use metrics::{Metric, Scores};
@@ -18,10 +18,10 @@ const CASE_COLUMNS: [Column; 7] = [
     ("N_eq", Metric::SUBFRAMES),
 ];
 
-/// Title of FLIP against the shutter that all cases are compared with.
+/// Title of FLIP against the shutter that all cases share.
 const COMMON_FLIP: &str = "FLIP*";
 
-/// Makes the table of a run: its cases, and means over the scenes. A score that does not apply is `n/a`, and a note says why.
+/// Makes the table of a run: cases, and means over the scenes. A score that does not apply is `n/a`, with a note that says why.
 pub fn run_table(run: &Run) -> String {
     let mut table = case_table("scene / filter", &["noise", COMMON_FLIP]);
     let mut missing = Missing::default();
@@ -58,9 +58,9 @@ pub fn run_table(run: &Run) -> String {
 
 /// Meaning of titles and marks.
 const KEY: &str = "Skill by FLIP: 0 is a sharp picture of the shutter's middle, [identity] if centred, else [accumulate:1]; 1 is \
-                   [scatter_oracle]. Bleed: the largest of beside, ahead (>) and behind (<); grow, loss and bleed in pixels.";
+                   [scatter_oracle]. Bleed: the largest of sideways, ahead (>) and behind (<); grow, loss and bleed in pixels.";
 
-/// Makes the table of one picture's scores, in the manner of [`run_table`].
+/// Makes the table of one picture's scores, like [`run_table`].
 pub fn score_table(scene: &str, picture: &str, scores: &Scores) -> String {
     let mut table = case_table("scene / picture", &[]);
     table.push_text(scene);
@@ -78,13 +78,13 @@ fn case_cells(scores: &Scores) -> impl Iterator<Item = String> {
     metrics.map(|metric| scores.text(metric, scores.get(metric).value()))
 }
 
-/// Formats the part of the squared error that is the filter's noise.
+/// Formats the filter's noise as a part of the squared error.
 fn noise_cell(case: &Case) -> String {
     let share = case.jitter.map(|jitter| 100.0 * jitter.noise_share());
     share.map_or("-".to_owned(), |share| format!("{share:.0}%"))
 }
 
-/// Lists every failure with its reason; empty where there is none.
+/// Lists every failure with its reason; empty if there is none.
 pub fn failures_text(failures: &[Failure]) -> String {
     let mut text = String::new();
     for failure in failures {

@@ -1,4 +1,4 @@
-//! Text of a check: every score that does not keep its bound.
+//! Text of a check: every score outside its bound.
 
 use std::path::Path;
 
@@ -8,8 +8,8 @@ use report::{finding_score, finding_status, length_text, way_out, worst_frame_te
 use super::{failures_text, list_once};
 use crate::output::{bad, count_text, doubtful, good, heading, push_wrapped};
 
-/// Lists scores that are broken, undecided or limited within the noise, by scene and filter; then comparisons, then counts. Targets, which
-/// fail nothing, are listed where `targets` asks for them. `out` is the folder of the run's pictures.
+/// Lists scores that are broken, undecided or limited within the noise, by scene and filter; then comparisons, then counts. Lists targets,
+/// which fail nothing, only if `targets` is set. `out` is the folder of the run's pictures.
 pub fn check_text(check: &Check, out: &Path, targets: bool) -> String {
     let mut text = failures_text(&check.failures);
     let mut case = None;
@@ -46,7 +46,7 @@ pub fn verdict_word(decision: Decision) -> &'static str {
     }
 }
 
-/// Ends a check with its verdict, and the way out of one that is undecided.
+/// Formats a check's verdict, and what helps if it is undecided.
 pub fn verdict_text(check: &Check) -> String {
     let word = verdict_word(check.decision);
     let verdict = match check.decision {
@@ -120,7 +120,7 @@ pub fn comparison_line(comparison: &BaselineComparison) -> String {
     )
 }
 
-/// Counts required bounds, and apart from them targets.
+/// Counts required bounds, and targets separately.
 pub fn count_lines(check: &Check) -> Vec<String> {
     let line = |level: Level, one: &str, [kept, broken]: [&str; 2], note: &str| {
         let findings = check.findings.iter();
@@ -148,7 +148,7 @@ pub fn count_lines(check: &Check) -> Vec<String> {
     lines.into_iter().flatten().collect()
 }
 
-/// Says which limits were not judged, since they are on sequences of another length, and how they are; none where all were.
+/// Names the limits that were not judged because they are for sequences of another length, and how to judge them; none if all were judged.
 fn not_judged_line(check: &Check) -> Option<String> {
     let mut lengths: Vec<(String, String)> = Vec::new();
     for finding in (check.findings.iter()).filter(|own| own.outcome == Outcome::NotJudged) {

@@ -7,7 +7,7 @@ use crate::output::{faint, push_wrapped};
 /// A column: its title and its score.
 pub type Column = (&'static str, Metric);
 
-/// Puts the names of references into brackets: they are no filters.
+/// Puts the names of references, which are not filters, into brackets.
 pub fn bracket_name(name: &str, is_reference: bool) -> String {
     match is_reference {
         true => format!("[{name}]"),
@@ -33,7 +33,7 @@ pub fn list_once<T: PartialEq>(all: impl Iterator<Item = T>) -> Vec<T> {
     listed
 }
 
-/// Fills the cell of a value, which may be missing.
+/// Formats a value that may be missing.
 pub fn cell<T>(value: Option<T>, text: impl FnOnce(T) -> String) -> String {
     value.map_or("n/a".to_owned(), text)
 }

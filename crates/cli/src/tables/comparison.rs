@@ -7,10 +7,10 @@ use report::ChangeCells;
 use super::{Table, list_once};
 use crate::output::{bad, count_text, doubtful, faint, good, push_wrapped};
 
-/// Upper limit on changed cases in the table; `--json` and the page have all.
+/// Upper limit on changed cases in the table; `--json` and the page show all.
 const CASES: usize = 12;
 
-/// Makes the tables: settings, cases of one run alone, means over scenes, cases that changed, counts.
+/// Makes the tables: settings, cases of only one run, means over scenes, changed cases, counts.
 pub fn compare_table(compared: &RunComparison) -> String {
     let mut text = String::new();
     for setting in &compared.settings {
@@ -41,7 +41,7 @@ fn setting_line(setting: &SettingChange) -> String {
     format!("{}: {first} -> {second}", setting.name)
 }
 
-/// Makes the table of means; one line names the filters of which no scene changed.
+/// Makes the table of means; one line names the filters that changed on no scene.
 fn means_table(means: &[MeanChange]) -> String {
     let mut table = change_table("mean over scenes");
     let mut filter = "";
@@ -69,7 +69,7 @@ fn means_table(means: &[MeanChange]) -> String {
     text
 }
 
-/// Makes the table of cases, those with the largest changes first.
+/// Makes the table of cases, largest changes first.
 fn changes_table(changes: &[Change]) -> String {
     let ranked = rank_changes(changes);
     if ranked.is_empty() {

@@ -4,7 +4,7 @@ use store::printable;
 
 use crate::output::{bold, faint, terminal_columns, width};
 
-/// Columns between two cells: the more that fit.
+/// Spaces between two cells: the most that fit.
 const GAPS: [usize; 2] = [2, 1];
 /// Indent of a row, below the headings.
 const INDENT: usize = 2;
@@ -12,14 +12,14 @@ const INDENT: usize = 2;
 /// A table of text: names, then numbers, which are aligned to the right.
 pub struct Table {
     titles: Vec<String>,
-    /// Columns that hold words, aligned to the left.
+    /// Left-aligned columns of words.
     left: Vec<usize>,
-    /// The only cell of a line of text, or a name and its cells; dimmed or not.
+    /// A line of text as its only cell, or a name and its cells; dimmed or not.
     lines: Vec<(Vec<String>, bool)>,
 }
 
 impl Table {
-    /// Begins a table with the title of its names and those of the other columns.
+    /// Begins a table with the title of the names and the other columns' titles.
     pub fn new<T: Into<String>>(
         name: impl Into<String>,
         others: impl IntoIterator<Item = T>,
@@ -39,7 +39,7 @@ impl Table {
         self
     }
 
-    /// Adds a line of text that belongs to no column.
+    /// Adds a line of text outside the columns.
     pub fn push_text(&mut self, text: impl Into<String>) {
         let text = printable(&text.into()).into_owned();
         self.lines.push((vec![text], false));
@@ -63,14 +63,14 @@ impl Table {
         self.lines.push((row, dimmed));
     }
 
-    /// Lays out the table. Where a row does not fit the terminal, long names have a line of their own.
+    /// Lays out the table. If a row does not fit the terminal, long names get a line of their own.
     pub fn text(&self) -> String {
         self.text_in(terminal_columns())
     }
 
     fn text_in(&self, columns: usize) -> String {
         let mut widths: Vec<usize> = self.titles.iter().map(|title| width(title)).collect();
-        // The title of the names is further to the left than they are.
+        // The title of the names is not indented.
         widths[0] = widths[0].saturating_sub(INDENT);
         for (cells, _) in self.lines.iter().filter(|(cells, _)| cells.len() > 1) {
             for (widest, cell) in widths.iter_mut().zip(cells) {
@@ -101,7 +101,7 @@ impl Table {
         text
     }
 
-    /// Lays out cells: the first in a width of its own after an indent, the others after gaps.
+    /// Lays out cells: the first with its own width after an indent, the others after gaps.
     fn row_text(
         &self,
         cells: &[String],

@@ -45,7 +45,7 @@ pub fn inputs_text(kinds: &[InputKind]) -> String {
     text
 }
 
-/// Names what kernels ran on: `llvmpipe (LLVM 19), vulkan`.
+/// Names the adapter that kernels ran on: `llvmpipe (LLVM 19), vulkan`.
 pub fn adapter_text(adapter: &Option<AdapterDescription>) -> String {
     match adapter {
         Some(adapter) => format!("{}, {}", adapter.name, adapter.backend),
@@ -128,7 +128,7 @@ fn push_filter(text: &mut String, filter: &Filter) {
     }
 }
 
-/// Describes a preset: its source, and its differences from that.
+/// Describes a preset: its source, and its differences from it.
 fn push_preset(text: &mut String, preset: &Preset) {
     push_wrapped(text, 4, &format!(":{}  {}", preset.name, preset.doc));
     let mut line = |words: String| push_wrapped(text, 8, &words);

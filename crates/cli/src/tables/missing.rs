@@ -8,7 +8,7 @@ use super::legend_text;
 #[derive(Default)]
 pub struct Missing(Vec<Reason>);
 
-/// A reason, and the scores and rows that it takes out.
+/// A reason, with the scores and rows that it excludes.
 #[derive(Default)]
 struct Reason {
     text: String,
@@ -18,7 +18,7 @@ struct Reason {
     rows: Vec<String>,
 }
 
-/// Rows that a note names; more are counted.
+/// Rows that a note names; the rest are counted.
 const MAX_NAMED: usize = 3;
 
 impl Missing {
@@ -44,7 +44,7 @@ impl Missing {
         }
     }
 
-    /// Makes one note for each reason: `grow, loss n/a on fan: no object translates`.
+    /// Formats one note for each reason: `grow, loss n/a on fan: no object translates`.
     pub fn text(&self) -> String {
         let note = |reason: &Reason| {
             let place = match reason.rows.len() {

@@ -1,4 +1,4 @@
-//! Tables of what people prefer.
+//! Tables of people's preferences.
 
 use study::{
     MIN_PEOPLE, Preferences, QuestionResult, RESAMPLES, Resampled, ScoreAgreement, ShutterScale,
@@ -84,7 +84,7 @@ fn push_scale(text: &mut String, scale: &ShutterScale) {
     }
 }
 
-/// Says what the scale rests on.
+/// Describes the data of a scale.
 fn describe(scale: &ShutterScale) -> Vec<String> {
     let answers = format!(
         "{} of {}, {} of them neither",
@@ -141,7 +141,7 @@ fn score_table(scores: &[ScoreAgreement]) -> String {
     table.text()
 }
 
-/// Writes a number with its sign; no "-0.00".
+/// Formats a number with its sign, but never "-0.00".
 fn signed(value: f64) -> String {
     let rounded = (value * 100.0).round() / 100.0 + 0.0;
     format!("{rounded:+.2}")

@@ -1,4 +1,4 @@
-//! Summary of a run: the ranking of its filters, and the references beside them.
+//! Summary of a run: the ranking of its filters, and the references.
 
 use frame::Alignment;
 use judge::{MAX_RANKED, RANK_RULE, RankedFilter, list_summarized, mean_lag, rank_for_summary};
@@ -38,14 +38,14 @@ pub fn ranking_text(cases: &[Case]) -> String {
     text + &input_forms_text(cases) + &frame_rates_text(cases)
 }
 
-/// Names the shutter of a group: `centred shutter`, with the frame rate if it is none of the scenes' files.
+/// Names a group's shutter: `centred shutter`, with the frame rate if it differs from the scene files'.
 pub fn shutter_text(alignment: Alignment, rate: Option<FrameRate>) -> String {
     let rate = rate.map_or(String::new(), |rate| format!(", {}", rate.text()));
     format!("{alignment} shutter{rate}")
 }
 
 fn ranking_table(cases: &[Case], groups: &[Vec<RankedFilter>]) -> Table {
-    // All groups but those of frame rates have the same scenes.
+    // All groups except those of frame rates have the same scenes.
     let first = groups[0][0].rate;
     let cases = list_summarized(cases).into_iter();
     let cases = cases.filter(|case| case.rate == first);
@@ -66,12 +66,12 @@ fn ranking_table(cases: &[Case], groups: &[Vec<RankedFilter>]) -> Table {
     table
 }
 
-/// Names a filter behind its rank: ` 2-4 jimenez:hdrp`.
+/// Formats a filter after its rank: ` 2-4 jimenez:hdrp`.
 pub fn ranked_name(ranked: &RankedFilter) -> String {
     format!("{:>4} {}", ranked.rank_text(), ranked.name)
 }
 
-/// Returns the mean that ranks, its interval, and the worst scene.
+/// Returns the ranking mean, its interval, and the worst scene.
 pub fn ranking_cells(
     ranked: &RankedFilter,
     scenes: usize,
@@ -86,8 +86,7 @@ pub fn ranking_cells(
     [number(ranked.mean), interval, worst]
 }
 
-/// Makes the table of references: one row each, one column per shutter. The last row is the lag of the shutter's middle behind
-/// the frame.
+/// Makes the table of references: one row each, one column per shutter. The last row is the lag of the shutter's middle behind the frame.
 fn references_text(cases: &[Case], groups: &[Vec<RankedFilter>]) -> String {
     let references = || (list_summarized(cases).into_iter()).filter(|case| case.is_reference);
     let names = list_once(references().map(|case| case.name()));
@@ -133,7 +132,7 @@ fn notes(groups: &[Vec<RankedFilter>]) -> String {
         notes += &format!(" {RANK_RULE}");
     }
     if groups.len() > 1 {
-        notes += " Compare filters of one shutter only; --table has skill, which compares all.";
+        notes += " Compare filters of one shutter only. Across shutters, --table has skill, a rough measure.";
     }
     notes
 }

@@ -7,7 +7,7 @@ use suite::{Overall, rank_filters};
 use super::{Column, Table, bracket_name, cell, legend_text, list_once, range_text, shutter_text};
 use crate::output::heading;
 
-/// FLIP, which ranks filters of one alignment, and the columns behind it.
+/// FLIP, which ranks filters of one alignment, and the columns after it.
 const BY_FLIP: [Column; 6] = [
     ("FLIP", Metric::FLIP),
     ("PSNR", Metric::PSNR),
@@ -16,7 +16,7 @@ const BY_FLIP: [Column; 6] = [
     ("bleed", Metric::Bleed),
     ("TV", Metric::LABEL),
 ];
-/// Skill, which ranks filters of all alignments, and the columns behind it.
+/// Skill, which ranks filters of all alignments, and the columns after it.
 const BY_SKILL: [Column; 4] = [
     ("skill", Metric::SKILL),
     ("MSE", Metric::Skill(SkillMetric::Mse)),
@@ -59,7 +59,7 @@ pub fn means_table(overall: &[Overall]) -> String {
     text
 }
 
-/// Notes the shutters for which skill applies to fewer scenes than FLIP.
+/// Notes the shutters where skill applies to fewer scenes than FLIP.
 fn fewer_scenes_note(overall: &[Overall]) -> String {
     let count = |metric: Metric, alignment: Alignment| {
         let mut own = overall.iter();
@@ -89,7 +89,7 @@ fn begin_means(overall: &[Overall], columns: &[Column], last: Option<&str>) -> T
     Table::new(format!("mean over {scenes} scenes"), titles)
 }
 
-/// Adds a row: the mean that ranks with its interval, other means, and a last cell.
+/// Adds a row: the ranking mean with its interval, other means, and a last cell.
 fn push_mean(
     table: &mut Table,
     overall: &[Overall],

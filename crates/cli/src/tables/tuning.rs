@@ -11,7 +11,7 @@ use crate::output::{count_text, heading, push_wrapped};
 
 /// Upper limit on rows of the front; `tune.json` has all.
 const ROWS: usize = 12;
-/// Column at which their values begin.
+/// Column where their values begin.
 const VALUES: usize = 34;
 
 /// Makes the tables: start, front, choice, folds and held-out scenes.
@@ -87,7 +87,7 @@ pub fn tuning_table(tuning: &Tuning) -> String {
     text
 }
 
-/// Advises to take the choice, which lies in files beside tune.json, or says why there is no preset of it.
+/// Recommends the choice and names its files, or says why there is no preset.
 pub fn advice_text(tuning: &Tuning) -> String {
     let trial = tuning.choice.trial;
     let reason = match tuning.advice() {
@@ -172,7 +172,7 @@ pub fn paired_table(paired: &PairedComparison, names: [&str; 2]) -> String {
     text
 }
 
-/// Makes the table of parameters, those that matter most first.
+/// Makes the table of parameters, most important first.
 pub fn sensitivity_table(found: &Sensitivity) -> String {
     let mut rows: Vec<(&String, &ParameterSensitivity)> = found.parameters.iter().collect();
     rows.sort_by(|(_, a), (_, b)| b.indices.total.value.total_cmp(&a.indices.total.value));

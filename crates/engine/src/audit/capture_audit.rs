@@ -25,17 +25,17 @@ const LEAST_ALIKE: f64 = 0.5;
 pub struct CaptureAudit {
     /// Name of the scene, with its variant.
     pub scene: String,
-    /// Engine, as the capture names it.
+    /// Engine, as named in the capture.
     pub engine: String,
     /// Columns and rows.
     pub size: [u32; 2],
-    /// True if the capture has ids of objects; without them depth tells what it shows.
+    /// True if the capture has object ids; otherwise its depth identifies objects.
     pub has_ids: bool,
-    /// Part of the pixels at which the engine shows what the scene shows.
+    /// Part of the pixels at which the engine shows the same as the scene.
     pub alike: f64,
     /// The same, object by object.
     pub objects: Vec<ObjectShown>,
-    /// True if the engine shows the scene; else nothing is said about its vectors.
+    /// True if the engine shows the scene; otherwise its vectors are not judged.
     pub shows_scene: bool,
     /// Velocity, object by object; the background is one.
     pub velocity: Vec<ObjectAudit>,
@@ -47,7 +47,7 @@ pub struct CaptureAudit {
     pub findings: Vec<Defect>,
 }
 
-/// Compares a capture with the scene that it shows; returns what the scene's velocity should be as well.
+/// Compares a capture with its scene; also returns the scene's correct velocity.
 ///
 /// # Errors
 /// The capture is of another instant, or the scene's motion cannot be traced.
@@ -84,7 +84,7 @@ pub fn audit_capture(
         false => word_missed(&shown, ids.is_some()),
     };
     let mut wrong = Vec::new();
-    // Whatever else differs follows from another view, or from a picture of something else.
+    // All other differences follow from another view or another subject.
     if !shows_other_view && missed.iter().all(|finding| finding.object.is_some()) {
         wrong.extend(wrong_velocity);
         if !is_view(Buffer::Depth) {
@@ -123,7 +123,7 @@ fn check_instant(capture: &Capture) -> Result<(), Error> {
     )
 }
 
-/// Words wrong depth; none of an object that the engine does not show. Without ids nobody knows whether it draws the others there.
+/// Words wrong depth; none for an object that the engine does not show. Without ids, nobody knows whether it draws the others there.
 fn word_depth(wrong: Defect, shown: &Shown, has_ids: bool) -> Option<Defect> {
     match &wrong.object {
         Some(name) if shown.is_missed(name) => None,
@@ -134,7 +134,7 @@ fn word_depth(wrong: Defect, shown: &Shown, has_ids: bool) -> Option<Defect> {
     }
 }
 
-/// Words what the engine shows too little of: all of the picture, or single objects.
+/// Words what the engine shows too little of: the whole picture, or single objects.
 fn word_missed(shown: &Shown, has_ids: bool) -> Vec<Defect> {
     let other = |object: Option<&str>, part: f64, text: &str| {
         let found = Explanation::by(Cause::OtherView, 1.0 - part);

@@ -8,7 +8,7 @@ use crate::export::FRAMES_PER_SECOND;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Cause {
-    /// Zero where there is motion.
+    /// Zero despite motion.
     Zero,
     /// Previous minus current.
     WrongSign,
@@ -24,15 +24,15 @@ pub enum Cause {
     CameraMotionMissing,
     /// The motion from two frames ago to one frame ago.
     FrameLate,
-    /// The whole buffer of the frame before.
+    /// The whole buffer of the previous frame.
     PreviousBuffer,
-    /// Stored where the frame before showed the point.
+    /// Stored where the previous frame showed the point.
     PreviousPixel,
-    /// The motion of the frame to come.
+    /// The motion to the next frame.
     FrameEarly,
     /// The object's last matrix was the identity.
     MatrixNeverSet,
-    /// The motion at the instant, which is half a frame later than the mean motion since the frame before.
+    /// The motion at the instant, half a frame later than the mean motion since the previous frame.
     HalfFrameOff,
     /// A factor on both axes.
     Scale(f64),
@@ -44,27 +44,27 @@ pub enum Cause {
     Clipped(f64),
     /// A limit on each axis, in pixels.
     ClippedAxes(f64),
-    /// Steps of that many pixels.
+    /// Steps of this many pixels.
     Steps(f64),
-    /// The motion over a part of a second, not over a frame of the exported animation: its denominator.
+    /// The motion over a part of a second instead of a frame of the exported animation: its denominator.
     MotionOver(f64),
     /// Rows from the bottom.
     UpsideDown,
-    /// Drawn as the scene was that many frames before the instant.
+    /// Shows the scene this many frames before the instant.
     DrawnLate(u32),
-    /// Drawn as the scene is that many frames after the instant.
+    /// Shows the scene this many frames after the instant.
     DrawnEarly(u32),
     /// A factor on radiance.
     Brightness(f64),
-    /// The mean radiance of an object is the first one, and should be the second one.
+    /// Mean radiance of an object: found, and correct.
     OtherColor([f64; 3], [f64; 3]),
     /// A factor on depth.
     DepthScale(f64),
     /// The distance along the ray, not along the view axis.
     DepthAlongRay,
-    /// Near or far plane differ from those of the convention: the true near plane is that many times as far.
+    /// The near or far plane differs from the convention's: the true near plane is this many times as far.
     DepthPlanes(f64),
-    /// The background is as near as that many metres.
+    /// The background's depth is only this many metres.
     DepthOfBackground(f64),
     /// The picture shows something else.
     OtherView,
@@ -73,7 +73,7 @@ pub enum Cause {
 }
 
 impl Cause {
-    /// Turns a vector as a wrong sign or axis does.
+    /// Applies a wrong sign or axis to a vector.
     pub(super) fn turn(self, [x, y]: [f32; 2]) -> [f32; 2] {
         match self {
             Self::WrongSign => [-x, -y],
@@ -84,7 +84,7 @@ impl Cause {
         }
     }
 
-    /// Says what is wrong, as a sentence goes on.
+    /// Describes the mistake, as the continuation of a sentence.
     pub fn name(self) -> String {
         match self {
             Self::Zero => "is zero".to_owned(),
@@ -138,7 +138,7 @@ impl Cause {
         }
     }
 
-    /// Tells whether the cause is a word, without a number that was fitted.
+    /// Returns whether the cause is a word, without a fitted number.
     pub(super) fn is_word(self) -> bool {
         !matches!(
             self,
@@ -151,7 +151,7 @@ impl Cause {
         )
     }
 
-    /// Says the way out, for one object or for all of the picture.
+    /// Suggests a remedy, for one object or for the whole picture.
     pub(super) fn advice(self, is_of_object: bool) -> Option<String> {
         let key = |text: &str| {
             Some(format!(

@@ -1,18 +1,18 @@
-//! Pixels whose velocity and depth can be compared: well inside of objects that both pictures show there.
+//! Pixels with comparable velocity and depth: well inside objects that both pictures show there.
 
 use std::ops::RangeInclusive;
 
 use frame::Raster;
 use tracer::PointLayers;
 
-/// Fewest pixels of an object that is judged.
+/// Smallest number of pixels of an object that is judged.
 pub const MIN_PIXELS: usize = 9;
 
-/// Pixels of one object that can be compared.
+/// Comparable pixels of one object.
 pub struct ClearPixels {
     /// Number of the object, 0 for the background.
     pub object: u32,
-    /// Places in the raster.
+    /// Indices in the raster.
     pub pixels: Vec<usize>,
 }
 
@@ -22,7 +22,7 @@ pub fn select_judged(regions: &[ClearPixels]) -> Vec<&ClearPixels> {
     regions.iter().filter(is_judged).collect()
 }
 
-/// Selects per object the pixels whose eight neighbours show the same object, if the engine shows the same there.
+/// Selects each object's pixels with eight neighbours of the same object, if the engine shows the same there.
 pub fn select_clear_pixels(
     right: &PointLayers,
     objects: usize,
@@ -39,12 +39,12 @@ pub fn select_clear_pixels(
         .collect()
 }
 
-/// Tells whether a pixel and its neighbours show the same object.
+/// Returns whether a pixel and its neighbours show the same object.
 pub fn is_inside(ids: &Raster<u32>, at: usize) -> bool {
     neighbours(ids, at).all(|place| ids.pixels[place] == ids.pixels[at])
 }
 
-/// Lists a pixel and those around it.
+/// Lists a pixel and its neighbours.
 pub fn neighbours<T>(raster: &Raster<T>, at: usize) -> impl Iterator<Item = usize> {
     let (width, height) = (raster.width as usize, raster.height as usize);
     let around = |place: usize, end: usize| -> RangeInclusive<usize> {

@@ -1,4 +1,4 @@
-//! Audit of colour, in scenes whose colours do not depend on light.
+//! Audit of colour, in scenes with colours independent of light.
 
 use frame::{ColorSampling, Image};
 use tracer::{Scene, TraceError};
@@ -9,14 +9,14 @@ use crate::audit::defect::{Buffer, Defect, Explanation};
 use crate::audit::views::render_view;
 use crate::statistics::median;
 
-/// Greatest difference of an object's mean colour, relative to its brightest channel: filters of textures differ.
+/// Largest difference of an object's mean colour, relative to its brightest channel: texture filters differ.
 const TOLERANCE: f64 = 0.05;
-/// Radiance that may be added to a right colour: a step of 8 bits, on black.
+/// Radiance that may be added to a correct colour: a step of 8 bits, on black.
 const DARKEST: f64 = 0.002;
-/// Samples per pixel of the right colour: edges within a texture and lenses need some.
+/// Samples per pixel of the correct colour, needed for edges within a texture and for lenses.
 const SAMPLES: u32 = 16;
 
-/// Mean colour of an object, as it is and as it should be.
+/// Mean colour of an object, found and correct.
 struct ObjectColor {
     object: u32,
     found: [f64; 3],
@@ -24,7 +24,7 @@ struct ObjectColor {
 }
 
 impl ObjectColor {
-    /// Tells whether the colour is right once a factor on it is undone.
+    /// Returns whether the colour is correct after dividing by a factor.
     fn is_right_at(&self, scale: f64) -> bool {
         let brightest = self.right.into_iter().fold(0.0, f64::max);
         let pairs = std::iter::zip(self.found, self.right);
@@ -33,7 +33,7 @@ impl ObjectColor {
     }
 }
 
-/// Compares the colour of each object with the scene's. Finds nothing in a scene that light falls on: engines light as they like.
+/// Compares the colour of each object with the scene's. Finds nothing in a lit scene: engines light as they like.
 pub fn audit_color(
     found: &Image,
     scene: &Scene,

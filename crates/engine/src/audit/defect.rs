@@ -1,10 +1,10 @@
-//! Defects that were found, in words.
+//! Descriptions of the defects found.
 
 use serde::Serialize;
 
 use crate::audit::cause::Cause;
 
-/// What a defect is in.
+/// Buffer with a defect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Buffer {
@@ -16,16 +16,16 @@ pub enum Buffer {
     Color,
     /// Objects at the pixels' centres.
     ObjectId,
-    /// All of them: the capture shows something else than the scene at its instant, and cannot be compared there.
+    /// All of them: the capture does not show the scene at its instant, and cannot be compared there.
     Picture,
 }
 
-/// A cause that was found, and how well it explains what is wrong.
+/// A cause, and how well it explains a defect.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Explanation {
     /// The cause.
     pub cause: Cause,
-    /// A sign or an axis that is wrong as well.
+    /// A sign or an axis that is also wrong.
     pub turned: Option<Cause>,
     /// Other causes that would look the same in this scene.
     pub looks_like: Vec<Cause>,
@@ -34,7 +34,7 @@ pub struct Explanation {
 }
 
 impl Explanation {
-    /// Explains by one cause that no other looks like.
+    /// Explains by one unambiguous cause.
     pub fn by(cause: Cause, explained: f64) -> Self {
         Self {
             turned: None,
@@ -45,19 +45,19 @@ impl Explanation {
     }
 }
 
-/// A defect that was found.
+/// A defect.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Defect {
-    /// Buffer that has it.
+    /// Affected buffer.
     pub buffer: Buffer,
-    /// Object that has it; none if all do.
+    /// Affected object; none if all are.
     pub object: Option<String>,
     /// Its cause.
     #[serde(flatten)]
     pub found: Explanation,
-    /// Part of the object that has the defect; none if all of it has.
+    /// Affected part of the object; none for all of it.
     pub part: Option<f64>,
-    /// The defect in words, and the way out.
+    /// Description of the defect, and its remedy.
     pub text: String,
 }
 
@@ -104,7 +104,7 @@ impl Defect {
         self
     }
 
-    /// Says more.
+    /// Adds text.
     pub fn with(mut self, text: &str) -> Self {
         self.text += "; ";
         self.text += text;

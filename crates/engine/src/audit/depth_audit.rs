@@ -1,4 +1,4 @@
-//! Audit of depth: the difference, and what is wrong in all of it or in single objects.
+//! Audit of depth: its difference, and defects of the whole or of single objects.
 
 use filters::DepthKind;
 use frame::{FAR_DEPTH, Plane, Raster};
@@ -11,11 +11,11 @@ use crate::audit::defect::{Buffer, Defect, Explanation};
 use crate::capture::folder::Capture;
 use crate::statistics::{median, percentile};
 
-/// Relative difference of depths that are taken for equal.
+/// Relative difference of depths that count as equal.
 const TOLERANCE: f64 = 0.01;
 /// Rounding of a depth buffer between 0 and 1 that is no defect: a few steps of 24 bits.
 const BUFFER_ROUNDING: f64 = 1.0 / (1 << 22) as f64;
-/// Part of the pixels that must be right, or that a cause must explain.
+/// Part of the pixels that must be correct, or that a cause must explain.
 pub const LEAST_EXPLAINED: f64 = 0.95;
 
 /// Agreement of an engine's depth with the scene's.
@@ -37,7 +37,7 @@ pub struct DepthPair<'a> {
     pub found: &'a Plane,
     /// The scene's.
     right: &'a PointLayers,
-    /// Near plane of a buffer that is not linear: far away such a buffer is coarse, and its planes may be wrong.
+    /// Near plane of a buffer that is not linear: such a buffer is coarse far away, and its planes may be wrong.
     near: Option<f64>,
 }
 
@@ -52,7 +52,7 @@ impl<'a> DepthPair<'a> {
         }
     }
 
-    /// Tells whether two depths are within 1 % or within the rounding of the buffer, or both the background's.
+    /// Returns whether two depths are within 1 % or within the rounding of the buffer, or both the background's.
     pub fn is_close(&self, found: f32, expected: f32) -> bool {
         let steps = (1.0 / f64::from(found) - 1.0 / f64::from(expected)).abs();
         let is_rounded = |near| steps * near <= BUFFER_ROUNDING;
@@ -74,7 +74,7 @@ impl<'a> DepthPair<'a> {
         }
     }
 
-    /// Finds what is wrong on clear pixels. Returns as well where depth is right, or wrong by a known cause.
+    /// Finds what is wrong on clear pixels. Also returns where depth is right, or wrong by a known cause.
     pub fn explain(
         &self,
         regions: &[ClearPixels],
@@ -119,7 +119,7 @@ impl<'a> DepthPair<'a> {
         (vec![defect], explained)
     }
 
-    /// Finds a cause for each object whose depth is wrong.
+    /// Finds a cause for each object with wrong depth.
     fn explain_objects(
         &self,
         wrong: &[&ClearPixels],
@@ -128,7 +128,7 @@ impl<'a> DepthPair<'a> {
     ) -> (Vec<Defect>, Raster<bool>) {
         let mut explained = self.mark(&self.right.depth);
         let findings = wrong.iter().map(|region| {
-            // The planes of a projection are those of every object.
+            // A projection's planes apply to every object.
             let causes = self.list_causes(&region.pixels, along_ray, false);
             let found = find_cause(causes, &|plane| self.share(&region.pixels, plane));
             if let Some((_, plane)) = &found {
@@ -147,7 +147,7 @@ impl<'a> DepthPair<'a> {
         (findings.collect(), explained)
     }
 
-    /// Lists causes with the depth that each leads to, fitted to some pixels; the simplest first. NaN allows any depth.
+    /// Lists causes, fitted to some pixels, with each one's depth; the simplest first. NaN allows any depth.
     fn list_causes(
         &self,
         pixels: &[usize],
@@ -204,7 +204,7 @@ impl<'a> DepthPair<'a> {
         })
     }
 
-    /// Tells whether a plane explains a depth; NaN allows any.
+    /// Returns whether a plane explains a depth; NaN allows any.
     fn is_explained(&self, found: f32, expected: f32) -> bool {
         expected.is_nan() || self.is_close(found, expected)
     }
@@ -215,7 +215,7 @@ impl<'a> DepthPair<'a> {
         })
     }
 
-    /// Computes the part of some pixels at which the engine has the depth of a plane.
+    /// Computes the part of some pixels at which the engine's depth matches a plane.
     fn share(&self, pixels: &[usize], plane: &Plane) -> f64 {
         let is_explained =
             |at: &&usize| self.is_explained(self.found.pixels[**at], plane.pixels[**at]);
@@ -235,7 +235,7 @@ fn find_cause(
     })
 }
 
-/// Tells whether nothing is seen at a depth.
+/// Returns whether a depth means that nothing is visible.
 fn is_far(depth: f32) -> bool {
     depth >= 0.1 * FAR_DEPTH
 }

@@ -1,4 +1,4 @@
-//! Velocity that an engine should have handed over, and what known mistakes make of it.
+//! Velocity that an engine should have output, and its variants under known mistakes.
 
 use frame::{Raster, Vectors, VelocityKind};
 use tracer::{PointLayers, PointMotion, RenderSettings, Scene, TraceError, trace_motion};
@@ -6,19 +6,19 @@ use tracer::{PointLayers, PointMotion, RenderSettings, Scene, TraceError, trace_
 use crate::audit::cause::Cause;
 use crate::export::FRAMES_PER_SECOND;
 
-/// Rates at which engines draw by the clock, in frames per second.
+/// Clock rates of engines, in frames per second.
 const CLOCK_RATES: [f64; 3] = [60.0, 30.0, 120.0];
 
-/// Layers of the instant with the right velocity, and velocities that known mistakes lead to.
+/// Layers of the instant with the correct velocity, and velocities caused by known mistakes.
 pub struct ExpectedMotion {
-    /// What is right: the motion since the frame before.
+    /// Correct: the motion since the previous frame.
     pub right: PointLayers,
     /// Each mistake that shows other motion, with that motion; the simplest first.
     pub mistaken: Vec<(Cause, Vectors)>,
 }
 
 impl ExpectedMotion {
-    /// Traces all of them: a dozen rays per pixel.
+    /// Traces all of them, with a dozen rays per pixel.
     pub fn trace(scene: &Scene, [width, height]: [u32; 2]) -> Result<Self, TraceError> {
         let mut since_last = RenderSettings {
             width,

@@ -1,27 +1,27 @@
-//! Causes of wrong velocity that have a number, fitted to what was found.
+//! Causes of wrong velocity with a number, fitted to the velocity found.
 
 use frame::Vectors;
 
 use crate::audit::cause::Cause;
 use crate::statistics::median;
 
-/// Largest end-point error of a right velocity, in pixels: rounding of half floats, and of an engine's own matrices.
+/// Largest end-point error of a correct velocity, in pixels: rounding of half floats, and of an engine's own matrices.
 pub(super) const TOLERANCE: f64 = 0.1;
-/// Part of the velocities that a limit must cut before it is called one.
+/// Smallest part of the velocities that a limit must cut.
 const LEAST_CUT: f64 = 0.02;
-/// Upper limit on the distinct numbers of a buffer of few bits.
+/// Upper limit on the distinct numbers in a buffer of few bits.
 const MAX_STEPS: usize = 1024;
-/// Factor that is taken for none.
+/// Factor that counts as zero.
 const NO_SCALE: f64 = 1e-3;
 
-/// Lists causes that have a number, fitted to some pixels, with the velocity that each leads to; the simplest first.
+/// Lists causes with a number, fitted to some pixels, with each one's velocity; the simplest first.
 pub fn fit_candidates(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Vec<(Cause, Vectors)> {
     let mut candidates = Vec::new();
     let fit = |axes: &[usize]| fit_scale(found, right, pixels, axes);
     let scaled = |scales: [f64; 2]| {
         right.map(|right| [0, 1].map(|axis| (scales[axis] * f64::from(right[axis])) as f32))
     };
-    // A sign that is wrong is a cause of its own.
+    // A wrong sign is a cause of its own.
     let is_scale = |scale: &f64| scale.is_finite() && *scale > -NO_SCALE;
     let scale = fit(&[0, 1]);
     if is_scale(&scale) {
@@ -36,7 +36,7 @@ pub fn fit_candidates(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Vec
     candidates
 }
 
-/// Fits the factor that makes the found velocity of the right one, on some axes.
+/// Fits the factor from the correct velocity to the one found, on some axes.
 pub fn fit_scale(found: &Vectors, right: &Vectors, pixels: &[usize], axes: &[usize]) -> f64 {
     let product = |a: &Vectors, b: &Vectors| -> f64 {
         let terms = pixels.iter().flat_map(|at| {
@@ -48,7 +48,7 @@ pub fn fit_scale(found: &Vectors, right: &Vectors, pixels: &[usize], axes: &[usi
     product(found, right) / product(right, right)
 }
 
-/// Fits one vector that is added to all.
+/// Fits one vector added to all.
 pub fn find_offset(found: &Vectors, right: &Vectors, pixels: &[usize]) -> (Cause, Vectors) {
     let offset = [0, 1].map(|axis| {
         let error = |at: &usize| f64::from(found.pixels[*at][axis] - right.pixels[*at][axis]);
@@ -58,7 +58,7 @@ pub fn find_offset(found: &Vectors, right: &Vectors, pixels: &[usize]) -> (Cause
     (Cause::Offset(offset), moved)
 }
 
-/// Lists limits on the length and on the axes, where any velocity is cut.
+/// Lists limits on the length and on the axes, if any velocity is cut.
 fn list_cut(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Vec<(Cause, Vectors)> {
     let largest = |[x, y]: [f64; 2]| f64::max(x.abs(), y.abs());
     let find_limit = |measure: fn([f64; 2]) -> f64| {
@@ -86,7 +86,7 @@ fn list_cut(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Vec<(Cause, V
     shorter.into_iter().chain(within).collect()
 }
 
-/// Finds out whether the numbers lie on a grid of few steps, each next to the right number; returns that grid's velocity.
+/// Checks whether the numbers are on a grid of few steps, each next to the correct number; returns that grid's velocity.
 fn find_steps(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Option<(Cause, Vectors)> {
     let count = |vectors: &Vectors, axis: usize| {
         let mut numbers: Vec<f32> = pixels.iter().map(|at| vectors.pixels[*at][axis]).collect();
@@ -100,7 +100,7 @@ fn find_steps(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Option<(Cau
         is_coarse.then(|| median(own.windows(2).map(|pair| f64::from(pair[1] - pair[0]))))
     });
     let step = gaps.into_iter().flatten().reduce(f64::max)?;
-    // Numbers that are nearest on the grid explain themselves.
+    // Numbers already nearest on the grid explain themselves.
     let nearest = found.zip(right, |found, right| {
         let is_near = |axis: usize| f64::from((found[axis] - right[axis]).abs()) <= 0.6 * step;
         match is_near(0) && is_near(1) {

@@ -1,4 +1,4 @@
-//! Share of each object that an engine shows where the scene has it.
+//! Share of each object that an engine shows in the scene's place.
 
 use frame::Raster;
 use serde::Serialize;
@@ -8,42 +8,42 @@ use crate::audit::clear_pixels::{
     ClearPixels, MIN_PIXELS, is_inside, neighbours, select_clear_pixels,
 };
 
-/// Part of the pixels whose depth must be known before it shows, without ids, what the engine shows there.
+/// Part of the pixels with known depth that is needed to see, without ids, what the engine shows there.
 const LEAST_KNOWN: f64 = 0.3;
 
-/// Part of each object that must be where the scene has it, at its edges within a pixel.
+/// Part of each object that must be in the scene's place, within a pixel at edges.
 pub const LEAST_SHOWN: f64 = 0.9;
 
-/// Agreement of what an engine shows with an object of the scene.
+/// Agreement of an engine's picture with an object of the scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ObjectShown {
     /// Name of the object.
     pub object: String,
     /// Number of its pixels in the scene.
     pub pixels: usize,
-    /// Part of these, and of the pixels at which the engine's ids name the object, at which both agree.
+    /// Part of these pixels, and of those that the engine's ids assign to the object, on which both agree.
     pub shown: f64,
 }
 
 impl ObjectShown {
-    /// Tells whether the engine shows too little of the object for its vectors to be judged.
+    /// Returns whether the engine shows too little of the object to judge its vectors.
     pub fn is_missed(&self) -> bool {
         self.pixels >= MIN_PIXELS && self.shown < LEAST_SHOWN
     }
 }
 
-/// What an engine shows of a scene.
+/// How much of a scene an engine shows.
 pub struct Shown {
-    /// Part of the pixels at which it shows what the scene shows.
+    /// Part of the pixels at which it shows the same as the scene.
     pub alike: f64,
     /// The same, object by object.
     pub objects: Vec<ObjectShown>,
-    /// Pixels of each object that can be compared; none of one that is missed.
+    /// Comparable pixels of each object; none for a missed one.
     pub regions: Vec<ClearPixels>,
 }
 
 impl Shown {
-    /// Compares what an engine shows with the scene; `shows(from, at)` tells whether its pixel `from` shows what the scene has at `at`.
+    /// Compares an engine's picture with the scene; `shows(from, at)` is true if its pixel `from` shows what the scene has at `at`.
     pub fn compare(
         right: &PointLayers,
         ids: Option<&Raster<u32>>,
@@ -66,13 +66,13 @@ impl Shown {
         shown
     }
 
-    /// Tells whether the engine shows too little of an object.
+    /// Returns whether the engine shows too little of an object.
     pub fn is_missed(&self, name: &str) -> bool {
         (self.objects.iter()).any(|object| object.is_missed() && object.object == name)
     }
 }
 
-/// Counts per object the pixels that the engine shows. At edges a neighbouring pixel will do, since two rasterisers may differ there.
+/// Counts the shown pixels of each object. At edges a neighbouring pixel counts, since two rasterisers may differ there.
 fn count_shown(
     right: &Raster<u32>,
     ids: Option<&Raster<u32>>,
@@ -95,7 +95,7 @@ fn count_shown(
     }
     let in_scene = counts.clone();
     for (at, object) in ids.iter().flat_map(|ids| ids.pixels.iter().enumerate()) {
-        // The place of an object that is missing shows what is behind it.
+        // A missing object reveals what is behind it.
         let is_laid_bare = share(in_scene[right.pixels[at] as usize]) < LEAST_SHOWN;
         if let Some(count) = counts.get_mut(*object as usize)
             && !is_laid_bare

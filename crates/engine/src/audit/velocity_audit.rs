@@ -1,4 +1,4 @@
-//! Audit of velocity: the end-point error per object, and the cause of what is wrong.
+//! Audit of velocity: the end-point error per object, and the cause of errors.
 
 use frame::Vectors;
 use serde::Serialize;
@@ -11,9 +11,9 @@ use crate::audit::expected_motion::ExpectedMotion;
 use crate::audit::fitted_motion::{TOLERANCE, find_offset, fit_candidates, fit_scale, length};
 use crate::statistics::{median, percentile};
 
-/// The same as a part of the speed.
+/// The same, relative to the speed.
 const RELATIVE_TOLERANCE: f64 = 0.01;
-/// Part of the pixels by which two causes may differ and still look the same.
+/// Part of the pixels on which two causes may differ and still look the same.
 const LOOKS_SAME: f64 = 0.005;
 /// Signs and axes that may be wrong together with another cause; none first.
 const TURNS: [Option<Cause>; 4] = [
@@ -40,13 +40,13 @@ pub struct ObjectAudit {
     pub worst: f64,
     /// Pixel of the largest error.
     pub worst_at: [u32; 2],
-    /// Factor that fits the engine's velocity best; none of an object that stands still.
+    /// Factor that fits the engine's velocity best; none for a still object.
     pub scale: Option<f64>,
-    /// True if the velocity is right.
+    /// True if the velocity is correct.
     pub is_right: bool,
 }
 
-/// Compares velocity object by object; returns what is wrong as well.
+/// Compares velocity object by object; also returns what is wrong.
 pub fn audit_velocity(
     found: &Vectors,
     expected: &ExpectedMotion,
@@ -78,7 +78,7 @@ pub fn audit_velocity(
     (objects, findings)
 }
 
-/// Finds one cause for everything, which leaves what is right as it is; `wrong` are the pixels of objects that are wrong.
+/// Finds one cause for everything, which leaves correct objects unchanged; `wrong` are the pixels of wrong objects.
 fn explain_all(
     found: &Vectors,
     expected: &ExpectedMotion,
@@ -100,7 +100,7 @@ fn explain_all(
     })
 }
 
-/// Finds the cause of an object's wrong velocity: one for all of it, or one for the pixels that are wrong.
+/// Finds the cause of an object's wrong velocity: one for all of it, or one for its wrong pixels.
 fn explain_object(
     found: &Vectors,
     expected: &ExpectedMotion,
@@ -161,7 +161,7 @@ fn audit_object(
     }
 }
 
-/// Finds the first cause that explains the most, and those that explain as much. With a turn it is another cause than a turn.
+/// Finds the first cause that explains the most, and equally good ones. After a turn, the cause is not another turn.
 fn find_cause<'a>(
     candidates: impl Iterator<Item = &'a (Cause, Vectors)>,
     turned: Option<Cause>,

@@ -1,4 +1,4 @@
-//! Views of the scene that a capture may show instead of the right one: other frames, and rows upside down.
+//! Views of the scene that a capture may show by mistake: other frames, and rows upside down.
 
 use std::ops::ControlFlow;
 
@@ -12,18 +12,18 @@ use crate::audit::expected_motion::upside_down;
 use crate::capture::folder::Capture;
 use crate::statistics::median;
 
-/// Greatest number of frames, late or early, that is looked for.
+/// Largest number of frames late or early to look for.
 const MAX_FRAMES: u32 = 2;
-/// Fewest pixels at which two views must differ before a buffer shows which one it has.
+/// Smallest number of pixels on which two views must differ before a buffer can distinguish them.
 const MIN_PIXELS: usize = 16;
 /// Part of these pixels that must show a view.
 const LEAST_SHOWING: f64 = 0.8;
-/// Part of the pixels by which two views may differ and still look the same.
+/// Part of the pixels on which two views may differ and still look the same.
 const LOOKS_SAME: f64 = 0.02;
-/// Relative difference of colours that differ.
+/// Relative difference above which colours differ.
 const OTHER_COLOR: f32 = 0.1;
 
-/// What a rasteriser writes of a view.
+/// A rasteriser's buffers of a view.
 struct View {
     cause: Cause,
     object_id: Raster<u32>,
@@ -32,7 +32,7 @@ struct View {
     color: Image,
 }
 
-/// Pixels at which a view differs from the right one, as one buffer shows them.
+/// Counts, for one buffer, of pixels on which a view differs from the correct one.
 #[derive(Clone, Copy, Default)]
 struct Tally {
     right: usize,
@@ -41,7 +41,7 @@ struct Tally {
 }
 
 impl Tally {
-    /// Counts pixels that show the right view, the other one, or neither. Those that show both do not count.
+    /// Counts pixels that show the correct view, the other one, or neither. Pixels that show both do not count.
     fn of(pixels: impl Iterator<Item = [bool; 2]>) -> Self {
         let distinct = pixels.filter(|[right, other]| !(*right && *other));
         distinct.fold(Self::default(), |tally, [right, other]| Self {
@@ -61,7 +61,7 @@ impl Tally {
     }
 }
 
-/// Finds out whether the buffers of a capture show another view than the scene's at its instant: all of them, or one by one.
+/// Checks whether the buffers of a capture show another view than the scene's at its instant: all of them, or one by one.
 pub fn find_other_views(
     capture: &Capture,
     depth: &DepthPair,
@@ -89,7 +89,7 @@ pub fn find_other_views(
         let shown = tallies
             .iter()
             .filter(|(_, tally)| tally[at].shows(tally[at].other));
-        // A view in which something left the picture differs at fewer pixels.
+        // A view in which something left the picture differs on fewer pixels.
         let gain = |tally: &[Tally; 3]| (tally[at].other - tally[at].right) as f64;
         let most = shown.clone().map(|(_, tally)| gain(tally));
         let least = (1.0 - LOOKS_SAME) * most.fold(0.0, f64::max);
@@ -112,10 +112,10 @@ pub fn find_other_views(
     Ok(findings)
 }
 
-/// Buffers that tell views apart, in the order of [`tally_buffers`].
+/// Buffers that distinguish views, in the order of [`tally_buffers`].
 const BUFFERS: [Buffer; 3] = [Buffer::ObjectId, Buffer::Depth, Buffer::Color];
 
-/// Counts what each buffer shows where a view differs from the right one.
+/// Counts what each buffer shows on pixels where a view differs from the correct one.
 fn tally_buffers(capture: &Capture, depth: &DepthPair, right: &View, view: &View) -> [Tally; 3] {
     let is_close = |a: &f32, b: &f32| depth.is_close(*a, *b);
     [
@@ -127,7 +127,7 @@ fn tally_buffers(capture: &Capture, depth: &DepthPair, right: &View, view: &View
     ]
 }
 
-/// Counts what one buffer shows where two views differ.
+/// Counts what one buffer shows on pixels where two views differ.
 fn tally<T>(found: &Raster<T>, views: [&Raster<T>; 2], is_same: impl Fn(&T, &T) -> bool) -> Tally {
     let places = 0..found.pixels.len();
     Tally::of(places.filter_map(|at| {
@@ -137,8 +137,8 @@ fn tally<T>(found: &Raster<T>, views: [&Raster<T>; 2], is_same: impl Fn(&T, &T) 
     }))
 }
 
-/// Counts what colour shows. The light, which an engine may have as it likes, is fitted to the whole picture, and to each object: the
-/// fit that decides more counts.
+/// Counts what colour shows. Since engines light as they like, light is fitted to the whole picture and to each object; the more decisive
+/// fit counts.
 fn tally_colors(found: &Image, right: &View, view: &View) -> Tally {
     let whole = [right, view].map(|shown| {
         let places: Vec<usize> = (0..found.pixels.len()).collect();
@@ -162,8 +162,8 @@ fn tally_colors(found: &Image, right: &View, view: &View) -> Tally {
     }
 }
 
-/// Lights the objects of two views as a picture has them: as it does where both views look the same; an object that looks the same
-/// nowhere as it does where each view has it.
+/// Lights the objects of two views as in a picture: each by its pixels where both views look the same or, with too few, by its pixels in
+/// each view.
 fn light_objects(found: &Image, right: &View, view: &View) -> [Image; 2] {
     let objects = right.object_id.pixels.iter().chain(&view.object_id.pixels);
     let last = objects.max().copied().unwrap_or(0) as usize;
@@ -198,7 +198,7 @@ fn light_up(color: [f32; 3], light: [f32; 3]) -> [f32; 3] {
     [0, 1, 2].map(|channel| light[channel] * color[channel])
 }
 
-/// Fits a factor per channel that makes one picture of the other; 0 where the second is black.
+/// Fits a factor per channel from one picture to the other; 0 where the second is black.
 fn fit_light(found: &Image, surface: &Image, pixels: &[usize]) -> [f32; 3] {
     [0, 1, 2].map(|channel| {
         let pairs = pixels
@@ -219,7 +219,7 @@ fn distance(a: [f32; 3], b: [f32; 3]) -> f32 {
     std::iter::zip(a, b).map(|(a, b)| (a - b).abs()).sum()
 }
 
-/// Traces what a rasteriser writes some frames after the instant. Unlit colours have no noise.
+/// Traces a rasteriser's buffers some frames after the instant. Unlit colours have no noise.
 fn trace_view(scene: &Scene, size: [u32; 2], time: i32, cause: Cause) -> Result<View, TraceError> {
     let scene = scene.clone().pinhole().unlit().later_by(f64::from(time));
     let frame = render_view(&scene, size, 1, ColorSampling::Point)?;

@@ -11,14 +11,14 @@ use suite::{Error, SIDES};
 
 use crate::files::refuse;
 
-/// Most by which a number of a depth buffer may leave the buffer's range, as rounding makes it.
+/// Largest rounding of a number beyond the range of a depth buffer.
 const RANGE_ROUNDING: f32 = 1e-3;
-/// Id of no object, where ids are unsigned.
+/// Id of no object, if ids are unsigned.
 const NO_OBJECT: u32 = u32::MAX;
 /// Upper limit on an object's id.
 const LARGEST_ID: f32 = 65535.0;
 
-/// Finds the one file of a picture that may be OpenEXR or PNG; none where there is neither.
+/// Finds the one file of a picture that may be OpenEXR or PNG; none if there is neither.
 pub fn find_picture(folder: &Path, stem: &str) -> Result<Option<PathBuf>, Error> {
     let [exr, png] = ["exr", "png"].map(|ending| folder.join(format!("{stem}.{ending}")));
     match (exr.is_file(), png.is_file()) {
@@ -32,7 +32,7 @@ pub fn find_picture(folder: &Path, stem: &str) -> Result<Option<PathBuf>, Error>
     }
 }
 
-/// Tells whether a picture is a PNG, which has 8 bits or 16, and nothing above display white.
+/// Returns whether a picture is a PNG, which has 8 bits or 16, and nothing above display white.
 pub fn is_png(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending == "png")
 }
@@ -52,7 +52,7 @@ pub fn read_color(path: &Path, convention: &Convention, stops: f32) -> Result<Im
     Ok(convention.restore_color(&color))
 }
 
-/// Reads velocity as the engine has it.
+/// Reads velocity as the engine stores it.
 pub fn read_velocity(path: &Path) -> Result<Vectors, Error> {
     let file = open(path)?;
     let pairs = [["velocity.X", "velocity.Y"], ["X", "Y"], ["R", "G"]];
@@ -65,7 +65,15 @@ pub fn read_velocity(path: &Path) -> Result<Vectors, Error> {
     Ok(x?.zip(&y?, |x, y| [*x, *y]))
 }
 
-/// Reads depth as the engine has it; infinite numbers of linear depth become the background's.
+/// Reads the change of depth, in metres per frame.
+pub fn read_velocity_z(path: &Path) -> Result<Plane, Error> {
+    let file = open(path)?;
+    let name = find_channel(&file, &["velocity_z", "Z", "R"])?;
+    check_finite(&file, &[name])?;
+    Ok(file.plane(name)?)
+}
+
+/// Reads depth as the engine stores it; infinite linear depth becomes the background's.
 pub fn read_depth(path: &Path, convention: &Convention) -> Result<Plane, Error> {
     let file = open(path)?;
     let name = find_channel(&file, &["Z", "R", "depth"])?;
@@ -96,7 +104,7 @@ pub fn read_depth(path: &Path, convention: &Convention) -> Result<Plane, Error> 
 /// Names of a channel of object ids, in a file with colours or alone.
 const OBJECT_CHANNELS: [&str; 2] = ["object", "object.id"];
 
-/// Reads object ids; 0 is the background, which the file may hold as 0, as -1, or as the largest unsigned integer.
+/// Reads object ids; 0 is the background, which the file may store as 0, as -1, or as the largest unsigned integer.
 pub fn read_objects(path: &Path) -> Result<Raster<u32>, Error> {
     let file = open(path)?;
     let names = [OBJECT_CHANNELS[0], OBJECT_CHANNELS[1], "R"];
@@ -162,7 +170,7 @@ fn check_sides(path: &Path, (width, height): (u32, u32)) -> Result<(), Error> {
     }
 }
 
-/// Finds the first of some channels that a file has.
+/// Finds the first of some channels in a file.
 fn find_channel<'a>(file: &ExrFile, names: &[&'a str]) -> Result<&'a str, Error> {
     match names.iter().find(|name| file.has_channel(name)) {
         Some(name) => Ok(name),
@@ -190,7 +198,7 @@ fn check_finite(file: &ExrFile, names: &[&str]) -> Result<(), Error> {
     })
 }
 
-/// Refuses a channel with a number that is not allowed, and names the pixel.
+/// Refuses a channel with a disallowed number, and names the pixel.
 fn check_values(
     file: &ExrFile,
     name: &str,

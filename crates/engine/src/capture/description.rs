@@ -1,4 +1,4 @@
-//! `capture.toml`: what an engine's pictures show.
+//! `capture.toml`: the subject of an engine's pictures.
 
 use std::path::Path;
 
@@ -19,7 +19,7 @@ const LONGEST_ENGINE: usize = 160;
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CaptureDescription {
-    /// Engine and version, such as `three.js 0.187.0`, and after it in brackets what else matters.
+    /// Engine and version, such as `three.js 0.187.0`, followed by other details in brackets.
     pub engine: String,
     /// Scene of the suite that the engine drew.
     #[serde(default)]
@@ -29,17 +29,17 @@ pub struct CaptureDescription {
     /// Alignment of their shutter: `trailing`, `centred` or `leading`.
     #[serde(default)]
     pub alignment: Option<Alignment>,
-    /// Time of the frame, in frames after the instant that the exported manifest names.
+    /// Time of the frame, in frames after the exported manifest's instant.
     #[serde(default)]
     pub instant: f64,
-    /// Number of sub-frames, if the writer says it.
+    /// Number of sub-frames, if stated.
     pub subframes: Option<usize>,
-    /// Display exposure of the pictures, in stops; if left out that of the scene, or 0.
+    /// Display exposure of the pictures, in stops; by default the scene's, or 0.
     pub stops: Option<f32>,
 }
 
 impl CaptureDescription {
-    /// Reads the file of a capture's folder.
+    /// Reads the file in a capture's folder.
     pub fn read(folder: &Path) -> Result<Self, Error> {
         let path = folder.join(CAPTURE_FILE);
         if !path.is_file() {

@@ -1,4 +1,4 @@
-//! A capture as its folder has it, brought to the convention of frames.
+//! A capture's folder, converted to the convention of frames.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,15 +10,15 @@ use suite::Error;
 
 use crate::capture::buffers::{
     check_size, find_picture, is_png, read_color, read_depth, read_objects,
-    read_objects_beside_color, read_velocity,
+    read_objects_beside_color, read_velocity, read_velocity_z,
 };
 use crate::capture::description::{CAPTURE_FILE, CaptureDescription};
 use crate::capture::half_floats::{are_halves, rounding_of};
 use crate::files::refuse;
 
-/// Name of the file of a capture that holds its convention.
+/// Name of the file with a capture's convention.
 pub const CONVENTION_FILE: &str = "engine.toml";
-/// Name of the folder of a capture that holds its sub-frames.
+/// Name of the folder with a capture's sub-frames.
 pub const SUBFRAMES: &str = "subframes";
 
 /// An engine's pictures of one instant, and its sub-frames. All rasters have the same size.
@@ -28,27 +28,30 @@ pub struct Capture {
     pub folder: PathBuf,
     /// Contents of `capture.toml`.
     pub description: CaptureDescription,
-    /// Form in which the files have velocity, depth and colour.
+    /// Form of velocity, depth and colour in the files.
     pub convention: Convention,
     /// Scene-linear radiance.
     pub color: Image,
     /// Screen motion in pixels per frame; +x right, +y down.
     pub velocity: Vectors,
-    /// Distance along the view axis in metres; [`frame::FAR_DEPTH`] where nothing is seen.
+    /// The same from the instant to one frame later, if the capture has it.
+    pub velocity_next: Option<Vectors>,
+    /// Change of depth over the interval of `velocity`, in metres per frame; above 0 moves away. None where the capture has none.
+    pub velocity_z: Option<Plane>,
+    /// Distance along the view axis in metres; [`frame::FAR_DEPTH`] where nothing is visible.
     pub depth: Plane,
-    /// Object at each pixel's centre, numbered as an exported manifest does; 0 is the background. None where the capture has no ids.
+    /// Object at each pixel's centre, numbered as in an exported manifest; 0 is the background. None if the capture has no ids.
     pub object_id: Option<Raster<u32>>,
     /// The engine's own blurred picture.
     pub blurred: Option<Image>,
-    /// Files of the sub-frames, in the order of time.
+    /// Files of the sub-frames, in order of time.
     pub subframes: Vec<PathBuf>,
-    /// Notes on what the files lost, a sentence each.
+    /// Notes on precision that the files lost, a sentence each.
     pub notes: Vec<String>,
 }
 
 impl Capture {
-    /// Reads a capture without its sub-frames. Takes the convention from a file, or from `engine.toml` in the folder where none is
-    /// named.
+    /// Reads a capture without its sub-frames. Takes the convention from the named file, or else from `engine.toml` in the folder.
     pub fn read(folder: &Path, convention: Option<&Path>) -> Result<Self, Error> {
         if !folder.is_dir() {
             return refuse!(
@@ -73,6 +76,8 @@ impl Capture {
         let exposure = find_velocity_exposure(folder, &description, &convention)?;
         let velocity = convention.restore_velocity(&velocity, exposure);
         notes.extend(is_half.then(|| velocity_note(&velocity)));
+        let next = read_optional(folder, "velocity_next.exr", &color, read_velocity)?;
+        let velocity_next = next.map(|next| convention.restore_velocity(&next, exposure));
 
         let path = require(folder, "depth.exr", "the distance of every pixel")?;
         let depth = read_depth(&path, &convention)?;
@@ -81,13 +86,6 @@ impl Capture {
         notes.extend(is_half.then(|| depth_note(&convention)).flatten());
         let depth = convention.restore_depth(&depth);
 
-        let path = folder.join("object.exr");
-        let mut object_id = None;
-        if path.is_file() {
-            let ids = read_objects(&path)?;
-            check_size(&path, &ids, &color)?;
-            object_id = Some(ids);
-        }
         let mut blurred = None;
         if let Some(path) = find_picture(folder, "blurred")? {
             let picture = read_color(&path, &convention, stops)?;
@@ -97,13 +95,15 @@ impl Capture {
         }
         Ok(Self {
             subframes: list_subframes(folder, &description, &color_path)?,
+            velocity_z: read_optional(folder, "velocity_z.exr", &color, read_velocity_z)?,
+            object_id: read_optional(folder, "object.exr", &color, read_objects)?,
             folder: folder.to_owned(),
             description,
             convention,
             color,
             velocity,
+            velocity_next,
             depth,
-            object_id,
             blurred,
             notes,
         })
@@ -118,15 +118,15 @@ impl Capture {
         Ok(subframe)
     }
 
-    /// Reads the object ids of one of the sub-frames; none where its file has no channel of them.
+    /// Reads the object ids of one of the sub-frames; none if its file has no such channel.
     pub fn read_subframe_objects(&self, index: usize) -> Result<Option<Raster<u32>>, Error> {
         read_objects_beside_color(&self.subframes[index])
     }
 
-    /// Returns exposure and alignment of the shutter that the sub-frames and the blurred picture are of.
+    /// Returns exposure and alignment of the shutter of the sub-frames and the blurred picture.
     ///
     /// # Errors
-    /// `capture.toml` does not say them.
+    /// `capture.toml` does not state them.
     pub fn shutter(&self) -> Result<(f64, Alignment), Error> {
         match (self.description.exposure, self.description.alignment) {
             (Some(exposure), Some(alignment)) => Ok((exposure, alignment)),
@@ -153,7 +153,7 @@ fn read_convention(folder: &Path, path: Option<&Path>) -> Result<Convention, Err
     Ok(Convention::parse(path, &read_text(path)?)?)
 }
 
-/// Finds the exposure that velocity is converted with; any will do where velocity does not depend on it.
+/// Finds the exposure for converting velocity; any will do if velocity does not depend on it.
 fn find_velocity_exposure(
     folder: &Path,
     description: &CaptureDescription,
@@ -178,6 +178,22 @@ fn require(folder: &Path, name: &str, holds: &str) -> Result<PathBuf, Error> {
     }
 }
 
+/// Reads a picture that a capture need not have, of the colour's size.
+fn read_optional<T>(
+    folder: &Path,
+    name: &str,
+    color: &Image,
+    read: impl Fn(&Path) -> Result<Raster<T>, Error>,
+) -> Result<Option<Raster<T>>, Error> {
+    let path = folder.join(name);
+    if !path.is_file() {
+        return Ok(None);
+    }
+    let picture = read(&path)?;
+    check_size(&path, &picture, color)?;
+    Ok(Some(picture))
+}
+
 fn refuse_missing<T>(path: &Path, holds: &str) -> Result<T, Error> {
     refuse!(
         path,
@@ -192,7 +208,7 @@ fn refuse_key<T>(folder: &Path, key: &str, about: &str) -> Result<T, Error> {
     )
 }
 
-/// Lists the sub-frames by their numbers from 0; none where there is no folder of them.
+/// Lists the sub-frames by their numbers from 0; none without a folder of them.
 fn list_subframes(
     folder: &Path,
     description: &CaptureDescription,
@@ -254,7 +270,7 @@ fn velocity_note(velocity: &Vectors) -> String {
     )
 }
 
-/// Says what half floats cost depth; nothing where it is little.
+/// Describes the precision that depth loses to half floats; none if that is little.
 fn depth_note(convention: &Convention) -> Option<String> {
     let near = convention.near.unwrap_or(1.0);
     let kind = match convention.depth {
@@ -262,7 +278,7 @@ fn depth_note(convention: &Convention) -> Option<String> {
         DepthKind::Forward => "forward",
         DepthKind::Ndc => "ndc",
     };
-    // A half has steps of 1/2048 below 1, where such a depth has all that is far.
+    // Below 1 a half has steps of 1/2048, and all far surfaces have such a depth.
     Some(format!(
         "depth.exr holds half floats of depth = \"{kind}\": {:.0} m and everything beyond it is off by a tenth or more; save 32 \
          bits, or reversed depth",

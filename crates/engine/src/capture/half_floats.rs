@@ -2,11 +2,11 @@
 
 use half::f16;
 
-/// Least part of the numbers that lie between halves if they were stored as floats.
+/// Smallest part of the numbers that are between halves if they were stored as floats.
 const LEAST_BETWEEN: f64 = 1e-3;
 
-/// Tells whether numbers came from half floats: the file has them, or the engine's texture had them before they were read back as
-/// floats. Numbers that are all alike may be either.
+/// Returns whether numbers came from half floats, in the file or in a texture of the engine that was read back as floats. Numbers that are
+/// all alike may be either.
 pub fn are_halves(numbers: impl Iterator<Item = f32>) -> bool {
     let (mut all, mut between, mut fractional) = (0_u64, 0_u64, 0_u64);
     for number in numbers {
@@ -19,7 +19,7 @@ pub fn are_halves(numbers: impl Iterator<Item = f32>) -> bool {
     part(between) < LEAST_BETWEEN && part(fractional) > LEAST_BETWEEN
 }
 
-/// Returns the largest rounding of a number that is kept as a half float.
+/// Returns the largest rounding error of a number stored as a half float.
 pub fn rounding_of(number: f32) -> f32 {
     number.abs() / 2048.0
 }

@@ -7,7 +7,7 @@ use crate::export::document::{Document, widen};
 use crate::export::motion::{Track, Tracks};
 use crate::export::timeline::Timeline;
 
-/// Nodes that move, and the channels of their animation.
+/// Moving nodes, and their animation channels.
 pub struct Channels<'a> {
     document: &'a mut Document,
     timeline: &'a Timeline,
@@ -43,8 +43,8 @@ impl<'a> Channels<'a> {
         node
     }
 
-    /// Adds the weights of a node's morph targets: between two shapes those of the two, and beyond the ends as between the nearest
-    /// two, so that one weight is below 0 or above 1 there.
+    /// Adds the weights of a node's morph targets: interpolated between two shapes, and extrapolated beyond the ends, so that one weight
+    /// there is below 0 or above 1.
     pub fn add_shapes(&mut self, node: usize, shapes: &[Shape]) {
         let times = self.timeline.cut(shapes.iter().map(|shape| shape.time));
         let weights: Vec<[f32; 1]> = (times.iter())
@@ -74,7 +74,7 @@ impl<'a> Channels<'a> {
         }
     }
 
-    /// Adds a channel whose values are in the accessor `output`.
+    /// Adds a channel with its values in the accessor `output`.
     fn add(&mut self, node: usize, path: &str, interpolation: &str, times: &[f64], output: usize) {
         let seconds: Vec<[f32; 1]> = (times.iter())
             .map(|time| [self.timeline.seconds(*time) as f32])

@@ -1,4 +1,4 @@
-//! The document that grows while a scene is exported, and its binary buffer.
+//! The document of an export in progress, and its binary buffer.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -10,9 +10,9 @@ use crate::files::write_json;
 
 /// Name of the document.
 const DOCUMENT: &str = "scene.gltf";
-/// Name of the file that holds vertices and keys.
+/// Name of the file with vertices and keys.
 const BUFFER: &str = "scene.bin";
-/// Name of the list of views of the buffer as numbers.
+/// Name of the list of buffer views as numbers.
 const ACCESSORS: &str = "accessors";
 
 /// Use of a part of the buffer, by its number in glTF: vertices.
@@ -29,7 +29,7 @@ pub struct Document {
 }
 
 impl Document {
-    /// Adds an entry to a list, and returns its index. Fields that are null are left out.
+    /// Adds an entry to a list, and returns its index. Leaves out null fields.
     pub fn push(&mut self, list: &'static str, mut entry: Value) -> usize {
         remove_nulls(&mut entry);
         let entries = self.lists.entry(list).or_default();
@@ -41,7 +41,7 @@ impl Document {
         self.lists.get(list).map_or(&[], Vec::as_slice)
     }
 
-    /// Adds vectors of vertices, or times, with the limits that the format asks for there.
+    /// Adds vectors of vertices, or times, with the limits that the format requires there.
     pub fn push_limited<const N: usize>(
         &mut self,
         values: &[[f32; N]],
@@ -100,7 +100,7 @@ impl Document {
         self.push(ACCESSORS, accessor)
     }
 
-    /// Writes the document, whose other fields are given, and its buffer.
+    /// Writes the document, with the given other fields, and its buffer.
     pub fn write(self, mut fields: Value, folder: &Path) -> Result<(), FileError> {
         fields["buffers"] = json!([{ "byteLength": self.bytes.len(), "uri": BUFFER }]);
         for (name, list) in self.lists {
@@ -112,7 +112,7 @@ impl Document {
     }
 }
 
-/// Widens a number so that its text keeps the few digits that it has.
+/// Widens a number so that its text keeps its few digits.
 pub fn widen(value: f32) -> f64 {
     let text = value.to_string();
     text.parse().expect("what was written as a number")

@@ -12,9 +12,9 @@ use crate::export::document::{Document, widen};
 
 /// Name of the sky's file.
 pub const SKY: &str = "sky.exr";
-/// Extension that has words for a sun.
+/// Extension that describes a sun.
 pub const SUN_EXTENSION: &str = "KHR_lights_punctual";
-/// Columns and rows of a sky that is no picture.
+/// Columns and rows of a sky without a picture.
 const SIZE: (u32, u32) = (512, 256);
 
 /// Describes the sun as a directional light. Its intensity, in lux there, is the irradiance on a surface that faces it.
@@ -32,7 +32,7 @@ pub fn sun_light(sun: &Sun) -> Value {
     })
 }
 
-/// Adds the node of the sun, whose light is the document's only one.
+/// Adds the node of the sun, the document's only light.
 pub fn push_sun(document: &mut Document, sun: &Sun) -> usize {
     // Light goes along the node's -Z, away from the sun.
     let rotation = DQuat::from_rotation_arc(DVec3::Z, sun.direction).as_quat();
@@ -44,8 +44,8 @@ pub fn push_sun(document: &mut Document, sun: &Sun) -> usize {
     document.push("nodes", node)
 }
 
-/// Writes the radiance of every direction by longitude and latitude: the middle of the picture lies towards -Z, its right quarter
-/// towards +X, its top towards +Y.
+/// Writes the radiance of every direction by longitude and latitude: the middle of the picture is towards -Z, its right quarter towards
+/// +X, its top towards +Y.
 pub fn write_sky(background: &Background, path: &Path) -> Result<(), FileError> {
     let (width, height) = match background {
         Background::Map(map) => (map.width, map.height),

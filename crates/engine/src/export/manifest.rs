@@ -1,4 +1,4 @@
-//! The manifest of an exported scene: what an engine needs and glTF cannot say.
+//! The manifest of an exported scene: what an engine needs and glTF cannot express.
 
 use std::collections::BTreeMap;
 
@@ -14,7 +14,7 @@ const MANIFEST_FORMAT: u32 = 1;
 /// Name of the file.
 pub const MANIFEST: &str = "manifest.json";
 
-/// What an engine needs to draw an exported scene as the tracer does.
+/// Everything that an engine needs to draw an exported scene like the tracer.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Manifest {
     /// Version of the layout.
@@ -31,35 +31,37 @@ pub struct Manifest {
     pub seconds_per_frame: f64,
     /// Animation time of the frame, in seconds.
     pub instant: f64,
-    /// Animation time of the frame before, from which engines take their velocity.
+    /// Animation time of the previous frame, which engines need for velocity.
     pub previous: f64,
+    /// Animation time of the frame after, to which `velocity_next` leads.
+    pub next: f64,
     /// Exposure in frames.
     pub exposure: f64,
-    /// Animation times at which the shutter opens and closes, by its alignment.
+    /// Animation times of the shutter's opening and closing, by its alignment.
     pub shutter: BTreeMap<&'static str, [f64; 2]>,
     /// True if the shutter does not open and close at once in all rows together, as the shutter's times assume.
     pub has_shutter_profile: bool,
     /// Vertical field of view in degrees.
     pub vertical_fov: f64,
-    /// Lens of the camera; none of a pinhole. glTF has no words for it.
+    /// Lens of the camera, which glTF cannot describe; none for a pinhole.
     pub lens: Option<Lens>,
-    /// Display exposure in stops; the radiance of the picture is without it.
+    /// Display exposure in stops; the picture's radiance does not include it.
     pub stops: f32,
     /// Irradiance of the sun on a surface that faces it, linear Rec.709; none without a sun.
     pub sun_irradiance: Option<[f32; 3]>,
     /// Angular radius of the sun in degrees; 0 casts sharp shadows.
     pub sun_angular_radius: Option<f64>,
-    /// Radiance of every direction, OpenEXR: its middle lies towards -Z, its right quarter towards +X, its top towards +Y.
+    /// Radiance of every direction, OpenEXR: its middle is towards -Z, its right quarter towards +X, its top towards +Y.
     pub sky: &'static str,
-    /// Radiance of the sky where it is the same from everywhere.
+    /// Radiance of the sky if it is the same in all directions.
     pub sky_constant: Option<[f32; 3]>,
-    /// Name of each object by its id; 0 is the background. The id is the number of its node as well.
+    /// Name of each object by its id, which is also its node's number; 0 is the background.
     pub objects: Vec<String>,
-    /// Notes on what an engine must know about the numbers, a sentence each.
+    /// Notes for engines on the meaning of the numbers, a sentence each.
     pub conventions: Vec<&'static str>,
 }
 
-const CONVENTIONS: [&str; 7] = [
+const CONVENTIONS: [&str; 8] = [
     "Units are metres and linear Rec.709 radiance; the space is right-handed with +Y up, and the camera looks along its own -Z.",
     "Light: the directional light's intensity is its irradiance, without any factor for lumens; a white diffuse surface that \
      faces it sends irradiance / pi.",
@@ -70,6 +72,8 @@ const CONVENTIONS: [&str; 7] = [
     "The animation stops before its first key and after its last one, but the scene's motion goes on; draw only times between them.",
     "Expected velocity, to compare with the suite's: pixels per frame, +x right, +y down, the position at the instant minus the \
      position one frame before.",
+    "If a filter reads them: velocity_next is the position one frame later minus the position at the instant, likewise; velocity_z \
+     is the depth at the instant minus the depth one frame before, in metres.",
 ];
 
 impl Manifest {
@@ -90,6 +94,7 @@ impl Manifest {
             seconds_per_frame: 1.0 / FRAMES_PER_SECOND,
             instant: timeline.seconds(0.0),
             previous: timeline.seconds(-1.0),
+            next: timeline.seconds(1.0),
             exposure: scene.exposure,
             shutter: Alignment::ALL.into_iter().map(shutter).collect(),
             has_shutter_profile: scene.shutter_profile != frame::ShutterProfile::default(),

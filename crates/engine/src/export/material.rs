@@ -11,7 +11,7 @@ use crate::export::textures::Textures;
 /// Opacity below which a surface has a hole.
 const HOLE: f32 = 0.5;
 
-/// Adds a material. A translucent one blends; glass and filters transmit in the colour of what passes.
+/// Adds a material. A translucent one blends; glass and filters transmit with the colour of the light that passes.
 pub fn push_material(
     document: &mut Document,
     textures: &mut Textures,
@@ -24,7 +24,7 @@ pub fn push_material(
         Some(_) => None,
         None => textures.add(document, material.diffuse_texture, material.opacity_texture)?,
     };
-    // What is not opaque at all sends out nothing.
+    // A fully transparent surface emits nothing.
     let emission = clear.map_or(material.emission, |_| Vec3::ZERO);
     let strength = emission.max_element().max(1.0);
     let emissive_texture = material.emission_texture.filter(|_| emission != Vec3::ZERO);
@@ -56,7 +56,7 @@ pub fn push_material(
     Ok(document.push("materials", entry))
 }
 
-/// Describes what takes an extension. Glass and filters have the index of refraction 1 where nothing is reflected. A diffuse material
+/// Describes properties that need an extension. Glass and filters without reflection have the index of refraction 1. A diffuse material
 /// has no specular reflection at all: without `KHR_materials_specular` a dielectric of index 1.5 reflects 4 %.
 fn describe_extensions(material: &Material, clear: Option<Translucency>, strength: f32) -> Value {
     let index = match (clear, material.finish) {
@@ -74,7 +74,7 @@ fn describe_extensions(material: &Material, clear: Option<Translucency>, strengt
     })
 }
 
-/// Returns the word for the way in which alpha counts.
+/// Names the mode of alpha.
 fn alpha_mode(material: &Material) -> &'static str {
     match material.translucency {
         _ if is_clear(material) => "OPAQUE",
@@ -84,7 +84,7 @@ fn alpha_mode(material: &Material) -> &'static str {
     }
 }
 
-/// Returns true for glass, or a filter, through which all light passes that it does not take itself.
+/// Returns true for glass or a filter that transmits all light that it does not absorb.
 fn is_clear(material: &Material) -> bool {
     material.translucency.is_some_and(is_filter)
         && material.opacity == 0.0
@@ -95,7 +95,7 @@ fn is_filter(translucency: Translucency) -> bool {
     translucency.glass.is_some() || translucency.filter != Vec3::ONE
 }
 
-/// Refuses a translucent material that is neither a film that takes no light nor clear.
+/// Refuses a translucent material that is neither a film without absorption nor clear.
 fn check_translucency(material: &Material) -> Result<(), Error> {
     match material.translucency.is_some_and(is_filter) && !is_clear(material) {
         false => Ok(()),

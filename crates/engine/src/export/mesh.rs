@@ -1,4 +1,4 @@
-//! Meshes as primitives: one per material, and one more where some of its faces are flat.
+//! Meshes as primitives: one per material, and one more if some of its faces are flat.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use tracer::{Mesh, Shape};
 
 use crate::export::document::{Document, VERTICES};
 
-/// Adds a mesh with a material per slot. Shapes become morph targets: what each has more than the first.
+/// Adds a mesh with a material per slot. Shapes become morph targets: their differences from the first.
 pub fn push_mesh(document: &mut Document, name: &str, mesh: &Mesh, materials: &[usize]) -> usize {
     let mut groups: BTreeMap<(u32, bool), Vec<[u32; 3]>> = BTreeMap::new();
     for (triangle, slot) in mesh.triangles.iter().zip(&mesh.slots) {
@@ -28,7 +28,7 @@ pub fn push_mesh(document: &mut Document, name: &str, mesh: &Mesh, materials: &[
     document.push("meshes", mesh)
 }
 
-/// Tells whether a vertex has a normal in every shape. The tracer takes the facet's where there is none, as glTF does.
+/// Returns whether a vertex has a normal in every shape. Without one the tracer uses the facet's, as glTF does.
 fn has_normal(mesh: &Mesh, vertex: u32) -> bool {
     let is_given = |normals: &[Vec3]| {
         (normals.get(vertex as usize)).is_some_and(|normal| *normal != Vec3::ZERO)
@@ -43,7 +43,7 @@ fn push_primitive(
     is_smooth: bool,
     material: usize,
 ) -> Value {
-    // Vertices in the order in which the triangles use them, without those of other primitives.
+    // Vertices in the order in which the triangles use them, without other primitives' vertices.
     let mut vertices: Vec<u32> = Vec::new();
     let mut places: BTreeMap<u32, u32> = BTreeMap::new();
     let indices: Vec<u32> = (triangles.iter().flatten())

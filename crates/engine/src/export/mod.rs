@@ -1,8 +1,8 @@
 //! Scenes for other programs: glTF 2.0, one folder per scene.
 //!
-//! An engine that plays the animation draws the scene that the tracer renders: what its frames and its blur lack can be measured.
-//! [`export_gltf`] writes `scene.gltf` with `scene.bin` and textures, the sky as `sky.exr`, and `manifest.json`, which says what
-//! glTF cannot: times of the shutter, object ids, and how numbers are meant.
+//! An engine that plays the animation draws the scene that the tracer renders, so that the errors of its frames and its blur can be
+//! measured. [`export_gltf`] writes `scene.gltf` with `scene.bin` and textures, the sky as `sky.exr`, and `manifest.json`, which adds what
+//! glTF cannot express: times of the shutter, object ids, and the meaning of the numbers.
 
 mod animation;
 mod document;

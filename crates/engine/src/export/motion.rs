@@ -1,21 +1,21 @@
-//! Motions as keys that glTF interpolates: positions and scales exactly, turns to a millionth of a radian.
+//! Motions as keys for glTF: positions and scales exactly, turns to a millionth of a radian.
 
 use glam::{DQuat, DVec3};
 use tracer::{Interpolation, Motion};
 
 use crate::export::timeline::{FRAMES_PER_SECOND, Timeline};
 
-/// Largest turn between two keys, in radians: from half a turn on, the shorter way is the wrong one.
+/// Largest turn between two keys, in radians: from half a turn on, the shorter way is wrong.
 const WIDEST_TURN: f64 = 75.0 * std::f64::consts::PI / 180.0;
-/// Upper limit of the angle between a turn and its keys' interpolation, in radians.
+/// Upper limit on the angle between a turn and its keys' interpolation, in radians.
 const TOLERANCE: f64 = 1e-6;
 /// Upper limit on halvings of the time between two keys.
 const MAX_HALVINGS: u32 = 12;
-/// A cubic curve is at most this many times as fast as its fastest chord: the bound of a Hermite curve whose slopes are means of
-/// chords, or at an end twice a chord less such a mean.
+/// A cubic curve is at most this many times as fast as its fastest chord. This bounds a Hermite curve with slopes that are means of
+/// chords or, at an end, twice a chord less such a mean.
 const OVER_CHORD: f64 = 6.0;
 
-/// One quantity of a node on its timeline, as glTF has it.
+/// One quantity of a node on its timeline, in glTF's form.
 pub struct Track<const N: usize> {
     /// Value at the start.
     pub first: [f32; N],
@@ -23,24 +23,24 @@ pub struct Track<const N: usize> {
     pub is_still: bool,
     /// Times of keys, in frames relative to the instant.
     pub times: Vec<f64>,
-    /// Values at the keys; of cubic curves slope before the key, per second, value, and slope after it.
+    /// Values at the keys; for cubic curves the slope before the key, per second, the value, and the slope after it.
     pub values: Vec<[f32; N]>,
-    /// Word for the curves between keys.
+    /// Name of the curves between keys.
     pub interpolation: &'static str,
 }
 
-/// Place, turn and scale of a node.
+/// Position, rotation and scale of a node.
 pub struct Tracks {
     /// Metres.
     pub translation: Track<3>,
-    /// Unit quaternions, each on the same side as the one before.
+    /// Unit quaternions, each on the same side as the previous one.
     pub rotation: Track<4>,
     /// Factors per axis.
     pub scale: Track<3>,
 }
 
 impl Tracks {
-    /// Follows a motion through a timeline.
+    /// Samples a motion over a timeline.
     pub fn of(motion: &Motion, timeline: &Timeline) -> Self {
         let times = timeline.cut(motion.keys.iter().map(|key| key.time));
         let follow = match motion.interpolation {
@@ -68,7 +68,7 @@ fn follow_linear(times: &[f64], value: &dyn Fn(f64) -> DVec3) -> Track<3> {
     }
 }
 
-/// Follows a curve that is a cubic polynomial between each two times: its value at four times gives the slopes at both ends.
+/// Samples a curve that is a cubic polynomial between each two times: its value at four times gives the slopes at both ends.
 fn follow_cubic(times: &[f64], value: &dyn Fn(f64) -> DVec3) -> Track<3> {
     let mut values: Vec<[f32; 3]> = (times.iter())
         .flat_map(|time| [[0.0; 3], floats(value(*time)), [0.0; 3]])
@@ -78,7 +78,7 @@ fn follow_cubic(times: &[f64], value: &dyn Fn(f64) -> DVec3) -> Track<3> {
     for next in 1..times.len() {
         let [from, to] = [times[next - 1], times[next]];
         let duration = to - from;
-        // The value at a key may belong to the piece after it, which has the same value there.
+        // The value at a key may belong to the next piece, which has the same value there.
         let [a, b, c, d] = [0.0, 1.0, 2.0, 3.0].map(|third| value(from + duration * third / 3.0));
         is_still &= [b, c, d].iter().all(|own| is_close(*own, a));
         let per_frame = 1.0 / (2.0 * duration);
@@ -97,8 +97,8 @@ fn follow_cubic(times: &[f64], value: &dyn Fn(f64) -> DVec3) -> Track<3> {
     }
 }
 
-/// Follows a turn by keys between which the shorter way at a constant angular velocity is the turn's own. The turn is at most as fast
-/// as `fastest`, in radians per frame.
+/// Samples a turn with keys such that the shorter way between them at a constant angular velocity is the turn's own. The turn is at most
+/// as fast as `fastest`, in radians per frame.
 fn follow_turns(times: &[f64], rotation: &dyn Fn(f64) -> DQuat, fastest: f64) -> Track<4> {
     let mut keys = vec![(times[0], rotation(times[0]))];
     for span in times.windows(2) {
@@ -154,7 +154,7 @@ fn refine(
     }
 }
 
-/// Returns an upper limit of the angular velocity, in radians per frame.
+/// Returns an upper limit on the angular velocity, in radians per frame.
 fn fastest_turn(motion: &Motion) -> f64 {
     let chords = motion.keys.windows(2).map(|pair| {
         let [from, to] = [&pair[0], &pair[1]];

@@ -17,14 +17,14 @@ use crate::export::textures::Textures;
 use crate::export::timeline::Timeline;
 use crate::files::write_json;
 
-/// Nearest depth that a camera shows, in metres: glTF asks for one, the tracer has none.
+/// Nearest visible depth, in metres: glTF requires one, the tracer has none.
 const NEAR: f64 = 0.01;
 
-/// Exports a scene to a folder, which is made if it is not there. `origin` is the folder that the scene was loaded from, or one next to
-/// it, and `program` names the writer.
+/// Exports a scene to a folder, which is created if missing. `origin` is the folder that the scene was loaded from, or one next to it, and
+/// `program` names the writer.
 ///
 /// Node 0 is the camera, node `id` the object with this id, and the last one the sun, if there is one. The animation plays
-/// 24 frames per second; [`Timeline`] says where the instant is.
+/// 24 frames per second; [`Timeline`] contains the time of the instant.
 pub fn export_gltf(
     scene: &Scene,
     origin: &Location,
@@ -118,7 +118,7 @@ fn list_children(scene: &Scene, parent: Parent) -> Vec<usize> {
         .collect()
 }
 
-/// Adds the mesh of each object. Objects of one mesh and the same materials share it.
+/// Adds the mesh of each object. Objects with the same mesh and materials share it.
 fn push_meshes(document: &mut Document, scene: &Scene) -> Vec<usize> {
     let mut meshes: BTreeMap<(usize, &[usize]), usize> = BTreeMap::new();
     let objects = scene.objects.iter().map(|object| {
@@ -130,7 +130,7 @@ fn push_meshes(document: &mut Document, scene: &Scene) -> Vec<usize> {
     objects.collect()
 }
 
-/// Lists the extensions that the document uses. None is required: a reader that lacks one shows another light or gloss.
+/// Lists the extensions that the document uses. None is required: a reader that lacks one shows different light or gloss.
 fn list_extensions(document: &Document, scene: &Scene) -> Option<BTreeSet<String>> {
     let materials = document.list("materials").iter();
     let own = materials.filter_map(|material| material["extensions"].as_object());

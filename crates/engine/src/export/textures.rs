@@ -13,18 +13,18 @@ use crate::export::document::Document;
 /// Folder of the textures, next to the document.
 const FOLDER: &str = "textures";
 
-/// Textures that are written so far.
+/// Textures written so far.
 pub struct Textures<'a> {
     scene: &'a Scene,
-    /// Where the scene came from: on disk, or in the program.
+    /// Origin of the scene: on disk, or in the program.
     origin: &'a Location,
     folder: PathBuf,
-    /// Textures of the document: those that are files of the scene, and those that join a colour with an opacity.
+    /// Textures of the document: the scene's files, and joins of a colour with an opacity.
     known: BTreeMap<[Option<usize>; 2], usize>,
 }
 
 impl<'a> Textures<'a> {
-    /// Makes an empty folder of textures below that of the document.
+    /// Makes an empty folder of textures below the document's.
     pub fn new(scene: &'a Scene, origin: &'a Location, folder: &Path) -> Self {
         Self {
             scene,
@@ -34,7 +34,7 @@ impl<'a> Textures<'a> {
         }
     }
 
-    /// Adds the texture of a colour, an opacity or both; returns its index in the document, and none of neither.
+    /// Adds the texture of a colour, an opacity or both; returns its index in the document, or none for neither.
     pub fn add(
         &mut self,
         document: &mut Document,
@@ -56,7 +56,7 @@ impl<'a> Textures<'a> {
         Ok(Some(texture))
     }
 
-    /// Reads the file of a texture as it is, and names its copy.
+    /// Reads a texture's file unchanged, and names its copy.
     fn read_file(&self, texture: usize) -> Result<(String, Vec<u8>), FileError> {
         let path = &self.scene.textures[texture].path;
         let bytes = self.origin.at(path).read(LARGEST_IMAGE_FILE)?;
@@ -64,8 +64,8 @@ impl<'a> Textures<'a> {
         Ok((format!("{texture}_{}", plain_name(&name)), bytes))
     }
 
-    /// Makes the file of a texture whose colour is one file's and whose alpha is another's: glTF has one for both. It is as large as
-    /// the larger of the two, of which the other takes the nearest texel.
+    /// Makes the file of a texture from one file's colour and another's alpha, since glTF has one file for both. It has the size of the
+    /// larger one; the smaller one is sampled at the nearest texel.
     fn join(&self, color: Option<usize>, opacity: usize) -> (String, Vec<u8>) {
         let color_texture = color.map(|index| &self.scene.textures[index]);
         let opacity_texture = &self.scene.textures[opacity];
@@ -113,7 +113,7 @@ fn push_texture(document: &mut Document, name: &str) -> usize {
     document.push("textures", texture)
 }
 
-/// Replaces what needs an escape in a URI.
+/// Replaces characters that need an escape in a URI.
 fn plain_name(name: &str) -> String {
     let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "._-".contains(letter);
     name.replace(|letter| !is_plain(letter), "_")

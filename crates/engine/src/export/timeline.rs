@@ -5,11 +5,10 @@ use tracer::Scene;
 /// Frames per second of every animation.
 pub const FRAMES_PER_SECOND: f64 = 24.0;
 
-/// Least number of frames before and after the instant: the frame before it, and a shutter that is open for a whole frame.
+/// Smallest number of frames before and after the instant: the previous frame, and a shutter that is open for a whole frame.
 const LEAST_REACH: f64 = 2.0;
 
-/// Part of a scene's time that an animation holds. Players hold still before its first key and after its last, so that it reaches
-/// beyond every shutter.
+/// Part of a scene's time in an animation. Players hold still before its first key and after its last, so it reaches beyond every shutter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Timeline {
     /// Whole frames before and after the instant.
@@ -17,7 +16,7 @@ pub struct Timeline {
 }
 
 impl Timeline {
-    /// Makes a timeline that holds every shutter of a scene, wherever it is aligned, and the frame before the instant.
+    /// Makes a timeline that includes every shutter of a scene, in any alignment, and the frame before the instant.
     pub fn of(scene: &Scene) -> Self {
         let shutter = scene.exposure + scene.shutter_profile.rolling.abs();
         Self {

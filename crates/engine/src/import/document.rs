@@ -4,19 +4,19 @@ use crate::import::model::{Model, Up};
 use crate::import::plan::ImportPlan;
 use crate::import::set::{STAND_HEIGHT, WALL_DISTANCE};
 
-/// Width and height of the picture that speeds are in pixels of.
+/// Size of the picture for speeds in pixels.
 const SIZE: [u32; 2] = [640, 360];
 
 /// Vertical field of view, in degrees.
 const VERTICAL_FOV: f64 = 40.0;
 
-/// Angles of the camera to the side of the model and above it, in degrees.
+/// Angles of the camera around and above the model, in degrees.
 const VIEW: [f64; 2] = [25.0, 15.0];
 
-/// Part of the picture's height that the ball around the model takes.
+/// Part of the picture's height that the ball around the model fills.
 const FILLED: f64 = 0.75;
 
-/// Writes the whole text. The world's origin lies below the model's middle, at the stand's upper face.
+/// Writes the whole text. The world's origin is below the model's middle, on the stand's upper face.
 pub fn scene_toml(plan: &ImportPlan, model: &Model) -> String {
     let half_fov = (0.5 * VERTICAL_FOV).to_radians();
     let distance = model.radius() / (FILLED * half_fov.sin());
@@ -44,7 +44,7 @@ pub fn scene_toml(plan: &ImportPlan, model: &Model) -> String {
     )
 }
 
-/// Writes where the camera is, and how it goes around the model at a speed in degrees per frame.
+/// Writes the camera's position, and its path around the model at a speed in degrees per frame.
 fn camera_path(middle: f64, distance: f64, orbit: Option<f64>) -> String {
     let view = |turn: f64| {
         let [x, y, z] = from_camera(VIEW[0] + turn, distance);
@@ -62,7 +62,7 @@ fn camera_path(middle: f64, distance: f64, orbit: Option<f64>) -> String {
     format!("interpolation = \"cubic\"\nkeys = [\n{}]", keys.concat())
 }
 
-/// Writes floor, wall and stand, for a model of a radius.
+/// Writes floor, wall and stand for a model of a given radius.
 fn set_objects(radius: f64) -> String {
     let wall = from_camera(VIEW[0], -WALL_DISTANCE * radius);
     format!(
@@ -75,7 +75,7 @@ fn set_objects(radius: f64) -> String {
     )
 }
 
-/// Writes the model, whose lowest point stands on the stand's middle.
+/// Writes the model, with its lowest point on the middle of the stand.
 fn model_object(model: &Model) -> String {
     let [low, high] = model.corners;
     let middle = 0.5 * (low + high);
@@ -111,7 +111,7 @@ fn stand_motion(spin: Option<f64>, slide: Option<f64>) -> String {
     format!("keys = [\n{}{}]\n", key(-1.0), key(1.0))
 }
 
-/// Returns the place at a distance from the model's middle towards a camera that is `around` degrees to the side.
+/// Returns the point at a distance from the model's middle towards a camera that is `around` degrees to the side.
 fn from_camera(around: f64, distance: f64) -> [f64; 3] {
     let [around, above] = [around, VIEW[1]].map(f64::to_radians);
     [

@@ -19,13 +19,13 @@ use crate::files::refuse;
 
 /// An imported scene.
 pub struct Imported {
-    /// Sentence that says what the scene exposes.
+    /// Sentence about what the scene exposes.
     pub exposes: String,
     /// Triangles of the model and the set.
     pub triangles: usize,
 }
 
-/// Makes the scene folder, whole or not at all.
+/// Makes the scene folder, complete or not at all.
 pub fn import(plan: &ImportPlan) -> Result<Imported, Error> {
     plan.motions.check()?;
     check_new(&plan.out)?;
@@ -36,7 +36,7 @@ pub fn import(plan: &ImportPlan) -> Result<Imported, Error> {
     let fail = |source| FileError::io(parent, "write", source);
     fs::create_dir_all(parent).map_err(fail)?;
     let staging = tempfile::tempdir_in(parent).map_err(fail)?;
-    // The inner folder is renamed at the end; the temporary one vanishes whatever happens.
+    // The inner folder is renamed at the end; the temporary one is always removed.
     let folder = staging.path().join("scene");
 
     let model = Model::copy(&plan.model, plan.plain, plan.up, &folder)?;
@@ -52,7 +52,7 @@ pub fn import(plan: &ImportPlan) -> Result<Imported, Error> {
     })
 }
 
-/// Refuses a folder that exists, or whose name no scene may have.
+/// Refuses a folder that exists, or with a name that no scene may have.
 fn check_new(out: &Path) -> Result<(), Error> {
     if out.exists() {
         return refuse!(out, "exists already; name a folder that is new");

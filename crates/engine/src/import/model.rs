@@ -32,14 +32,14 @@ named! {
 pub struct Model {
     /// The OBJ file, below the scene's folder, with slashes.
     pub mesh: String,
-    /// Smallest and largest x, y and z once `up` points up, in metres.
+    /// Smallest and largest x, y and z with `up` pointing up, in metres.
     pub corners: [DVec3; 2],
     /// The axis of the file that points up.
     pub up: Up,
 }
 
 impl Model {
-    /// Copies the OBJ file and what it names into the folder of a new scene.
+    /// Copies the OBJ file and the files that it names into the folder of a new scene.
     pub fn copy(path: &Path, plain: bool, up: Up, scene: &Path) -> Result<Self, Error> {
         let folder = scene.join(FOLDER);
         let path = (path.canonicalize()).map_err(|source| FileError::io(path, "read", source))?;
@@ -48,7 +48,7 @@ impl Model {
         let (mesh, files) = match plain {
             true => {
                 write_plain(&path, &copy)?;
-                // Lines are where they were.
+                // Line numbers are unchanged.
                 load(scene, &copy).map_err(|error| SceneError {
                     path: path.clone(),
                     ..error
@@ -106,7 +106,7 @@ impl Model {
     }
 }
 
-/// Loads the model as a scene of its own; returns its mesh, and the OBJ file with what it names.
+/// Loads the model as a scene of its own; returns its mesh, the OBJ file and the files that it names.
 fn load(scene: &Path, obj: &Path) -> Result<(Mesh, Vec<PathBuf>), SceneError> {
     let document = scene.join("scene.toml");
     let text = format!(
@@ -122,7 +122,7 @@ fn load(scene: &Path, obj: &Path) -> Result<(Mesh, Vec<PathBuf>), SceneError> {
     })?;
     let (mut scene, mut files) =
         load_scene_and_files(scene, None).map_err(|error| match error.path == document {
-            // It names the model and nothing else that could be wrong.
+            // The scene names the model and nothing else that could be wrong.
             true => SceneError {
                 path: obj.to_owned(),
                 line: None,
@@ -163,7 +163,7 @@ fn write_plain(path: &Path, copy: &Path) -> Result<(), FileError> {
     write_atomically(copy, plain.as_bytes())
 }
 
-/// Copies files to the same places below `folder` that they have below the model's folder.
+/// Copies files to the same paths below `folder` as below the model's folder.
 fn copy_all(files: &[PathBuf], model: &Path, folder: &Path) -> Result<(), Error> {
     let home = model.parent().unwrap_or(Path::new(""));
     for file in files {

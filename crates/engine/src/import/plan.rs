@@ -15,7 +15,7 @@ pub struct ImportPlan {
     pub out: PathBuf,
     /// The model's axis that points up.
     pub up: Up,
-    /// True to leave the model's materials out: it is grey.
+    /// True to import the model in grey, without its materials.
     pub plain: bool,
     /// Motion of model and camera.
     pub motions: Motions,
@@ -23,7 +23,7 @@ pub struct ImportPlan {
     pub exposure: f64,
 }
 
-/// Speeds of model and camera, at least one of them given.
+/// Speeds of model and camera; at least one is given.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Motions {
     /// Rotation of the stand, in degrees per frame.
@@ -35,7 +35,7 @@ pub struct Motions {
 }
 
 impl Motions {
-    /// Refuses a scene in which nothing moves.
+    /// Refuses a scene without motion.
     pub fn check(&self) -> Result<(), Error> {
         match (self.spin, self.slide, self.orbit) {
             (None, None, None) => Err(Error::Usage(

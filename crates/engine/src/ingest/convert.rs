@@ -1,4 +1,4 @@
-//! Conversion of a capture to the files of this program.
+//! Conversion of a capture to this program's files.
 
 use std::path::Path;
 
@@ -20,24 +20,24 @@ use crate::ingest::moving::{mark_reached, usual_top_speed};
 use crate::ingest::objects::{draw_coverage, name_objects};
 use crate::statistics::median;
 
-/// A capture that was ingested.
+/// An ingested capture.
 pub struct Ingested {
     /// Contents of `ingested.json`.
     pub scene: EngineScene,
-    /// The truth; none where the capture has no sub-frames.
+    /// The truth; none if the capture has no sub-frames.
     pub truth: Option<Truth>,
     /// Part of the pixels where anything moves, by colour or velocity; none without a truth.
     pub moving: Option<f64>,
-    /// Part of the pixels that change between sub-frames though no velocity reaches them: by noise, shadows, or wrong velocity.
+    /// Part of the pixels that change between sub-frames although no velocity reaches them: by noise, shadows, or wrong velocity.
     pub restless: f64,
-    /// Radiance of the engine's blurred picture over that of the truth, or of the frame if there is no truth: the median over pixels
-    /// that no velocity reaches. 1 for a blur that neither adds nor takes light; none without a picture, or if no lit pixel is still.
+    /// Radiance of the engine's blurred picture relative to the truth, or to the frame without a truth: the median over pixels that no
+    /// velocity reaches. 1 for a blur that neither adds nor removes light; none without a picture, or if no lit pixel is still.
     pub gain: Option<f64>,
 }
 
-/// Writes the frame of a capture, the truth of its sub-frames and the engine's own blurred picture into the folder `out`, which
-/// names the scene. The pictures are shown and compared at the exposures of `display`; `names` are those of the objects of the scene
-/// that the engine drew.
+/// Writes the frame of a capture, the truth of its sub-frames and the engine's own blurred picture into the folder `out`, which names the
+/// scene. The pictures are shown and compared at the exposures of `display`; `names` are the object names of the scene that the engine
+/// drew.
 pub fn ingest(
     capture: &Capture,
     (display, names): (Display, Option<Vec<String>>),
@@ -71,7 +71,7 @@ pub fn ingest(
     let restless = averaged.as_ref().map_or(0.0, |averaged| averaged.restless);
     let truth = write_files(capture, &scene, &frame, averaged, out)?;
     let unblurred = (truth.as_ref()).map_or(frame.color, |truth| truth.mean().color);
-    // Noise changes colours where nothing moves; it leaves velocity alone.
+    // Noise changes colours where nothing moves, but not velocity.
     let reached = mark_reached(&capture.velocity, shutter);
     let blurred = capture.blurred.as_ref();
     let moving = truth.as_ref().map(|truth| part_of(&truth.support.moving));
@@ -115,8 +115,7 @@ fn write_files(
     Ok(written)
 }
 
-/// Returns the median of the ratios of two pictures' radiance over the pixels that are not left out; none where the second one is
-/// black.
+/// Returns the median ratio of two pictures' radiance over the pixels that are not left out; none where the second one is black.
 fn median_ratio(picture: &Image, other: &Image, left_out: &Raster<bool>) -> Option<f64> {
     let radiance = |pixel: &[f32; 3]| pixel.iter().map(|value| f64::from(*value)).sum::<f64>();
     let pairs = picture.pixels.iter().zip(&other.pixels);
@@ -126,7 +125,7 @@ fn median_ratio(picture: &Image, other: &Image, left_out: &Raster<bool>) -> Opti
     Some(median(ratios)).filter(|ratio| ratio.is_finite())
 }
 
-/// Refuses a folder that holds another frame, as a run leaves it for a scene.
+/// Refuses a folder with another frame, such as a run's folder of a scene.
 fn refuse_other_files(out: &Path) -> Result<(), Error> {
     match out.join(RenderFile::Frame.path()).exists() && !EngineScene::is_in(out) {
         false => Ok(()),
@@ -137,7 +136,7 @@ fn refuse_other_files(out: &Path) -> Result<(), Error> {
     }
 }
 
-/// Describes what a capture becomes, but for its ladder.
+/// Describes the ingested capture, except its ladder.
 fn describe_scene(capture: &Capture, out: &Path) -> Result<EngineScene, Error> {
     let (exposure, alignment) = capture.shutter()?;
     let subframes = capture.subframes.len() as u32;
@@ -155,12 +154,19 @@ fn describe_scene(capture: &Capture, out: &Path) -> Result<EngineScene, Error> {
         step: length / f64::from(subframes.max(1)),
         ladder: Vec::new(),
         has_picture: capture.blurred.is_some(),
+        further_inputs: [
+            ("velocity_next", capture.velocity_next.is_some()),
+            ("velocity_z", capture.velocity_z.is_some()),
+        ]
+        .into_iter()
+        .filter_map(|(name, is_there)| is_there.then(|| name.to_owned()))
+        .collect(),
         hash: hash_capture(capture)?,
         folder: out.to_owned(),
     })
 }
 
-/// Names the scene by the folder and the engine, as a variant of a scene is named.
+/// Names the scene by the folder, with the engine as its variant.
 fn name_scene(capture: &Capture, out: &Path) -> Result<SceneId, Error> {
     let folder = out.file_name().and_then(|name| name.to_str());
     let is_plain = |name: &&str| !name.contains('@') && name_in_one_word(name) == **name;
@@ -208,6 +214,8 @@ fn make_frame(
         objects,
         color: capture.color.clone(),
         velocity: capture.velocity.clone(),
+        velocity_next: capture.velocity_next.clone(),
+        velocity_z: capture.velocity_z.clone(),
         depth: capture.depth.clone(),
         samples: None,
     }
@@ -228,7 +236,7 @@ fn write_picture(
     Ok(write_exr(path, &file)?)
 }
 
-/// Hashes the files that the pictures are made of, and how they are read.
+/// Hashes the pictures' source files, and how they are read.
 fn hash_capture(capture: &Capture) -> Result<String, Error> {
     let mut hasher = blake3::Hasher::new();
     let how = format!(
@@ -238,8 +246,11 @@ fn hash_capture(capture: &Capture) -> Result<String, Error> {
     hasher.update(how.as_bytes());
     let colors = |image: &Image| image.pixels.clone().into_iter().flatten();
     let ids = capture.object_id.iter().flat_map(|ids| &ids.pixels);
+    let next = capture.velocity_next.iter().flat_map(|next| &next.pixels);
+    let z = capture.velocity_z.iter().flat_map(|z| &z.pixels);
     let values = colors(&capture.color)
         .chain(capture.velocity.pixels.iter().flatten().copied())
+        .chain(next.flatten().chain(z).copied())
         .chain(capture.depth.pixels.iter().copied())
         .chain(ids.map(|id| *id as f32))
         .chain(capture.blurred.iter().flat_map(colors));

@@ -14,27 +14,27 @@ use crate::files::refuse;
 use crate::ingest::moving::{ColorRange, mark_reached};
 use crate::ingest::objects::draw_coverage;
 
-/// Least number of sub-frames.
+/// Smallest number of sub-frames.
 const MIN_SUBFRAMES: usize = 4;
-/// Upper limit on the sub-frames.
+/// Upper limit on sub-frames.
 const MAX_SUBFRAMES: usize = 4096;
-/// Parts of the sub-frames, every other one of which makes a half of the truth.
+/// Halves of the truth, from alternate sub-frames.
 const HALVES: usize = 2;
-/// Number of sub-frames of the truth for each of an accumulation that is compared with it: a mean of nearly as many as the truth
-/// has would share its errors.
+/// Smallest ratio of the truth's sub-frames to an accumulation's that is compared with it: a mean of nearly as many would share the
+/// truth's errors.
 const TRUTH_PER_MEAN: usize = 4;
-/// Word of provenance for pictures that no ray was traced for.
+/// Provenance of pictures that were not traced.
 pub(super) const NOT_TRACED: &str = "none";
 
-/// A truth and the ladder that goes with it.
+/// A truth and its ladder.
 pub struct EngineTruth {
     pub truth: Truth,
     pub ladder: Ladder,
-    /// Part of the pixels that change between sub-frames though no velocity reaches them.
+    /// Part of the pixels that change between sub-frames although no velocity reaches them.
     pub restless: f64,
 }
 
-/// Averages the sub-frames of a capture, if it has any: the even ones make one half of the truth, the odd ones the other.
+/// Averages the sub-frames of a capture, if it has any: even ones into one half of the truth, odd ones into the other.
 pub fn average_subframes(
     capture: &Capture,
     (shutter, alignment): (Shutter, Alignment),
@@ -109,8 +109,8 @@ fn check_count(capture: &Capture) -> Result<(), Error> {
     }
 }
 
-/// Picks the sub-frames that stand for the midpoints of `parts` equal parts of the shutter. A midpoint lies between two of them: one
-/// half takes the earlier, the other the later.
+/// Picks the sub-frames for the midpoints of `parts` equal parts of the shutter. A midpoint is between two of them: one half uses the
+/// earlier, the other the later.
 fn pick_subframes(parts: u32, count: usize, half: usize) -> Vec<usize> {
     let doubled_parts = 2 * parts as usize;
     let picks = (0..parts as usize).map(|part| {
@@ -127,7 +127,7 @@ pub fn part_of(marks: &Raster<bool>) -> f64 {
     marked.count() as f64 / marks.pixels.len() as f64
 }
 
-/// Tells, per object, whether it is seen where anything moves.
+/// Returns, per object, whether it is visible where anything moves.
 fn find_movers(support: &Support) -> Vec<bool> {
     let moves = |seen: &Raster<bool>| {
         let mut both = seen.pixels.iter().zip(&support.moving.pixels);
@@ -144,7 +144,7 @@ struct Mean {
     halves: [Sum; HALVES],
 }
 
-/// Reads every sub-frame once, with the shares of the objects. Returns the mean of all, then those of fewer, and the range of colours.
+/// Reads every sub-frame once, with the shares of the objects. Returns the mean of all, the means of fewer, and the range of colours.
 fn read_subframes(
     capture: &Capture,
     objects: usize,
@@ -239,7 +239,7 @@ mod tests {
                 let places = halves.each_ref().map(|picks| picks[part] as f64 + 0.5);
                 let middle = 0.5 * (places[0] + places[1]) / count as f64;
                 let expected = (part as f64 + 0.5) / f64::from(parts);
-                // Where the parts are no whole number of sub-frames, the nearest is at most half of one away.
+                // If the parts are no whole number of sub-frames, the nearest is at most half of one away.
                 assert!(
                     (middle - expected).abs() <= 0.5 / count as f64 + 1e-12,
                     "{parts} of {count}: {halves:?}"

@@ -1,4 +1,4 @@
-//! Ingesting: a capture becomes a frame, a truth and a picture in the files of this program.
+//! Ingesting: conversion of a capture to a frame, a truth and a picture in this program's files.
 
 mod convert;
 mod engine_truth;

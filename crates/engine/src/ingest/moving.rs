@@ -1,16 +1,16 @@
-//! Pixels where anything moves while an engine's shutter is open, as far as its colours and its velocity tell.
+//! Pixels where anything moves while an engine's shutter is open, judged by its colours and its velocity.
 
 use frame::{Image, Raster, Shutter, Vectors};
 
-/// Least change of a displayed colour between sub-frames that counts as motion: two steps of 8 bits.
+/// Smallest change of a displayed colour between sub-frames that counts as motion: two steps of 8 bits.
 const LEAST_CHANGE: f32 = 2.0 / 255.0;
-/// Least motion while the shutter is open, in pixels.
+/// Smallest motion while the shutter is open, in pixels.
 const LEAST_MOTION: f32 = 0.1;
 
 /// Share of the moving pixels that are no faster than the usual top speed.
 const TOP_SHARE: f64 = 0.99;
 
-/// Least and greatest displayed colour of each pixel over the sub-frames.
+/// Smallest and largest displayed colour of each pixel over the sub-frames.
 pub struct ColorRange {
     /// Display exposure, in stops.
     stops: f32,
@@ -39,7 +39,7 @@ impl ColorRange {
         }
     }
 
-    /// Marks the pixels whose colour changes.
+    /// Marks the pixels that change colour.
     pub fn mark_changed(&self) -> Raster<bool> {
         self.least.zip(&self.greatest, |least, greatest| {
             (0..3).any(|channel| greatest[channel] - least[channel] > LEAST_CHANGE)
@@ -47,7 +47,7 @@ impl ColorRange {
     }
 }
 
-/// Marks the pixels that the frame's surfaces pass on their way through the shutter, as their velocity says.
+/// Marks the pixels that the frame's surfaces cross while the shutter is open, by their velocity.
 pub fn mark_reached(velocity: &Vectors, shutter: Shutter) -> Raster<bool> {
     let (width, height) = (velocity.width, velocity.height);
     let mut reached = velocity.map(|_| false);
@@ -56,7 +56,7 @@ pub fn mark_reached(velocity: &Vectors, shutter: Shutter) -> Raster<bool> {
         if length < LEAST_MOTION {
             continue;
         }
-        // Two steps per pixel miss none; beyond twice the picture nothing is seen.
+        // Two steps per pixel miss none; beyond twice the picture nothing is visible.
         let steps = (2.0 * length.min(2.0 * (width + height) as f32)).ceil() as u32;
         for step in 0..=steps {
             let time = shutter.at(f64::from(step) / f64::from(steps)) as f32;
@@ -70,13 +70,13 @@ pub fn mark_reached(velocity: &Vectors, shutter: Shutter) -> Raster<bool> {
     reached
 }
 
-/// Encodes radiance about as a display does, without an end at white.
+/// Encodes radiance about as a display does, without clipping at white.
 fn encode(radiance: f32, stops: f32) -> f32 {
     (radiance.max(0.0) * stops.exp2()).powf(1.0 / 2.2)
 }
 
-/// Returns the speed that 99 % of the moving pixels have at most, in pixels per frame; 0 where nothing moves. Some engines leave
-/// absurd velocities in a few pixels.
+/// Returns the 99th percentile of the moving pixels' speed, in pixels per frame; 0 if nothing moves. Some engines leave absurd velocities
+/// in a few pixels.
 pub fn usual_top_speed(velocity: &Vectors) -> f64 {
     let speeds = velocity.pixels.iter().map(|[x, y]| x.hypot(*y));
     let mut moving: Vec<f32> = speeds.filter(|speed| *speed >= LEAST_MOTION).collect();

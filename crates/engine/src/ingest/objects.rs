@@ -1,4 +1,4 @@
-//! Objects that an engine's pictures show, by their ids.
+//! Objects in an engine's pictures, by their ids.
 
 use frame::{Plane, Raster};
 use suite::Error;
@@ -8,11 +8,11 @@ use crate::files::refuse;
 
 /// Name of what is no object.
 const BACKGROUND: &str = "background";
-/// Upper limit on the objects: each takes memory in every picture.
+/// Upper limit on objects: each needs memory in every picture.
 const MAX_OBJECTS: usize = 64;
 
-/// Names the objects by their ids: as the scene that the engine drew has them, or by their numbers. The background alone where the
-/// frame or its sub-frames have no ids: nobody knows then what the open shutter saw.
+/// Names the objects by their ids: as in the scene that the engine drew, or by their numbers. Only the background if the frame or its
+/// sub-frames have no ids: then nobody knows what the open shutter saw.
 pub fn name_objects(capture: &Capture, known: Option<Vec<String>>) -> Result<Vec<String>, Error> {
     let Some(ids) = &capture.object_id else {
         return Ok(vec![BACKGROUND.to_owned()]);

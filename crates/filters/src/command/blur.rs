@@ -31,7 +31,7 @@ pub struct CommandBlur {
 }
 
 impl CommandBlur {
-    /// Takes a filter that is a command, its settings and a size in pixels. The program is stopped as soon as
+    /// Prepares a filter that is a command, with its settings and a size in pixels. The program is stopped as soon as
     /// `interrupted` says so.
     pub fn new(
         filter: &Filter,
@@ -88,7 +88,7 @@ impl CommandBlur {
             End::Exited(_) => self.read(&out),
         };
         outcome.map_err(|reason| {
-            // Files by their names alone, as in a shell: whoever looks into it tries files of their own.
+            // Files by name only, as in a shell: a reader will try files of their own.
             let words = self.arguments(input, Path::new("frame.exr"), Path::new("out.exr"));
             let said = match output.as_str() {
                 "" => "; it printed nothing".to_owned(),
@@ -236,7 +236,7 @@ fn create_private_folder() -> std::io::Result<tempfile::TempDir> {
     builder.tempdir()
 }
 
-/// Names what is no regular file.
+/// Names the kind of a file that is not regular.
 fn kind_of(found: &std::fs::Metadata) -> &'static str {
     if found.is_dir() {
         return "a folder";
@@ -252,7 +252,7 @@ fn frames_per_second(input: &Input) -> f64 {
     input.frames_per_second.unwrap_or(FRAMES_PER_SECOND)
 }
 
-/// Makes the file of a frame, with all that kernels may read.
+/// Makes the file of a frame, with everything that kernels may read.
 fn make_frame_file(color: &Image, input: &Input) -> ExrFile {
     let mut file = ExrFile::new(color.width, color.height);
     file.push_color("", color);

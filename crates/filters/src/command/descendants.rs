@@ -10,7 +10,7 @@ use rustix::process::{
 /// Longest wait for killed processes to disappear. One that waits for a broken disk may take for ever.
 const LONGEST_WAIT: Duration = Duration::from_secs(1);
 
-/// Time between two looks.
+/// Time between two checks.
 const PAUSE: Duration = Duration::from_millis(1);
 
 /// All processes below this one, except those that were there before.
@@ -19,20 +19,20 @@ pub struct Descendants {
 }
 
 impl Descendants {
-    /// Makes this process the parent of orphans, and remembers the children that it has already.
+    /// Makes this process the parent of orphans, and remembers its current children.
     ///
-    /// A process that calls `setsid` and whose parent ends goes to the nearest such parent instead of the init process. So it
+    /// If the parent of a process that calls `setsid` ends, the nearest such parent adopts the process instead of init. So it
     /// stays below this process, and is found.
     pub fn new() -> Self {
-        // A system that refuses leaves such orphans to the init process, where they are not found.
+        // If the system refuses, init adopts such orphans, and they are not found.
         let _ = set_child_subreaper(Some(getpid()));
         Self {
             before: list_children(),
         }
     }
 
-    /// Kills all of them, and those that they start meanwhile. The children of a killed child become children of this process, whose
-    /// turn comes with the next look.
+    /// Kills all of them, and those that they start meanwhile. The children of a killed child become children of this process
+    /// and are killed at the next check.
     pub fn kill(&self) {
         let start = Instant::now();
         loop {
@@ -64,7 +64,8 @@ fn list_children() -> BTreeSet<i32> {
     children.collect()
 }
 
-/// Parses the parent's id in a line of /proc/<pid>/stat: `pid (name) state parent ..`, where the name may hold anything.
+/// Parses the parent's id in a line of /proc/<pid>/stat: `pid (name) state parent ..`, where
+/// the name may contain anything.
 fn parse_parent(stat: &[u8]) -> Option<i32> {
     let name_end = stat.iter().rposition(|byte| *byte == b')')?;
     let rest = std::str::from_utf8(&stat[name_end + 1..]).ok()?;

@@ -10,7 +10,7 @@ const LAST_LINES: usize = 10;
 /// Upper limit on their bytes.
 const LAST_BYTES: usize = 4096;
 
-/// Longest wait for the end of a pipe, which a process that got away may still hold.
+/// Longest wait for the end of a pipe, which an escaped process may keep open.
 const LONGEST_WAIT: Duration = Duration::from_secs(1);
 
 /// A pipe, read by a thread until all of its writers are gone.

@@ -21,14 +21,14 @@ pub enum End {
     Interrupted,
 }
 
-/// Longest pause between two looks at a running program.
+/// Longest pause between two checks of a running program.
 const PAUSE: Duration = Duration::from_millis(20);
 
 /// Lock that lets one program run at a time: every process that appears below this one meanwhile belongs to it.
 static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
 
-/// Runs a program for at most `limit`, and reads what it prints; returns how it ended, and the last lines that it printed. Whatever it
-/// has started ends with it, however it ends. `out` is the file that it is to write, and the most bytes that this may hold.
+/// Runs a program for at most `limit`, and reads what it prints; returns how it ended, and the last lines that it printed. Its
+/// descendants end with it, however it ends. `out` is its output file, and the most bytes that this may have.
 pub fn run_process(
     mut command: Command,
     limit: Duration,

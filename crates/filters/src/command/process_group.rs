@@ -1,4 +1,4 @@
-//! A running program, together with all that it starts.
+//! A running program, with everything that it starts.
 
 use std::io;
 use std::process::{Command, ExitStatus};
@@ -9,7 +9,7 @@ use process_wrap::std::{ChildWrapper, CommandWrap};
 use super::descendants::Descendants;
 
 /// A process group, or a job object of Windows, which no process leaves. On Linux the group includes processes that left it;
-/// elsewhere a process that calls `setsid` gets away.
+/// elsewhere a process that calls `setsid` escapes.
 pub struct ProcessGroup {
     group: Box<dyn ChildWrapper>,
     #[cfg(target_os = "linux")]

@@ -13,8 +13,8 @@ pub(crate) const CONVENTION_VALUES: [&str; 5] = [
     "color_scale",
 ];
 
-/// Form in which an engine has its textures. The default is that of frames: velocity in pixels per frame, +x right, +y down,
-/// and depth in metres.
+/// Form in which an engine has its textures. The default is the form of frames: velocity in pixels per frame, +x
+/// right, +y down, and depth in metres.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Convention {
@@ -22,13 +22,13 @@ pub struct Convention {
     pub velocity: VelocityUnit,
     /// Direction of its +y.
     pub velocity_y: VerticalDirection,
-    /// Order of the two places that it is the difference of.
+    /// Order of the two places in the difference.
     pub velocity_sign: VelocitySign,
     /// Time in which a surface moves that far.
     pub velocity_per: VelocityTime,
-    /// Frame rate, for velocity per second. A frame that says its own rate goes before it.
+    /// Frame rate, for velocity per second. A frame's own rate takes precedence.
     pub frames_per_second: Option<f64>,
-    /// Factor on velocity after all that; 1 if left out.
+    /// Factor on velocity after these conversions; 1 if left out.
     pub velocity_scale: Option<f64>,
     /// Format of the velocity texture; `rg32float` if left out.
     pub velocity_format: Option<Format>,
@@ -103,11 +103,11 @@ pub enum DepthKind {
     /// Distance along the view axis in metres.
     #[default]
     Linear,
-    /// 0 at the near plane and 1 at the far plane, as a depth buffer has it.
+    /// 0 at the near plane and 1 at the far plane, as in a depth buffer.
     Forward,
     /// 1 at the near plane and 0 at the far plane.
     Reversed,
-    /// -1 at the near plane and 1 at the far plane, as OpenGL's normalised device coordinates have it.
+    /// -1 at the near plane and 1 at the far plane, as in OpenGL's normalised device coordinates.
     Ndc,
 }
 
@@ -128,7 +128,7 @@ const DEPTH_FORMATS: [Format; 2] = [Format::R32Float, Format::R16Float];
 const OUTPUT_FORMATS: [Format; 2] = [Format::Rgba32Float, Format::Rgba16Float];
 
 impl Convention {
-    /// Refuses numbers that make no sense, and keys that miss others.
+    /// Refuses numbers that make no sense, and keys that lack others.
     pub(crate) fn check(&self) -> Result<(), String> {
         let positive = [
             ("frames_per_second", self.frames_per_second),
@@ -186,7 +186,7 @@ impl Convention {
         Ok(())
     }
 
-    /// Returns the convention for frames of a rate of their own. One that names no rate stays as it is.
+    /// Returns the convention for frames with a rate of their own; unchanged if it names no rate.
     pub(crate) fn at_rate(self, frames_per_second: Option<f64>) -> Self {
         Self {
             frames_per_second: (self.frames_per_second)
@@ -207,7 +207,7 @@ impl Convention {
         }
     }
 
-    /// Fills in what was left out, so that the record says it all. Without a far plane `far` stays away.
+    /// Fills in what was left out, so that the record is complete. `far` stays empty without a far plane.
     pub fn resolved(self) -> Self {
         Self {
             velocity_scale: self.velocity_scale.or(Some(1.0)),
@@ -219,11 +219,12 @@ impl Convention {
         }
     }
 
-    /// Returns the format of a texture that every filter has; that of `output` is for fragment shaders.
+    /// Returns the format of a texture that every filter has; the format of `output` is for fragment shaders.
     pub(crate) fn format_of(&self, name: &str) -> Format {
         match name.strip_suffix("_before").unwrap_or(name) {
             "color" => self.color_format.unwrap_or(Format::Rgba32Float),
-            "velocity" => self.velocity_format.unwrap_or(Format::Rg32Float),
+            "velocity" | "velocity_next" => self.velocity_format.unwrap_or(Format::Rg32Float),
+            "velocity_z" => Format::R32Float,
             "output" => self.output_format.unwrap_or(Format::Rgba32Float),
             _ => self.depth_format.unwrap_or(Format::R32Float),
         }

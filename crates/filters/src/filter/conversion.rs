@@ -139,7 +139,7 @@ mod tests {
                 );
             }
             let back = form.restore_depth(&converted);
-            // What lies at the far plane looks as the background does.
+            // A surface at the far plane looks like the background.
             let last = if far.is_some() { FAR_DEPTH } else { 8.0 };
             for (found, expected) in back.pixels.iter().zip([0.5, 1.0, last, FAR_DEPTH]) {
                 let error = (found / expected - 1.0).abs();

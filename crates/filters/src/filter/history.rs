@@ -13,13 +13,13 @@ pub enum History {
 }
 
 impl History {
-    /// Returns the name of the input, as filter.toml and shaders have it.
+    /// Returns the name of the input in filter.toml and shaders.
     pub fn input(self) -> &'static str {
         let texture = self.texture();
         texture.strip_suffix("_before").unwrap_or(texture)
     }
 
-    /// Returns the name of its texture, as shaders have it.
+    /// Returns the name of its texture in shaders.
     pub fn texture(self) -> &'static str {
         match self {
             History::Color => "color_before",

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 pub struct Parameter {
     /// Name in `filter.toml`, in the WGSL struct `Parameters` and on the command line.
     pub name: String,
-    /// The values that it takes.
+    /// The values that it allows.
     pub kind: Kind,
     /// The value unless a preset names another.
     pub default: Value,
@@ -19,7 +19,7 @@ pub struct Parameter {
     pub doc: String,
 }
 
-/// Values that a parameter takes; both ends of a range are allowed.
+/// Allowed values of a parameter, both ends of a range included.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Kind {
     /// Whole numbers; `i32` in WGSL.
@@ -47,7 +47,7 @@ pub enum Kind {
     },
 }
 
-/// Division of a range into steps that matter alike.
+/// Division of a range into steps of equal importance.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Scale {

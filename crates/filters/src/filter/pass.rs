@@ -12,11 +12,11 @@ pub struct Texture {
     pub format: Format,
     /// Divisors of the image's width and height, of parameters, `width` and `height`; `None` for the image's own size.
     pub(crate) divided_by: Option<[Expression; 2]>,
-    /// Rounding of what they make.
+    /// Rounding of the quotients.
     pub(crate) rounding: Rounding,
     /// Mip levels, at most as many as there are halvings down to one texel.
     pub mips: u32,
-    /// Meaning of its numbers, where a person may want to see them.
+    /// Meaning of its numbers, if a person may want to see them.
     pub holds: Option<Holds>,
 }
 
@@ -24,10 +24,10 @@ pub struct Texture {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Rounding {
-    /// The last texels stand for a part of their pixels.
+    /// The last texels cover fewer pixels.
     #[default]
     Up,
-    /// The last pixels are left over; one texel at least remains.
+    /// The last pixels are left over; at least one texel remains.
     Down,
 }
 
@@ -57,7 +57,7 @@ pub(crate) struct Pass {
 }
 
 impl Pass {
-    /// Lists its render targets, by location; none of a kernel.
+    /// Lists its render targets, by location; none for a kernel.
     pub fn list_targets(&self) -> impl Iterator<Item = &String> {
         self.shader.iter().flat_map(|shader| &shader.targets)
     }

@@ -1,4 +1,4 @@
-//! Shader of a pass as an engine has it, and what its bindings stand for.
+//! Shader of a pass from an engine, and the meaning of its bindings.
 
 use std::path::PathBuf;
 
@@ -14,7 +14,7 @@ pub(crate) enum Stage {
     Compute,
     /// A triangle over the whole picture; each fragment writes the render targets.
     Fragment,
-    /// Corners of the triangle of a fragment shader. It is no stage of a pass by itself.
+    /// Corners of the triangle of a fragment shader. Not a stage of a pass by itself.
     #[serde(skip)]
     Vertex,
 }
@@ -40,14 +40,16 @@ pub(crate) struct PassShader {
     pub bindings: Vec<Binding>,
     /// Values of specialisation constants (`override` of WGSL), by name or number.
     pub constants: Vec<(String, Expression)>,
-    /// Conditions of WESL that hold.
+    /// Conditions of WESL that are true.
     pub conditions: Vec<String>,
+    /// Macros of its compiler, each as `NAME=value`.
+    pub defines: Vec<String>,
     /// Program that compiles it; the first that can if left out.
     pub compiler: Option<String>,
 }
 
 impl PassShader {
-    /// Lists the expressions that name parameters, but for values of uniform blocks.
+    /// Lists the expressions that name parameters, except values of uniform blocks.
     pub(crate) fn list_expressions(&self) -> impl Iterator<Item = &Expression> {
         let levels = self
             .bindings

@@ -13,21 +13,21 @@ pub struct Preset {
     pub name: String,
     /// Explanation in one line.
     pub doc: String,
-    /// The work that it follows, where it follows one.
+    /// The work that it follows, if any.
     pub source: Option<Source>,
-    /// Width in pixels of the pictures that its author made it for; `None` where no parameter depends on that, or nobody
-    /// knows.
+    /// Width in pixels of the pictures that its author made it for; `None` if no parameter
+    /// depends on it, or it is unknown.
     pub reference_width: Option<u32>,
     /// The values that differ from the parameters' defaults.
     pub values: BTreeMap<String, Value>,
-    /// Record of the tuning that found the values, where one did.
+    /// Record of the tuning that found the values, if any.
     pub tuned: Option<TuningRecord>,
 }
 
 /// Work that a preset follows, and where the preset departs from it: `[preset.source]` of filter.toml.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Source {
-    /// The source code; `None` where only a publication was followed.
+    /// The source code; `None` if only a publication was followed.
     #[serde(flatten)]
     pub code: Option<Code>,
     /// The paper, article or slides.
@@ -74,6 +74,6 @@ pub struct TuningRecord {
     pub size: [u32; 2],
     /// Samples per pixel of the truths.
     pub samples_per_pixel: u32,
-    /// The scenes. On these the preset proves nothing.
+    /// The scenes. The preset's scores on these prove nothing.
     pub scenes: Vec<String>,
 }

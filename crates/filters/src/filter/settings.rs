@@ -19,14 +19,14 @@ pub struct Settings {
     pub preset: String,
     /// Values by parameter name.
     pub values: BTreeMap<String, Value>,
-    /// Width of the pictures that the values in pixels are meant for; `None` where they are meant for every width.
+    /// Width of the pictures that the values in pixels are meant for; `None` if they are meant for every width.
     pub reference_width: Option<u32>,
     /// Parameters that stay as they are at every width: set by hand, or scaled already.
     pub fixed: BTreeSet<String>,
 }
 
 impl Filter {
-    /// Takes the values of a preset, or of the first one.
+    /// Returns the values of a preset, or of the first one.
     pub fn settings(&self, preset: Option<&str>) -> Result<Settings, FilterError> {
         let wanted = preset.unwrap_or(&self.presets[0].name);
         let names = self.presets.iter().map(|preset| &preset.name[..]);
@@ -80,7 +80,7 @@ impl Settings {
         Ok(())
     }
 
-    /// Keeps every value as the preset has it at every width.
+    /// Keeps the preset's values unchanged at every width.
     pub fn as_written(mut self) -> Self {
         self.reference_width = None;
         self
@@ -125,17 +125,17 @@ impl Settings {
         Ok(())
     }
 
-    /// Lists the numbers that expressions know by name, but for those of a frame: parameters and the convention.
+    /// Lists the numbers that expressions know by name, except a frame's: parameters and the convention.
     pub(crate) fn list_numbers(&self, filter: &Filter) -> BTreeMap<String, f64> {
         let convention = CONVENTION_VALUES.into_iter().filter_map(|name| {
             let value = filter.convention.value(name)?;
             Some((name.to_owned(), value))
         });
-        // A parameter may be called like a value of the convention.
+        // A parameter may have the name of a value of the convention.
         convention.chain(self.list_parameters(filter)).collect()
     }
 
-    /// Lists the parameters with their values; that of a choice is its index.
+    /// Lists the parameters with their values; a choice's value is its index.
     pub(crate) fn list_parameters(&self, filter: &Filter) -> impl Iterator<Item = (String, f64)> {
         filter.parameters.iter().map(|parameter| {
             let number = match (&self.values[&parameter.name], &parameter.kind) {
@@ -162,8 +162,8 @@ impl Settings {
         }
     }
 
-    /// Sets the smallest reach that covers trails of `pixels`. Changes nothing if the reach of the filter has no bound. Fails if
-    /// the range of the parameter ends before.
+    /// Sets the smallest reach that covers trails of `pixels`. Changes nothing if the reach of the filter has no bound. Fails
+    /// if the range of the parameter ends below that.
     pub fn with_reach(&self, filter: &Filter, pixels: u32) -> Result<Settings, FilterError> {
         let mut settings = self.clone();
         if let Some(reach_by) = &filter.reach_by {

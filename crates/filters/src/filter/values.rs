@@ -16,7 +16,7 @@ const NUMBERS: [&str; 6] = [
 /// Values of two numbers. `resolution[0]` is the first number.
 const PAIRS: [&str; 2] = ["resolution", "jitter"];
 
-/// Matrices of the camera of this frame. With `previous_` before its name, each is that of the frame before.
+/// Matrices of the camera of this frame. With `previous_` before its name, each belongs to the frame before.
 pub(crate) const MATRICES: [&str; 6] = [
     "projection",
     "inverse_projection",
@@ -96,7 +96,7 @@ impl Filter {
     }
 }
 
-/// Finds a matrix by name: its index in [`MATRICES`], and whether it is that of the frame before.
+/// Finds a matrix by name: its index in [`MATRICES`], and whether it belongs to the frame before.
 pub(crate) fn find_matrix(name: &str) -> Option<(usize, bool)> {
     let (own, is_previous) = match name.strip_prefix(PREVIOUS) {
         Some(own) => (own, true),

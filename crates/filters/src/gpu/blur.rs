@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use frame::{Image, Raster};
+use wgpu::naga::ScalarKind;
 
 use super::bound_passes::{BoundPasses, mark_of};
 use super::device::Gpu;
@@ -68,8 +69,8 @@ impl<'g> Blur<'g> {
         self.run_after(input, input)
     }
 
-    /// Blurs every colour image of the input as [`Blur::run`] does, for filters with history after another frame. That has as
-    /// many colour images, which go with those of the input.
+    /// Blurs every colour image of the input as [`Blur::run`] does, for filters with history after another frame, which has
+    /// as many colour images, in the same order.
     pub fn run_after(&mut self, input: &Input, before: &Input) -> Result<Vec<Image>, FilterError> {
         input.check(self.filter(), self.size)?;
         before.check(self.filter(), self.size)?;
@@ -82,7 +83,7 @@ impl<'g> Blur<'g> {
         let colors = input.color.iter().zip(before.color).enumerate();
         let outputs = colors.map(|(index, (color, before))| {
             self.upload_color(color, before)?;
-            // Results that do not depend on colour stay from the first image.
+            // Results that do not depend on colour are kept from the first image.
             self.blur(|dispatch| index == 0 || dispatch.depends_on_color)
         });
         let outputs = outputs.collect::<Result<Vec<_>, _>>()?;
@@ -140,7 +141,7 @@ impl<'g> Blur<'g> {
                 scale => Ok(output.map(|pixel| pixel.map(|part| part / scale))),
             },
             Some([x, y]) => {
-                // If a loop was ended early, the broken pixel is its effect.
+                // A loop that was ended early may have broken the pixel.
                 self.check_loops()?;
                 Err(self.refuse_pixel([x, y], output.at(x, y)))
             }
@@ -168,8 +169,9 @@ impl<'g> Blur<'g> {
     fn find_first_broken(&self) -> Option<String> {
         for dispatch in &self.passes.dispatches {
             self.run_dispatch(dispatch).ok()?;
-            let between = (dispatch.written.iter())
-                .filter(|(name, target)| name != "output" && target.format != Format::R32Uint);
+            let between = (dispatch.written.iter()).filter(|(name, target)| {
+                name != "output" && target.format.kind() == ScalarKind::Float
+            });
             for (name, target) in between {
                 let texels = self.gpu.download(target, self.place("read back")).ok()?;
                 let broken = find_broken(&texels);
@@ -193,8 +195,8 @@ impl<'g> Blur<'g> {
         }
     }
 
-    /// Reads what the last run left in a texture between the passes. Components that its format lacks are 0, and a whole number
-    /// is the float of the same bits. Panics if the filter has no such texture.
+    /// Reads what the last run left in a texture between the passes. Components that its format lacks are 0, and a number
+    /// of `r32uint` is the float of the same bits. Panics if the filter has no such texture.
     pub fn read_texture(&self, name: &str) -> Result<Raster<[f32; 4]>, FilterError> {
         let target = self.passes.target(name);
         self.gpu.download(target, self.place("read back"))
@@ -213,11 +215,18 @@ impl<'g> Blur<'g> {
         self.upload_color(color, color)
     }
 
-    /// Uploads all but the colour, and what the filter reads of the frame before.
+    /// Uploads everything but the colour, and what the filter reads of the frame before.
     fn upload_layers(&self, input: &Input, before: &Input) -> Result<(), FilterError> {
-        let texels = |layer: &str, input: &Input| match layer {
-            "velocity" => velocity_texels(&self.filter().convention, input),
-            _ => self.filter().convention.convert_depth(input.depth).pixels,
+        let convention = &self.filter().convention;
+        let texels = |layer: &str, input: &Input| {
+            let velocity = |own| velocity_texels(convention, input, own);
+            let is_there = "a checked frame has what the filter reads";
+            match layer {
+                "velocity" => velocity(input.velocity),
+                "velocity_next" => velocity(input.velocity_next.expect(is_there)),
+                "velocity_z" => input.velocity_z.expect(is_there).pixels.clone(),
+                _ => convention.convert_depth(input.depth).pixels,
+            }
         };
         let history = self
             .filter()
@@ -225,18 +234,20 @@ impl<'g> Blur<'g> {
             .iter()
             .filter(|it| **it != History::Color);
         let history = history.map(|it| (it.texture(), it.input(), before));
-        let own = ["velocity", "depth"].map(|layer| (layer, layer, input));
+        let further = self.filter().further_inputs();
+        let own = ["velocity", "depth"].into_iter().chain(further);
+        let own = own.map(|layer| (layer, layer, input));
         self.gpu.catch_errors(self.place("upload"), || {
-            let frame = FrameValues::of(input, &self.filter().convention);
+            let frame = FrameValues::of(input, convention);
             self.passes.upload_frame(self.gpu, frame);
-            for (texture, layer, input) in own.into_iter().chain(history) {
+            for (texture, layer, input) in own.chain(history) {
                 let target = self.passes.target(texture);
                 self.gpu.upload(target, &texels(layer, input));
             }
         })
     }
 
-    /// Uploads a colour, and that of the frame before if the filter reads it.
+    /// Uploads a colour, and the frame before's if the filter reads it.
     fn upload_color(&self, color: &Image, before: &Image) -> Result<(), FilterError> {
         let upload = |name, color: &Image| {
             let texels = color.to_texels(self.color_scale());

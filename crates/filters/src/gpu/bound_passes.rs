@@ -16,7 +16,7 @@ use super::uniforms::FrameValues;
 use crate::shader::{Role, UniformBlock, Variable};
 use crate::{Filter, FilterError, Format, Pass, Settings};
 
-/// Everything of a filter that lives on the GPU.
+/// Everything of a filter that is on the GPU.
 #[derive(Debug)]
 pub(super) struct BoundPasses {
     /// Dispatches in the order in which they run.
@@ -231,9 +231,13 @@ fn sum_bytes(targets: &Targets, filter: &Filter, pass: &Pass, levels: &Levels) -
 
 /// Creates a buffer for each uniform block.
 fn create_blocks(gpu: &Gpu, blocks: &[UniformBlock]) -> Vec<(UniformBlock, wgpu::Buffer)> {
-    let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
     let create = |block: &UniformBlock| {
-        let bytes = u64::from(block.bytes).next_multiple_of(16);
+        let usage = match block.is_storage {
+            true => wgpu::BufferUsages::STORAGE,
+            false => wgpu::BufferUsages::UNIFORM,
+        };
+        let usage = usage | wgpu::BufferUsages::COPY_DST;
+        let bytes = block.buffer_bytes() as u64;
         (block.clone(), gpu.create_buffer("block", bytes, usage))
     };
     blocks.iter().map(create).collect()
@@ -247,7 +251,7 @@ pub(super) fn mark_of(format: Format) -> f32 {
     }
 }
 
-/// Creates a texture like the output that holds nothing but the mark.
+/// Creates a texture like the output, filled with the mark.
 fn create_mark(gpu: &Gpu, [width, height]: [u32; 2], format: Format) -> Target {
     let usage = wgpu::TextureUsages::empty();
     let target = gpu.create_target("mark", [width, height], 1, format, usage);

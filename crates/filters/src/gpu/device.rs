@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::Format;
+
 /// Description of an adapter, as a run records it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct AdapterDescription {
@@ -21,7 +23,7 @@ pub struct AdapterDescription {
 pub enum Clock {
     /// The GPU's own clock, read between two pieces of work.
     Timestamps,
-    /// The computer's clock, read before each piece is submitted and once the GPU is idle. It includes the way there and back,
+    /// The computer's clock, read before each piece is submitted and once the GPU is idle. It includes submission and waiting,
     /// so short work seems longer.
     WallClock,
 }
@@ -31,12 +33,12 @@ pub enum Clock {
 pub struct LoopLimit {
     /// Iterations after which every loop ends.
     pub iterations: u32,
-    /// Invocations that run in step and share the limit, at most: where they branch apart, their iterations add up.
+    /// Most invocations that run in lockstep and share the limit: if they branch apart, their iterations add up.
     pub lanes: u32,
 }
 
 impl LoopLimit {
-    /// Returns the iterations of one invocation from which on the picture may be wrong: its neighbours in step may take as many.
+    /// Returns the iterations of one invocation above which the picture may be wrong: its lockstep neighbours may take as many.
     pub fn safe(self) -> u32 {
         self.iterations / self.lanes.max(1)
     }
@@ -51,7 +53,9 @@ pub struct Gpu {
     pub clock: Clock,
     /// Loop iterations that it grants an invocation; `None` if it ends no loop early.
     pub loop_limit: Option<LoopLimit>,
-    /// Function that is asked while the GPU works; work stops when it returns true. It never does unless another one is set.
+    /// Formats in which its shaders can store textures.
+    pub(super) stored_formats: Vec<Format>,
+    /// Function polled while the GPU works; work stops when it returns true. The default never does.
     pub interrupted: fn() -> bool,
     pub(super) device: wgpu::Device,
     pub(super) queue: wgpu::Queue,

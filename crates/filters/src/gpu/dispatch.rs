@@ -12,7 +12,7 @@ pub(super) struct Dispatch {
     /// Bind groups of its stages.
     pub groups: Vec<wgpu::BindGroup>,
     pub workgroups: [u32; 2],
-    /// Render targets, by location; none of a kernel.
+    /// Render targets, by location; none for a kernel.
     pub attachments: Vec<wgpu::TextureView>,
     /// Textures whose content is copied to others before it runs.
     pub copies: Vec<[wgpu::Texture; 2]>,

@@ -9,7 +9,7 @@ use crate::{Expression, Filter, Pass};
 
 /// Levels of the textures of one dispatch.
 pub(super) struct Levels<'a> {
-    /// Level by the index of the variable; none where a variable reads all.
+    /// Level by the index of the variable; none if a variable reads all.
     variables: BTreeMap<usize, Option<u32>>,
     /// Textures that it writes, each with the level.
     written: Vec<(&'a str, u32)>,
@@ -82,7 +82,8 @@ impl<'a> Levels<'a> {
             .map_or(0, |(_, level)| *level)
     }
 
-    /// Adds what the dispatch writes. Refuses to read a level that it writes itself, or that none before has written.
+    /// Adds what the dispatch writes. Refuses to read a level that it writes itself, or
+    /// that no earlier one has written.
     pub fn write(
         &self,
         shader: &Shader,

@@ -4,7 +4,7 @@ use super::device::{Gpu, LoopLimit};
 use super::place::Place;
 use crate::FilterError;
 
-/// The largest count of any invocation, per dispatch; 0 where every count is safe.
+/// The largest count of any invocation, per dispatch; 0 if every count is safe.
 #[derive(Debug)]
 pub(super) struct LoopCounts {
     limit: LoopLimit,

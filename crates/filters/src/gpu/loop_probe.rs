@@ -1,14 +1,14 @@
 //! Probe that finds the loop limit of an adapter.
 //!
-//! Mesa's llvmpipe ends every loop of an invocation after 65,535 iterations in total, without a word: the picture is wrong
-//! and no error says so. Kernels on such an adapter count their iterations, see
+//! Mesa's llvmpipe silently ends every loop of an invocation after 65,535 iterations in total: the picture is wrong
+//! without an error. Kernels on such an adapter count their iterations, see
 //! [`count_loop_iterations`](crate::shader::count_loop_iterations).
 
 use super::device::Gpu;
 use super::place::Place;
 use crate::FilterError;
 
-/// Iterations that the probe asks for. An adapter that grants these is taken to have no limit.
+/// Iterations that the probe asks for. An adapter that grants these counts as unlimited.
 const PROBED: u32 = 1 << 20;
 
 /// Kernel with one invocation that counts its iterations. The arithmetic keeps a compiler from working the count out.

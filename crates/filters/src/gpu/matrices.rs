@@ -1,4 +1,4 @@
-//! Matrices of a camera, as engines hand them to shaders.
+//! Matrices of a camera, as engines pass them to shaders.
 //!
 //! They act on columns. The camera looks along its own -z with +y up; clip space has +x right and +y up, and the depth that
 //! `[convention]` says.

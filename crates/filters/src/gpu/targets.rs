@@ -15,7 +15,7 @@ pub(super) struct Targets(BTreeMap<String, Vec<Target>>);
 /// Bytes that the textures of a filter may take in sum.
 pub const MAX_TEXTURE_BYTES: u64 = 8 << 30;
 
-/// A texture that is to be made.
+/// A planned texture.
 struct Planned {
     texture: Texture,
     size: [u32; 2],
@@ -31,6 +31,7 @@ fn plan_targets(
 ) -> Result<Vec<Planned>, String> {
     let before = filter.history.iter().map(|history| history.texture());
     let inputs = INPUTS.into_iter().chain(before);
+    let inputs = inputs.chain(filter.further_inputs());
     let inputs = inputs.map(|name| (name, filter.convention.format_of(name)));
     let builtin = inputs.chain([("output", output_format(filter))]);
     let builtin = builtin.map(|(name, format)| Texture {
@@ -64,7 +65,7 @@ fn plan_targets(
     all.map(plan).collect()
 }
 
-/// Computes what divides a texture's width and height on pictures of a size. `numbers` are the settings by name.
+/// Computes the divisors of a texture's width and height on pictures of a size. `numbers` are the settings by name.
 fn find_divisors(
     texture: &Texture,
     numbers: &BTreeMap<String, f64>,
@@ -92,7 +93,7 @@ fn find_divisors(
     Ok([width?, height?])
 }
 
-/// Finds the format of the output: that in which a shader stores it, or that of the convention for render targets.
+/// Finds the format of the output: the one in which a shader stores it, or the convention's for render targets.
 pub(super) fn output_format(filter: &Filter) -> Format {
     let mut stored = (filter.shaders.iter()).filter_map(|shader| shader.stored_format("output"));
     (stored.next()).unwrap_or(filter.convention.format_of("output"))

@@ -28,9 +28,12 @@ pub fn try_out(gpu: &Gpu, filter: &Filter) -> Result<(), FilterError> {
     }
     let kernels = Kernels::compile(gpu, filter)?;
     let (color, velocity, depth) = make_frame();
+    let velocity_z = velocity.map(|[right, _]| 0.01 * right);
     let input = Input {
         color: &[&color],
         velocity: &velocity,
+        velocity_next: Some(&velocity),
+        velocity_z: Some(&velocity_z),
         depth: &depth,
         reprojection: Some(Reprojection::STILL),
         camera: Some(Camera::still(CameraPose::at_origin(f64::from(SIDE)))),
@@ -41,7 +44,7 @@ pub fn try_out(gpu: &Gpu, filter: &Filter) -> Result<(), FilterError> {
     let mut failures = Vec::new();
     let trials = list_trials(filter)?;
     for (index, (settings, what, line)) in trials.iter().enumerate() {
-        // Where the default fails, each of its neighbours fails too.
+        // If the default fails, so does each of its neighbours.
         if index == filter.presets.len() && !failures.is_empty() {
             break;
         }
@@ -118,7 +121,7 @@ fn shorten(mut failures: Vec<String>) -> Vec<String> {
     failures
 }
 
-/// Makes a bright square that moves before a wall, and a sky: colour, velocity and depth.
+/// Makes a bright square that moves in front of a wall, and a sky: colour, velocity and depth.
 fn make_frame() -> (Image, Vectors, Plane) {
     let is_square = |x: u32, y: u32| (4..10).contains(&x) && (5..11).contains(&y);
     let is_sky = |y: u32| y < 3;

@@ -1,4 +1,4 @@
-//! Values of a frame that uniform blocks hold.
+//! Values of a frame for uniform blocks.
 
 use frame::Reprojection;
 
@@ -26,7 +26,7 @@ pub(super) struct FrameValues {
 }
 
 impl FrameValues {
-    /// Takes what all dispatches of an input share.
+    /// Collects the values that all dispatches of an input share.
     pub fn of(input: &Input, convention: &Convention) -> Self {
         let size = [input.velocity.width, input.velocity.height];
         let rate = (input.frames_per_second).or(convention.frames_per_second);
@@ -117,6 +117,8 @@ mod tests {
         let input = Input {
             color: &[],
             velocity: &Raster::from_fn(40, 30, |_, _| [0.0, 0.0]),
+            velocity_next: None,
+            velocity_z: None,
             depth: &Raster::from_fn(40, 30, |_, _| 1.0),
             reprojection: Some(reprojection),
             camera: None,

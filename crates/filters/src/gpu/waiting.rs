@@ -6,7 +6,7 @@ use super::device::Gpu;
 use super::place::Place;
 use crate::FilterError;
 
-/// Time between two looks at the clock and at interrupts.
+/// Time between two checks of the clock and of interrupts.
 const SLICE: Duration = Duration::from_millis(100);
 
 impl Gpu {

@@ -8,9 +8,9 @@ use crate::filter::History;
 use crate::{Filter, Format};
 
 impl Filter {
-    /// Returns the filter with 32-bit floats for the colour, the output, and the textures of floats that depend on colour. Velocity,
-    /// depth and what is made of them alone keep their formats, and so the weights stay as they are. None if all of that has 32
-    /// bits already, and if a shader cannot store it so.
+    /// Returns the filter with 32-bit floats for the colour, the output, and the textures of floats that depend on colour.
+    /// Velocity, depth and textures made from them alone keep their formats, so that the weights do not change. None if all of
+    /// these have 32 bits already, or if a shader cannot store them so.
     pub fn widen_colors(&self) -> Option<Self> {
         let colored = self.list_colored();
         let widen = |name: &str, format: Format| match colored.contains(name) {
@@ -34,7 +34,7 @@ impl Filter {
         (formats(self) != formats(&wide)).then_some(wide)
     }
 
-    /// Lists the textures that hold what depends on colour.
+    /// Lists the textures that depend on colour.
     fn list_colored(&self) -> BTreeSet<String> {
         let dependent = self.passes.iter().zip(find_color_dependent(self));
         let written = dependent

@@ -1,4 +1,4 @@
-//! Loading of filters: from a folder, or from those that the program brings along.
+//! Loading of filters, from a folder or built in.
 
 mod agreement;
 
@@ -16,7 +16,7 @@ static BUILTIN: Dir = include_dir!("$CARGO_MANIFEST_DIR/../../shaders");
 /// The largest filter.toml that is read, in bytes.
 pub const MAX_MANIFEST_BYTES: u64 = 1 << 20;
 
-/// The largest WGSL file that is read, in bytes. The largest built-in one has a tenth of it.
+/// The largest WGSL file that is read, in bytes. The largest built-in one is a tenth of it.
 pub const MAX_KERNEL_BYTES: u64 = 256 << 10;
 
 impl Filter {
@@ -24,7 +24,7 @@ impl Filter {
     /// regular files of at most [`MAX_MANIFEST_BYTES`] and [`MAX_KERNEL_BYTES`].
     pub fn load(folder: &Path) -> Result<Self, FilterError> {
         let read = |path: &Path, limit| {
-            // Of a device, a FIFO or a folder, its own refusal says more.
+            // A device, a FIFO or a folder is refused later, with a better message.
             if path.is_file() && !stays_below(folder, path) {
                 let reason = "is a link to a file outside of the filter's folder; copy the file in its place";
                 return Err(FilterError::in_file(path, None, reason));
@@ -38,7 +38,7 @@ impl Filter {
         Ok(filter)
     }
 
-    /// Loads a filter that the program brings along.
+    /// Loads a built-in filter.
     pub fn builtin(name: &str) -> Result<Self, FilterError> {
         let folder = BUILTIN.get_dir(name).ok_or_else(|| {
             FilterError::Refused(format!(

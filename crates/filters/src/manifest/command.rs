@@ -6,7 +6,7 @@ use super::file::File;
 use crate::filter::{PLACEHOLDERS, fill_placeholders};
 use crate::{Command, FilterError, Parameter};
 
-/// Reads the words of a command, and the variables that it is to get; none for a filter with kernels.
+/// Reads the words of a command, and the variables that it gets; none for a filter with kernels.
 pub(super) fn read_command(
     file: &File,
     words: Option<&Spanned<Vec<String>>>,
@@ -22,19 +22,19 @@ pub(super) fn read_command(
     };
     check_words(words.get_ref(), parameters)
         .map_err(|reason| file.at(words, format!("command: {reason}")))?;
-    // It holds wherever the program is started.
+    // The path stays valid wherever the program is started.
     let manifest = std::path::absolute(file.path)
         .map_err(|error| file.refuse(None, format!("its folder cannot be found: {error}")))?;
     Ok(Some(Command {
         words: words.get_ref().clone(),
-        folder: (manifest.parent().expect("a file lies in a folder")).to_owned(),
+        folder: (manifest.parent().expect("a file is in a folder")).to_owned(),
         environment: environment.map_or(Vec::new(), |names| names.get_ref().clone()),
         manifest: file.path.to_owned(),
         line: file.line(words.span().start),
     }))
 }
 
-/// Refuses a command without a program, unknown placeholders, and a command without those that it needs.
+/// Refuses a command without a program, unknown placeholders, and a command that lacks required ones.
 fn check_words(words: &[String], parameters: &[Parameter]) -> Result<(), String> {
     let Some((program, arguments)) = words.split_first() else {
         return Err("is empty; its first word is the program".into());

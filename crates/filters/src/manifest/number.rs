@@ -1,5 +1,7 @@
 //! Numbers of filter.toml that may be expressions, and the names that these may have.
 
+use std::collections::BTreeMap;
+
 use serde::Deserialize;
 
 use crate::filter::explain_unknown;
@@ -22,6 +24,8 @@ pub(super) enum NumberEntry {
 pub(super) enum NumbersEntry {
     One(NumberEntry),
     Several(Vec<NumberEntry>),
+    /// Those of the members of a struct.
+    Members(BTreeMap<String, NumbersEntry>),
 }
 
 impl NumbersEntry {
@@ -29,6 +33,7 @@ impl NumbersEntry {
         match self {
             Self::One(number) => std::slice::from_ref(number),
             Self::Several(numbers) => numbers,
+            Self::Members(_) => &[],
         }
     }
 }
@@ -85,8 +90,8 @@ impl Filter {
         }
     }
 
-    /// Reads what divides a side of the image: a number, an integer parameter, or an expression of parameters and of the
-    /// picture's size.
+    /// Reads the divisor of a side of the image: a number, an integer parameter, or an expression of
+    /// parameters and of the picture's size.
     pub(super) fn read_divisor(&self, entry: &NumberEntry) -> Result<Expression, String> {
         let is_size = |name: &str| matches!(name, "width" | "height");
         match entry {
@@ -107,7 +112,7 @@ impl Filter {
         })
     }
 
-    /// Finds the largest value of a count or a length. Refuses 0, and a name that is no integer parameter from 1.
+    /// Finds the largest value of a count or a length. Refuses 0, and a name that is not an integer parameter from 1.
     pub(super) fn find_largest(&self, count: &Count) -> Result<u32, String> {
         match count {
             Count::Number(0) => Err("0; allowed: 1 or more".into()),
@@ -132,7 +137,7 @@ impl Filter {
 /// Rule for names, as messages say it.
 pub(super) const IDENTIFIER: &str = "a name is made of a-z, 0-9 and _, and begins with a letter";
 
-/// Returns true for a name that keeps [`IDENTIFIER`].
+/// Returns true for a name that obeys [`IDENTIFIER`].
 pub(super) fn is_identifier(name: &str) -> bool {
     name.starts_with(|first: char| first.is_ascii_lowercase())
         && name

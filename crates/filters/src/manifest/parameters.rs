@@ -136,7 +136,7 @@ fn read_kind(entry: &ParameterEntry) -> Result<Kind, String> {
     }
 }
 
-/// Reads a TOML value as one of `kind`; whole numbers stand for real ones too.
+/// Reads a TOML value as one of `kind`; whole numbers are real ones too.
 pub(super) fn read_value(kind: &Kind, given: &toml::Value) -> Option<Value> {
     let value = match (kind, given) {
         (Kind::Integer { .. }, toml::Value::Integer(value)) => {

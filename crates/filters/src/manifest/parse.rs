@@ -135,7 +135,7 @@ fn read_time_limit(file: &File, limit: Option<&Spanned<f64>>) -> Result<f64, Fil
     }
 }
 
-/// Reads the inputs of the frame before, each of which may stand once. A program gets none of them.
+/// Reads the inputs of the frame before, each at most once. A program gets none of them.
 fn read_history(file: &File, manifest: &Manifest) -> Result<Vec<History>, FilterError> {
     let mut history = Vec::new();
     for own in &manifest.history {

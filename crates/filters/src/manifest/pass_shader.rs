@@ -7,6 +7,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::bindings::{BindingEntry, read_bindings};
+use super::defines::read_defines;
 use super::file::File;
 use super::number::NumberEntry;
 use crate::filter::{LabPass, PassShader, Stage, VertexShader};
@@ -35,10 +36,12 @@ pub(super) struct PassEntry {
     pub constants: BTreeMap<String, NumberEntry>,
     #[serde(default)]
     pub conditions: Vec<String>,
+    #[serde(default)]
+    pub defines: BTreeMap<String, toml::Value>,
     pub compiler: Option<String>,
 }
 
-/// Reads the shader of a pass; none where the pass runs a kernel of the filter's WGSL file.
+/// Reads the shader of a pass; none if the pass runs a kernel of the filter's WGSL file.
 pub(super) fn read_shader(
     file: &File,
     pass: &Spanned<PassEntry>,
@@ -70,6 +73,7 @@ pub(super) fn read_shader(
         Ok((name.clone(), value))
     });
     let constants: Result<_, String> = constants.collect();
+    let defines = read_defines(&keys.defines, language);
     Ok(Some(PassShader {
         file: relative,
         shader_pass: keys.shader_pass.clone(),
@@ -81,6 +85,7 @@ pub(super) fn read_shader(
         vertex,
         constants: constants.map_err(|reason| file.at(pass, reason))?,
         conditions: keys.conditions.clone(),
+        defines: defines.map_err(|reason| file.at(pass, format!("defines: {reason}")))?,
         compiler: keys.compiler.clone(),
     }))
 }
@@ -97,6 +102,7 @@ fn refuse_keys(keys: &PassEntry) -> Result<(), String> {
         ("[[pass.binding]]", !keys.binding.is_empty()),
         ("constants", !keys.constants.is_empty()),
         ("conditions", !keys.conditions.is_empty()),
+        ("defines", !keys.defines.is_empty()),
         ("compiler", keys.compiler.is_some()),
     ];
     match given.iter().find(|(_, given)| *given) {
@@ -131,7 +137,7 @@ fn check_compiler(keys: &PassEntry, language: Language, path: &str) -> Result<()
     }
 }
 
-/// Refuses names of entry points and conditions that are no words, since they stand in the command line of a compiler.
+/// Refuses names of entry points and conditions that are not words, because a compiler gets them on its command line.
 fn check_names<'n>(mut names: impl Iterator<Item = &'n str>) -> Result<(), String> {
     let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
     let is_name = |name: &str| name.starts_with(is_part) && name.chars().all(is_part);
@@ -143,7 +149,7 @@ fn check_names<'n>(mut names: impl Iterator<Item = &'n str>) -> Result<(), Strin
     }
 }
 
-/// Reads the name of a file of a shader, which stays in the filter's folder.
+/// Reads the name of a shader's file, which must be in the filter's folder.
 fn read_file(
     file: &File,
     key: &str,

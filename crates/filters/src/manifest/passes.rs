@@ -26,18 +26,20 @@ fn one() -> u32 {
     1
 }
 
-/// Upper limit on the dispatches of a filter, with the largest value that each `repeat` may have. A GPU takes no more timestamps in
-/// one go.
+/// Upper limit on the dispatches of a filter, with the largest value that each `repeat` may have. A GPU
+/// takes no more timestamps at once.
 pub const MAX_DISPATCHES: u32 = 4095;
 
 /// Upper limit on the mip levels of a texture: the largest has 16,384 texels on a side.
 pub const MAX_MIPS: u32 = 15;
 
-/// Variables of kernels that every filter has, or may have by its `history`.
-const BUILTIN_VARIABLES: [&str; 9] = [
+/// Variables of kernels that every filter has, or may have.
+const BUILTIN_VARIABLES: [&str; 11] = [
     "color",
     "velocity",
     "depth",
+    "velocity_next",
+    "velocity_z",
     "color_before",
     "velocity_before",
     "depth_before",
@@ -99,7 +101,7 @@ fn read_texture(entry: &TextureEntry, filter: &Filter) -> Result<Texture, String
     })
 }
 
-/// Reads what divides the width and the height of the image: one for both, or one each.
+/// Reads the divisors of the image's width and height: one for both, or one each.
 fn read_divisors(entries: &[NumberEntry], filter: &Filter) -> Result<[Expression; 2], String> {
     let divisors = entries.iter().map(|entry| filter.read_divisor(entry));
     match &divisors.collect::<Result<Vec<_>, _>>()?[..] {
@@ -136,7 +138,7 @@ pub(super) fn read_passes(
     Ok(passes)
 }
 
-/// Reads a pass; returns how often it runs with the largest value that is allowed, too.
+/// Reads a pass; returns its largest allowed number of runs, too.
 fn read_pass(
     file: &File,
     spanned: &Spanned<PassEntry>,
@@ -191,7 +193,7 @@ fn read_pass(
     Ok((pass, times))
 }
 
-/// Names a pass with a shader of its own: after its entry point, or after its file where that is called `main` as all are.
+/// Names a pass with a shader of its own: after its entry point, or after its file if the entry point is just `main`.
 fn name_pass(shader: &PassShader) -> String {
     let stem = shader.file.file_stem().and_then(|stem| stem.to_str());
     match (&shader.entry[..], stem) {

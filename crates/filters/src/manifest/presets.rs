@@ -23,7 +23,7 @@ pub(super) struct PresetEntry {
     tuned: Option<TuningRecord>,
 }
 
-/// Reads every preset; a filter without any gets one with every parameter at its default. `reference_width` is that of the filter,
+/// Reads every preset; a filter without any gets one with every parameter at its default. `reference_width` is the filter's,
 /// for presets without one of their own.
 pub(super) fn read_presets(
     file: &File,

@@ -33,7 +33,7 @@ pub(crate) struct Shader {
     pub reads_reprojection: bool,
     /// Compute entry points.
     pub entry_points: Vec<EntryPoint>,
-    /// What the compiler of its language made, if parameters set specialisation constants in it.
+    /// Output of its language's compiler, if parameters set specialisation constants in it.
     pub compiled: Option<Arc<Vec<u8>>>,
     /// Compiler that made it, if its language needs one.
     pub compiled_by: Option<CompiledBy>,
@@ -48,7 +48,7 @@ pub(crate) fn engine_validator() -> Validator {
     Validator::new(ValidationFlags::all(), CAPABILITIES | Capabilities::FLOAT64)
 }
 
-/// Parses WGSL that stands alone, without common.wgsl.
+/// Parses WGSL without common.wgsl.
 pub(crate) fn parse_wgsl(path: &Path, text: &str) -> Result<Module, FilterError> {
     check_nesting(path, text)?;
     parse_source(&Source::new(path, text, ""))
@@ -67,8 +67,8 @@ fn parse_source(source: &Source) -> Result<Module, FilterError> {
 }
 
 impl Shader {
-    /// Parses and validates the kernels at `path`, with common.wgsl appended. Refuses text that is nested too deep before naga
-    /// sees it.
+    /// Parses and validates the kernels at `path`, with common.wgsl appended. Refuses text that is nested
+    /// too deeply before naga sees it.
     pub fn parse(path: &Path, kernels: &str) -> Result<Self, FilterError> {
         check_nesting(path, kernels)?;
         guard(path, "reads WGSL", || Self::parse_here(path, kernels))

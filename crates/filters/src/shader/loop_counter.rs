@@ -1,4 +1,4 @@
-//! Counters in kernels that tell how many loop iterations each invocation takes.
+//! Counters of each invocation's loop iterations, in kernels.
 
 use wgpu::naga::{
     AddressSpace, AtomicFunction, BinaryOperator, Block, Expression, Function, FunctionArgument,

@@ -1,4 +1,4 @@
-//! Limit on the nesting of kernels: parsers and compilers recurse as deep.
+//! Limit on the nesting of kernels: parsers and compilers recurse as deeply.
 
 use std::path::Path;
 
@@ -7,7 +7,7 @@ use crate::FilterError;
 /// Upper limit on operators, brackets and `else if` within one another: a sum of that many terms and one more.
 pub const MAX_NESTING: usize = 1000;
 
-/// Refuses kernels with an expression, a statement or a type that is nested deeper than [`MAX_NESTING`].
+/// Refuses kernels with an expression, a statement or a type that is nested more deeply than [`MAX_NESTING`].
 ///
 /// A sum `a + b + c` is `(a + b) + c` to a parser, so each operator counts as a level until the next `,` or `;`.
 pub(super) fn check_nesting(path: &Path, kernels: &str) -> Result<(), FilterError> {
@@ -47,7 +47,7 @@ enum Token<'a> {
     Mark(char),
 }
 
-/// Measures the blanks or the comment that a text begins with, in bytes; comments may lie within one another.
+/// Measures the blanks or the comment that a text begins with, in bytes; comments may be nested.
 fn measure_blank(text: &str) -> usize {
     if text.starts_with("//") {
         return text.find('\n').unwrap_or(text.len());
@@ -94,7 +94,7 @@ struct Nesting {
 }
 
 impl Nesting {
-    /// Takes the next token; returns its depth.
+    /// Reads the next token; returns its depth.
     fn enter(&mut self, token: Token) -> usize {
         let goes_on = matches!(token, Token::Word("else"));
         if std::mem::take(&mut self.after_block) && !goes_on {

@@ -22,7 +22,7 @@ impl Default for Sampling {
 }
 
 impl Sampling {
-    /// Returns true if it makes values that no texel holds.
+    /// Returns true if it makes values that no texel has.
     pub(crate) fn interpolates(self) -> bool {
         [self.filter, self.mip_filter].contains(&SamplerFilter::Linear)
     }
@@ -32,7 +32,7 @@ impl Sampling {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum SamplerFilter {
-    /// That of the nearest texel.
+    /// The nearest texel's.
     Nearest,
     /// Interpolated between the four texels around.
     #[default]
@@ -43,11 +43,11 @@ pub(crate) enum SamplerFilter {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Wrap {
-    /// That of the border.
+    /// The border's.
     #[default]
     Clamp,
-    /// That of the other side.
+    /// The other side's.
     Repeat,
-    /// That of the mirrored picture.
+    /// The mirrored picture's.
     Mirror,
 }

@@ -17,7 +17,7 @@ pub(super) struct Source<'a> {
 }
 
 impl<'a> Source<'a> {
-    /// Appends `common` to the kernels, so that line numbers of the kernels hold.
+    /// Appends `common` to the kernels, so that line numbers of the kernels stay valid.
     pub fn new(path: &'a Path, kernels: &str, common: &str) -> Self {
         Self {
             path,

@@ -1,4 +1,4 @@
-//! Thread with a large stack, for code of others that recurses.
+//! Thread with a large stack, for libraries that recurse.
 
 use std::any::Any;
 use std::path::Path;
@@ -15,8 +15,8 @@ const STACK_BYTES: usize = 64 << 20;
 /// Name of such threads.
 const NAME: &str = "kernels";
 
-/// Does the work on a thread with a large stack. Fails if no thread can be started or the work panics, and says why. Such a panic is
-/// printed by nobody else: it becomes an error.
+/// Does the work on a thread with a large stack. Fails if no thread can be started or the work panics, and says why. Such a
+/// panic is not printed: it becomes an error.
 pub(crate) fn run_on_large_stack<T: Send>(work: impl FnOnce() -> T + Send) -> Result<T, String> {
     keep_panics_unprinted();
     thread::scope(|scope| {
@@ -44,7 +44,7 @@ pub(crate) fn guard<T: Send>(
     })
 }
 
-/// Leaves panics of such threads out of what the program prints.
+/// Keeps panics of such threads from being printed.
 fn keep_panics_unprinted() {
     static ONCE: Once = Once::new();
     ONCE.call_once(|| {

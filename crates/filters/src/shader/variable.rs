@@ -15,7 +15,7 @@ use crate::{Expression, FilterError};
 #[derive(Clone, Debug)]
 pub(crate) struct Variable {
     pub name: String,
-    /// Texture that it reads or writes, or the uniform that it is.
+    /// Texture that it reads or writes, or its uniform.
     pub resource: String,
     pub binding: u32,
     pub role: Role,
@@ -28,7 +28,7 @@ pub(crate) struct Variable {
 /// Use of a resource variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Role {
-    /// `texture_2d<f32>` or `texture_2d<u32>`.
+    /// `texture_2d` of `f32`, `u32` or `i32`.
     Read(ScalarKind),
     /// `texture_storage_2d<format, write>`.
     Write(Format),
@@ -72,8 +72,9 @@ pub(super) fn find_variable(
     };
     let role = role.ok_or_else(|| {
         refuse(format!(
-            "cannot be bound; allowed: var<uniform>, texture_2d<f32>, texture_2d<u32>, and texture_storage_2d<{}, write>",
-            Format::ALL.map(Format::name).join(" | ")
+            "cannot be bound; allowed: var<uniform>, texture_2d<f32>, texture_2d<u32>, texture_2d<i32>, and \
+             texture_storage_2d<{}, write>",
+            Format::list(" | ")
         ))
     })?;
     let resource = match role {
@@ -90,7 +91,7 @@ pub(super) fn find_variable(
     })
 }
 
-/// First part of the names of numbers of the uniform `frame` of common.wgsl. No parameter is called so.
+/// First part of the names of numbers of the uniform `frame` of common.wgsl. No parameter's name contains it.
 pub(crate) const FRAME_PREFIX: &str = "frame.";
 
 /// Finds the role of a texture; none for one that cannot be bound.
@@ -105,14 +106,13 @@ pub(crate) fn find_image_role(inner: &TypeInner) -> Option<Role> {
     };
     match *class {
         ImageClass::Sampled { kind, multi: false } => {
-            let is_known = matches!(kind, ScalarKind::Float | ScalarKind::Uint);
-            is_known.then_some(Role::Read(kind))
+            let known = [ScalarKind::Float, ScalarKind::Uint, ScalarKind::Sint];
+            known.contains(&kind).then_some(Role::Read(kind))
         }
         ImageClass::Storage { format, access } if access == StorageAccess::STORE => {
-            let mut known = Format::ALL.into_iter();
-            known
-                .find(|known| known.stored() == format)
-                .map(Role::Write)
+            let mut known = Format::ALL.iter();
+            let known = known.find(|known| known.stored() == format);
+            known.map(|format| Role::Write(*format))
         }
         _ => None,
     }

@@ -1,4 +1,4 @@
-//! Check that a text which a compiler gets names no file but those that the program resolved.
+//! Check that a compiler's input names only files that the program resolved.
 //!
 //! Compilers and the program may disagree about what is a comment, a text in quotes or the end of a line. So the check asks for
 //! words, wherever they are, and refuses what could hide one.
@@ -12,7 +12,8 @@ const OPENING: [&str; 3] = ["include", "import", "embed"];
 /// Words that ask whether a file is there, or that are directives in disguise.
 const ASKING: [&str; 3] = ["__has_include", "__has_embed", "_Pragma"];
 
-/// Refuses a plain text that could open another file than those in `resolved`, which are lines of directives. The error has a line.
+/// Refuses a plain text that could open files other than those in `resolved`, which are lines of
+/// directives. The error has a line.
 pub(super) fn check_closed(
     text: &str,
     language: Language,
@@ -35,6 +36,16 @@ pub(super) fn check_closed(
     hidden.next().map_or(Ok(()), Err)
 }
 
+/// Refuses a macro that could open a file, or hide what does.
+pub(crate) fn check_macro(name: &str, value: &str) -> Result<(), String> {
+    let line = format!("#define {name} {value}");
+    if line.contains('\n') {
+        return Err("has several lines; allowed: one".into());
+    }
+    // The rules of Slang hold those of the other languages.
+    check_closed(&line, Language::Slang, &[]).map_err(|(_, reason)| reason)
+}
+
 /// Finds what may hide a directive, or is one that was not resolved.
 fn find_hidden(line: &str, is_resolved: bool) -> Option<String> {
     let is_control = |c: char| c.is_control() && c != '\t';
@@ -47,7 +58,7 @@ fn find_hidden(line: &str, is_resolved: bool) -> Option<String> {
     if line.trim_end().ends_with('\\') {
         return Some("ends with \\ and blanks; remove the blanks, or the \\".into());
     }
-    // Comments are gone, but for those that look like text in quotes.
+    // Comments are gone, except those that look like text in quotes.
     let disguises = ["/*", "??=", "??/"];
     let words = disguises.into_iter().chain(ASKING);
     if let Some(word) = words.into_iter().find(|word| line.contains(word)) {
@@ -73,15 +84,15 @@ fn list_directives(line: &str) -> Vec<&str> {
     let marks = line.match_indices('#').chain(line.match_indices("%:"));
     // `##` joins words.
     let marks = marks.filter(|(at, _)| !line[..*at].ends_with('#'));
-    // Compilers take other characters for blanks than ASCII has.
+    // Compilers accept more blanks than ASCII has.
     let is_blank = |c: char| c.is_whitespace() || !c.is_ascii();
     marks
         .map(|(at, mark)| line[at + mark.len()..].trim_start_matches(is_blank))
         .collect()
 }
 
-/// Finds what may make the name of a module of Slang: its words in a macro, and paths in quotes that lead out of a folder. Lines that
-/// [`find_hidden`] judges make none, and neither does what `#error` says.
+/// Finds what may form the name of a module of Slang: its words in a macro, and paths in quotes that lead out of a folder.
+/// Lines that [`find_hidden`] judges form none, and neither do messages of `#error`.
 fn find_hidden_module(line: &str) -> Option<String> {
     let trimmed = line.trim_start();
     let directive = trimmed.strip_prefix('#').or(trimmed.strip_prefix("%:"));
@@ -107,7 +118,7 @@ fn find_hidden_module(line: &str) -> Option<String> {
             );
         }
     }
-    // Every second piece lies within quotes.
+    // Every second piece is within quotes.
     let pieces: Vec<&str> = line.split('"').collect();
     let mut quoted = pieces
         .chunks(2)

@@ -1,7 +1,7 @@
 //! Split of combined image samplers (`sampler2D` of GLSL) into a texture and a sampler.
 //!
-//! WGSL and wgpu know no combined ones. A variable keeps its binding for the texture, and its sampler gets a free one. A function
-//! that takes a combined one takes two parameters instead.
+//! WGSL and wgpu have no combined ones. A variable keeps its binding for the texture, and its sampler gets a free one. A
+//! function with a combined parameter has two parameters instead.
 
 use std::collections::BTreeMap;
 
@@ -21,7 +21,7 @@ struct Split {
     places: BTreeMap<u32, Place>,
 }
 
-/// Types that stand for that of a combined one.
+/// Types that replace a combined one.
 struct SplitTypes {
     image: u32,
     image_pointer: u32,

@@ -1,4 +1,4 @@
-//! Compilation of a shader by a program on the PATH: to SPIR-V, or to WGSL in the case of WESL.
+//! Compilation of a shader by a program on the PATH: to SPIR-V, or from WESL to WGSL.
 
 use std::collections::BTreeMap;
 use std::ffi::OsString;
@@ -20,10 +20,10 @@ use crate::printable::escape_controls;
 /// Longest time that a compiler may take.
 const TIME_LIMIT: Duration = Duration::from_secs(60);
 
-/// Most of a compiler's words that are read.
+/// Most bytes of a compiler's messages that are read.
 const MAX_LOG_BYTES: u64 = 1 << 20;
 
-/// Most of a compiler's words that an error shows.
+/// Most bytes of a compiler's messages that an error shows.
 const MAX_MESSAGE_BYTES: usize = 4096;
 
 /// Arguments of a compiler, and the texts that it saw.
@@ -76,11 +76,14 @@ pub(super) fn compile(
     shader: &PassShader,
     compiler: &Compiler,
 ) -> Result<Vec<u8>, FilterError> {
-    let sources = Sources::collect(folder, &shader.file, text, language)?;
-    let arguments = (compiler.arguments)(shader, text);
+    let sources = Sources::collect(folder, shader, text, language)?;
+    let words = (compiler.arguments)(shader, text);
+    let defines = shader.defines.iter().map(|define| format!("-D{define}"));
+    let words = words.split_whitespace().map(str::to_owned);
+    let arguments: Vec<String> = defines.chain(words).collect();
     let key = (
         format!(
-            "{} {arguments} {}",
+            "{} {arguments:?} {}",
             compiler.program,
             sources.shader.display()
         ),
@@ -111,7 +114,7 @@ type Outcome = Result<Vec<u8>, (Option<usize>, String)>;
 /// Runs a compiler on copies of the sources.
 fn run(
     program: &str,
-    arguments: &str,
+    arguments: &[String],
     folder: &Path,
     sources: &Sources,
     language: Language,
@@ -127,14 +130,14 @@ fn run(
     });
     let mut include = OsString::from("-I");
     include.push(input.parent().unwrap_or(&copies));
-    let words = arguments.split_whitespace().map(|word| match word {
+    let words = arguments.iter().map(|word| match &word[..] {
         "{in}" => input.clone().into_os_string(),
         "{out}" => output.clone().into_os_string(),
         "{include}" => include.clone(),
         word => word.into(),
     });
     let errors = File::create(&log)?;
-    // The compiler of WESL prints what it makes; the others print errors there.
+    // The compiler of WESL prints its output; the others print errors there.
     let said = match language {
         Language::Wesl => File::create(&output)?,
         _ => errors.try_clone()?,
@@ -191,7 +194,7 @@ fn remove_colors(said: &str) -> String {
     })
 }
 
-/// Finds the first line that a compiler names, and tidies what it said.
+/// Finds the first line that a compiler names, and tidies its messages.
 fn find_error(said: &str, input: &Path, copies: &Path, folder: &Path) -> (Option<usize>, String) {
     let name = input.display().to_string();
     let of_line = |line: &str| -> Option<usize> {
@@ -210,7 +213,7 @@ fn find_error(said: &str, input: &Path, copies: &Path, folder: &Path) -> (Option
     (line, shorten(lines))
 }
 
-/// Joins what a compiler said. If that is too long, lines with errors come first, and the number of lines that are left out last.
+/// Joins a compiler's messages. If they are too long, lines with errors come first, and the number of omitted lines last.
 fn shorten(mut lines: Vec<String>) -> String {
     let mut said = lines.join("\n");
     if said.len() <= MAX_MESSAGE_BYTES {

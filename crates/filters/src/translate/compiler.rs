@@ -1,4 +1,4 @@
-//! Compilers of shading languages, and the words that they are called with.
+//! Compilers of shading languages, and their command lines.
 
 use super::language::Language;
 use crate::filter::{PassShader, Stage};
@@ -24,7 +24,7 @@ const SLANG_WAY_OUT: &str =
 
 static OF_GLSL: [Compiler; 1] = [Compiler {
     program: "glslangValidator",
-    // GLSL knows no other entry point than `main`.
+    // GLSL has no other entry point than `main`.
     arguments: |shader, _| {
         let [short, ..] = name_stage(shader);
         format!("-V --target-env vulkan1.1 -S {short} -o {{out}} {{in}}")
@@ -101,7 +101,7 @@ fn name_stage(shader: &PassShader) -> [&'static str; 3] {
 
 fn call_slangc(language: &str, shader: &PassShader, text: &str) -> String {
     let ([_, stage, _], entry) = (name_stage(shader), &shader.entry);
-    // With shifts of registers, slangc overlooks bindings of Vulkan.
+    // With shifts of registers, slangc ignores bindings of Vulkan.
     let registers = match text.contains("vk::binding") {
         true => "",
         false => REGISTERS,

@@ -1,6 +1,7 @@
 //! Specialisation constants of SPIR-V, replaced by constants with the values of filter.toml.
 //!
-//! naga reads no `OpSpecConstantOp`, which compilers make of arithmetic on them, and no size of workgroups that depends on them.
+//! naga reads neither `OpSpecConstantOp`, which compilers make of arithmetic on them, nor sizes of
+//! workgroups that depend on them.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -33,7 +34,7 @@ struct Constants<'a> {
     given: &'a [(String, f64)],
 }
 
-/// Sets the constants that are `given` by name or number, and computes all that depend on them. Fails for one that is not there, unless
+/// Sets the constants that are `given` by name or number, and computes all that depend on them. Fails for a missing one, unless
 /// `may_miss`.
 pub(super) fn set_constants(
     words: &mut Words,
@@ -171,7 +172,7 @@ impl Constants<'_> {
         given.map(|(name, value)| (&name[..], *value))
     }
 
-    /// Computes what is made of other constants.
+    /// Computes a constant that is made of others.
     fn compute(
         &self,
         operation: Op,

@@ -1,4 +1,4 @@
-//! Modules that nest as deep as the limit allows.
+//! Modules that nest as deeply as the limit allows.
 
 use std::fs;
 
@@ -7,7 +7,7 @@ use crate::Filter;
 const MANIFEST: &str =
     "name = \"deep\"\nsummary = \"\"\nalignment = \"centred\"\n[[pass]]\nshader = \"deep.spv\"\n";
 
-/// Writes a kernel of `depth` branches within one another, each of which does nothing.
+/// Writes a kernel of `depth` nested branches that do nothing.
 fn nest_branches(depth: u32) -> Vec<u8> {
     let first_label = 20;
     let mut words = vec![0x0723_0203, 0x1_0300, 0, first_label + 2 * depth + 2, 0];

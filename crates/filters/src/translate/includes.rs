@@ -48,7 +48,7 @@ fn read_directive(directive: &str) -> Option<Option<String>> {
 
 /// Lists paths in quotes that follow a word of Slang for modules.
 fn list_imports(text: &str) -> impl Iterator<Item = String> {
-    // Every second piece lies within quotes.
+    // Every second piece is within quotes.
     let pieces: Vec<&str> = text.split('"').collect();
     let pairs = pieces.chunks_exact(2);
     let named = pairs.filter(|pair| ends_with_import(pair[0]));
@@ -64,7 +64,7 @@ pub(super) fn ends_with_import(text: &str) -> bool {
     IMPORTS.contains(&&text[start..])
 }
 
-/// Lists the lines of a plain text, each with its number. A word of Slang for modules goes on in the next line.
+/// Lists the lines of a plain text, each with its number. An import of Slang continues on the next line.
 pub(super) fn list_lines(text: &str) -> Vec<(usize, String)> {
     let mut lines: Vec<(usize, String)> = Vec::new();
     let mut goes_on = false;
@@ -80,8 +80,8 @@ pub(super) fn list_lines(text: &str) -> Vec<(usize, String)> {
     lines
 }
 
-/// Makes the text that a compiler gets, and that [`list_includes`] reads: lines that end with `\` are joined, comments are removed, and
-/// lines keep their numbers. So both see the same, even where they disagree about what is a comment.
+/// Makes the text that a compiler gets, and that [`list_includes`] reads: lines that end with `\` are joined, comments are
+/// removed, and lines keep their numbers. So both see the same, even if they disagree about comments.
 pub(super) fn make_plain(text: &str) -> String {
     let text = text.trim_start_matches('\u{feff}').replace("\r\n", "\n");
     let text = text.replace(['\u{b}', '\u{c}'], " ");
@@ -90,7 +90,7 @@ pub(super) fn make_plain(text: &str) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// Shortens `#line 3 "file"` to `#line 3`: no compiler shall look for files next to that one.
+/// Shortens `#line 3 "file"` to `#line 3`, so that no compiler looks for files next to that one.
 fn drop_file_name(line: &str) -> &str {
     let directive = line.trim_start().strip_prefix('#').map(str::trim_start);
     let is_number =
@@ -121,8 +121,8 @@ fn join_lines(text: &str) -> String {
     joined
 }
 
-/// Removes the comments of a text whose lines are joined, and keeps its lines. A directive goes on after a comment of several lines,
-/// whose empty lines follow it.
+/// Removes the comments of a text of joined lines, and keeps its lines. A directive continues after a comment of several lines,
+/// and the comment's empty lines follow it.
 fn remove_comments(text: &str) -> String {
     let mut plain = String::with_capacity(text.len());
     let mut pending = 0;

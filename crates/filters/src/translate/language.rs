@@ -1,4 +1,4 @@
-//! Shading languages, told by the ending of a file.
+//! Shading languages, by the ending of a file.
 
 use std::path::Path;
 
@@ -13,7 +13,7 @@ pub(crate) enum Language {
     Wgsl,
 }
 
-/// Ending of Unity's ShaderLab, which holds HLSL.
+/// Ending of Unity's ShaderLab, which contains HLSL.
 pub(crate) const SHADER_LAB: &str = "shader";
 
 /// Endings of files.

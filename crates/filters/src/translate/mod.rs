@@ -18,6 +18,7 @@ mod matrices;
 mod members;
 mod module;
 mod packages;
+mod sections;
 mod shader_lab;
 mod sources;
 mod storage;
@@ -35,6 +36,7 @@ use compile::list_installed;
 use compiler::Compiler;
 use module::{OpenModule, compile_shader, find_language, read};
 
+pub(crate) use closed::check_macro;
 pub(crate) use language::{Language, SHADER_LAB};
 pub(crate) use sources::{MAX_MODULE_BYTES, stays_below};
 pub(crate) use textures::check_texture;
@@ -90,7 +92,7 @@ fn translate_with(
     let made = (stages.iter().map(compile)).collect::<Result<Vec<_>, FilterError>>()?;
     let modules: Vec<&OpenModule> = made.iter().map(|(_, open)| open).collect();
     check_places(filter, shader, &stages[0].path, &modules)?;
-    // Kept where a parameter changes the module.
+    // Kept if a parameter changes the module.
     let is_open = (shader.constants.iter()).any(|(_, value)| value.reads_any(&|_| true));
     let bound = stages.iter().zip(made).map(|(stage, (compiled, open))| {
         Ok(Shader {
@@ -118,7 +120,7 @@ pub(crate) fn specialise(
         let format_of = |name: &str, format| made.stored_format(name).unwrap_or(format);
         Ok(bound
             .store_as(&format_of)
-            .expect("it stored so with other constants"))
+            .expect("these formats worked with other constants"))
     })?;
     Ok(Shader {
         compiled: made.compiled.clone(),

@@ -25,7 +25,7 @@ pub(super) struct OpenModule {
     pub module: Module,
     /// Places of variables that were split from others, each with the place of the other.
     pub owners: BTreeMap<BindingPlace, BindingPlace>,
-    /// Names and offsets of members that hold the rows of a matrix one after the other.
+    /// Names and offsets of members that contain the rows of a matrix one after the other.
     pub by_rows: BTreeSet<(String, u32)>,
 }
 
@@ -35,8 +35,8 @@ pub(super) const PUSH_CONSTANTS: ResourceBinding = ResourceBinding {
     binding: 0,
 };
 
-/// Compiles the bytes of a shader to SPIR-V, or to WGSL if it is WESL. SPIR-V and WGSL stay as they are. A language that `compiler`
-/// does not know takes the first of its own.
+/// Compiles the bytes of a shader to SPIR-V, or to WGSL if it is WESL. SPIR-V and WGSL stay as they are. A language that
+/// `compiler` does not support uses the first of its own.
 pub(super) fn compile_shader(
     filter: &Filter,
     shader: &PassShader,
@@ -64,17 +64,11 @@ pub(super) fn compile_shader(
     let is_known = |known: &&Compiler| compiler.is_some_and(|it| it.program == known.program);
     let compiler = installed.iter().copied().find(is_known);
     let compiler = compiler.unwrap_or(installed[0]);
-    let text = match language {
-        Language::Glsl => without_stage_line(text),
-        _ if shader
-            .file
-            .extension()
-            .is_some_and(|ending| ending == SHADER_LAB) =>
-        {
-            cut_hlsl(text, shader.shader_pass.as_ref())
-                .map_err(|reason| FilterError::in_file(path, None, reason))?
-        }
-        _ => text.to_owned(),
+    let ending = shader.file.extension();
+    let text = match ending.is_some_and(|ending| ending == SHADER_LAB) {
+        true => cut_hlsl(text, shader.shader_pass.as_ref())
+            .map_err(|reason| FilterError::in_file(path, None, reason))?,
+        false => text.to_owned(),
     };
     compile(folder, &text, language, shader, compiler)
 }
@@ -139,7 +133,7 @@ fn find_stored_format(
     }
 }
 
-/// Explains an error in the WGSL that WESL became, whose lines are not those of the file.
+/// Explains an error in WGSL made from WESL, which has other lines than the file.
 fn in_compiled(path: &Path, error: &FilterError) -> FilterError {
     let reason = match error {
         FilterError::Folder { reason, .. } => reason.clone(),
@@ -147,18 +141,6 @@ fn in_compiled(path: &Path, error: &FilterError) -> FilterError {
     };
     let reason = format!("after its imports and conditions: {reason}");
     FilterError::in_file(path, None, reason)
-}
-
-/// Blanks the line `#[compute]` that Godot puts before its shaders; the numbers of lines hold.
-fn without_stage_line(text: &str) -> String {
-    let mark = ["#[compute]", "#[fragment]"];
-    match mark
-        .iter()
-        .find(|mark| text.trim_start().starts_with(**mark))
-    {
-        Some(mark) => text.replacen(mark, "", 1),
-        None => text.to_owned(),
-    }
 }
 
 /// Reads SPIR-V. `choose` finds the format that filter.toml has for the image at a place and with a name.
@@ -176,7 +158,7 @@ fn read_spirv(
     let images = StorageImages::prepare(&mut words);
     let is_hlsl = matches!(language, Language::Hlsl | Language::Slang);
     let options = front::spv::Options {
-        // Clip space of Vulkan has +y down, that of HLSL and of Slang up.
+        // Clip space of Vulkan has +y down, HLSL's and Slang's up.
         adjust_coordinate_space: is_vertex && !is_hlsl,
         ..front::spv::Options::default()
     };

@@ -1,4 +1,4 @@
-//! Packages of WESL: folders beside a shader, which `import bevy_pbr::render::utils;` names.
+//! Packages of WESL: folders next to a shader, which `import bevy_pbr::render::utils;` names.
 //!
 //! The compiler knows no packages on a disk, but it knows the path `package::` of the shader's folder. So the copies that it gets name
 //! a package by that path.

@@ -1,4 +1,4 @@
-//! Files that a compiler gets to see: a shader and what it includes or imports, all from the filter's folder.
+//! Files that a compiler sees: a shader and what it includes or imports, all from the filter's folder.
 
 use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};
@@ -9,7 +9,9 @@ use super::closed::check_closed;
 use super::includes::{list_includes, make_plain};
 use super::language::Language;
 use super::packages::name_packages;
+use super::sections::{allow_includes, keep_section};
 use crate::FilterError;
+use crate::filter::{PassShader, Stage};
 
 /// Largest shader or module that is read, in bytes.
 pub(crate) const MAX_MODULE_BYTES: u64 = 4 << 20;
@@ -17,7 +19,7 @@ pub(crate) const MAX_MODULE_BYTES: u64 = 4 << 20;
 /// Upper limit on files of one shader.
 const MAX_FILES: usize = 256;
 
-/// Upper limit on folders within one another that modules are looked for in.
+/// Upper limit on the depth of folders that are searched for modules.
 const MAX_DEPTH: usize = 8;
 
 /// Texts of a shader and of what it needs.
@@ -25,6 +27,7 @@ pub(super) struct Sources<'a> {
     /// The filter's folder.
     folder: &'a Path,
     language: Language,
+    stage: Stage,
     /// The shader itself.
     pub shader: PathBuf,
     /// Texts by their paths in the folder.
@@ -32,10 +35,10 @@ pub(super) struct Sources<'a> {
 }
 
 impl<'a> Sources<'a> {
-    /// Reads what the shader in `file` of a filter's folder needs. `text` is its own.
+    /// Reads a shader of a filter's folder, with its `text`, and the files that it needs.
     pub fn collect(
         folder: &'a Path,
-        file: &Path,
+        PassShader { file, stage, .. }: &PassShader,
         text: &str,
         language: Language,
     ) -> Result<Self, FilterError> {
@@ -45,6 +48,7 @@ impl<'a> Sources<'a> {
         let mut sources = Sources {
             folder,
             language,
+            stage: *stage,
             texts: BTreeMap::new(),
             shader: shader.clone(),
         };
@@ -73,12 +77,18 @@ impl<'a> Sources<'a> {
         })
     }
 
-    /// Resolves what each file names, and adds what is new, until there is nothing new.
+    /// Resolves what each file names, and adds new files, until there are none.
     fn resolve_all(&mut self, base: &Path) -> Result<(), FilterError> {
         let mut waiting: Vec<PathBuf> = self.texts.keys().cloned().collect();
         while let Some(file) = waiting.pop() {
-            let text = make_plain(&self.texts[&file]);
-            let (text, found) = self.resolve(&file, base, &text)?;
+            let mut text = make_plain(&self.texts[&file]);
+            if self.language == Language::Glsl {
+                text = keep_section(&text, self.stage);
+            }
+            let (mut text, found) = self.resolve(&file, base, &text)?;
+            if self.language == Language::Glsl && !found.is_empty() {
+                text = allow_includes(&text);
+            }
             self.texts.insert(file, text);
             for place in found {
                 if !self.texts.contains_key(&place) {
@@ -141,7 +151,7 @@ impl<'a> Sources<'a> {
                         "imports \"{path}\", which is no file of this filter"
                     )));
                 }
-                // A file of the program's copies, or none.
+                // A file of the program's copies, or no file.
                 (None, true) => {}
             }
             places.extend(found);
@@ -168,7 +178,7 @@ impl<'a> Sources<'a> {
         FilterError::in_file(&self.folder.join(place), line, reason)
     }
 
-    /// Finds a file beside the one that names it, or beside the shader; none where neither is there. A module may go without its
+    /// Finds a file next to the one that names it, or next to the shader; none if neither exists. A module's name may lack its
     /// ending.
     fn find(
         &self,
@@ -245,7 +255,7 @@ impl<'a> Sources<'a> {
     }
 }
 
-/// Joins a path as an include names it to a folder within the filter's; none where it leads out.
+/// Joins a path as an include names it to a folder within the filter's; none if it leads out.
 fn join(from: &Path, path: &str) -> Option<PathBuf> {
     let path = path.replace('\\', "/");
     if path.starts_with('/') || path.contains(':') {
@@ -277,7 +287,7 @@ fn folder_of(file: &Path) -> &Path {
     file.parent().unwrap_or(Path::new(""))
 }
 
-/// Returns true for a file that lies in a folder once links are followed.
+/// Returns true for a file that is in a folder once links are followed.
 pub(crate) fn stays_below(folder: &Path, file: &Path) -> bool {
     match (folder.canonicalize(), file.canonicalize()) {
         (Ok(folder), Ok(file)) => file.starts_with(folder),

@@ -1,9 +1,9 @@
 //! Access of kernels to storage images, narrowed to what they do.
 //!
-//! GLSL often leaves `readonly` and `writeonly` out, and WebGPU lets few formats be read and written at once. An image that is only
-//! written is declared so. One that is only read becomes a sampled texture, which every format can be. One that is both becomes two
-//! variables first: what is read is what it held before the pass. HLSL and Slang do not say in which format an image is stored, and
-//! their compilers leave it out or guess; filter.toml knows.
+//! GLSL often leaves `readonly` and `writeonly` out, and few formats of WebGPU can be read and written at once. An image that
+//! is only written is declared so. One that is only read becomes a sampled texture, which works for every format. One that is
+//! both becomes two variables first: reads see its content before the pass. HLSL and Slang do not say in which format an image
+//! is stored, and their compilers omit or guess it; filter.toml says.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,7 +13,7 @@ use wgpu::naga::{ImageClass, Module, Scalar, Span, StorageAccess, Type, TypeInne
 use super::words::{Instruction, Place, UNIFORM_CONSTANT, Words};
 use crate::Format;
 
-/// Operand of an image type that is 2 for storage images, and that of its format.
+/// Operands of an image type: one that is 2 for storage images, and its format.
 const SAMPLED: usize = 6;
 const FORMAT: usize = 7;
 
@@ -116,7 +116,7 @@ fn is_storage_image(ty: &Instruction) -> bool {
     ty.op == Op::TypeImage && ty.operands.get(SAMPLED) == Some(&2)
 }
 
-/// Gives types of storage images without a format one of the same numbers; returns their ids.
+/// Gives types of storage images without a format one with the same kind of numbers; returns their ids.
 fn fill_formats(words: &mut Words) -> BTreeSet<u32> {
     // Nothing needs these once all have a format.
     let without = [
@@ -248,8 +248,8 @@ fn list_images(instruction: &Instruction) -> &[u32] {
     operands.get(places).unwrap_or_default()
 }
 
-/// Fetches texels from level 0 where a module names none: `texture[pixel]` of Slang, and reads of the storage images in `read`. naga
-/// wants a level of what becomes a sampled texture.
+/// Fetches texels from level 0 if a module names none: `texture[pixel]` of Slang, and reads of the storage images in `read`.
+/// naga requires a level for a sampled texture.
 fn name_levels(words: &mut Words, read: &BTreeSet<u32>) {
     let is_bare = |it: &Instruction| match (it.op, &it.operands[..]) {
         (Op::ImageFetch, [_, _, _, _]) => true,

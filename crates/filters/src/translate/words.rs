@@ -10,7 +10,7 @@ pub(super) type Place = (u32, u32);
 /// Upper limit on ids. The largest shaders of engines have a hundredth of it.
 const MAX_IDS: u32 = 1 << 20;
 
-/// Upper limit on branches, on types and on composite constants of a module, each: naga recurses where they lie within one another.
+/// Upper limit on branches, on types and on composite constants of a module, each: naga recurses if they are nested.
 const MAX_NESTABLE: usize = 10_000;
 
 /// Storage class of textures and samplers.
@@ -32,7 +32,7 @@ impl Instruction {
         }
     }
 
-    /// Returns the operands if they begin with as many as asked for.
+    /// Returns the first `COUNT` operands, if there are as many.
     pub fn first<const COUNT: usize>(&self) -> Option<[u32; COUNT]> {
         self.operands.get(..COUNT)?.try_into().ok()
     }
@@ -103,7 +103,7 @@ impl Words {
         Ok(read)
     }
 
-    /// Refuses a module that may be nested deeper than a stack.
+    /// Refuses a module that may be nested too deeply for a stack.
     fn check_nesting(&self) -> Result<(), String> {
         for (what, ops) in [
             ("branches", [Op::LoopMerge, Op::SelectionMerge, Op::Switch]),
@@ -128,7 +128,7 @@ impl Words {
         Ok(())
     }
 
-    /// Returns an id that nothing has.
+    /// Returns an unused id.
     pub fn new_id(&mut self) -> u32 {
         self.bound = self.bound.saturating_add(1);
         self.bound - 1

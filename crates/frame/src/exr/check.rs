@@ -9,7 +9,7 @@ use crate::FileError;
 pub(crate) const CHECKSUM: &str = "checksum";
 
 impl ExrFile {
-    /// Refuses a file of another kind, or whose content is not what was written.
+    /// Refuses a file of another kind, or with altered content.
     pub fn expect_kind(&self, kind: &str) -> Result<(), FileError> {
         match self.attributes.get("kind").map(String::as_str) {
             Some(found) if found == kind => {
@@ -72,7 +72,7 @@ impl ExrFile {
         hasher.finalize().to_hex().to_string()
     }
 
-    /// Refuses content that is not what was written.
+    /// Refuses altered content.
     fn expect_checksum(&self) -> Result<(), FileError> {
         let found: String = self.get(CHECKSUM)?;
         if found == self.compute_checksum() {

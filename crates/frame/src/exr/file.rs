@@ -5,7 +5,7 @@ use std::fmt::Display;
 use std::path::PathBuf;
 use std::str::FromStr;
 
-use crate::{FileError, Image, Plane, Raster};
+use crate::{FileError, Image, Plane, Raster, Vectors};
 
 /// The samples of one channel, row by row from the top left.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,8 +38,8 @@ pub struct ExrFile {
     pub channels: Vec<Channel>,
     /// Text attributes of the header.
     pub attributes: BTreeMap<String, String>,
-    /// Description of a display window of another place or size than the pixels'; `None` if both are one, as in every file of
-    /// this program.
+    /// Description of a display window that differs from the pixels' in place or size; `None` if both are the same, as
+    /// in every file of this program.
     pub padding: Option<String>,
 }
 
@@ -81,6 +81,13 @@ impl ExrFile {
         }
     }
 
+    /// Adds `X Y`, in a named layer.
+    pub fn push_vectors(&mut self, layer: &str, vectors: &Vectors) {
+        for (component, name) in ["X", "Y"].into_iter().enumerate() {
+            self.push_owned_plane(&in_layer(layer, name), vectors.map(|it| it[component]));
+        }
+    }
+
     /// Reads a text attribute as a value.
     pub fn get<T: FromStr>(&self, name: &str) -> Result<T, FileError> {
         let text = self.text(name)?;
@@ -109,7 +116,7 @@ impl ExrFile {
         self.set(name, words.join(" "));
     }
 
-    /// Reads a text attribute as finite numbers; none where it does not hold as many.
+    /// Reads a text attribute as finite numbers; none if it has another number of them.
     pub(crate) fn numbers<const N: usize>(
         &self,
         name: &str,
@@ -178,6 +185,21 @@ impl ExrFile {
         Ok(red_green.zip(&b?, |[r, g], b| [*r, *g, *b]))
     }
 
+    /// Reads `X Y`, of a named layer.
+    pub fn vectors(&self, layer: &str) -> Result<Vectors, FileError> {
+        let [x, y] = ["X", "Y"].map(|name| self.plane(&in_layer(layer, name)));
+        Ok(x?.zip(&y?, |x, y| [*x, *y]))
+    }
+
+    /// Reads what a file may have; none where it lacks a channel.
+    pub fn optional<T>(
+        &self,
+        channel: &str,
+        read: impl FnOnce() -> Result<T, FileError>,
+    ) -> Result<Option<T>, FileError> {
+        (self.has_channel(channel).then(read)).transpose()
+    }
+
     /// Reads the object names, the background's first: the attribute "objects".
     pub(crate) fn objects(&self) -> Result<Vec<String>, FileError> {
         let names = self.words("objects")?;
@@ -223,7 +245,7 @@ impl ExrFile {
     }
 }
 
-/// Puts the name of a layer before that of a channel.
+/// Puts a layer's name before a channel's.
 pub(crate) fn in_layer(layer: &str, name: &str) -> String {
     if layer.is_empty() {
         name.to_owned()

@@ -11,7 +11,7 @@ pub const MAX_EXR_CHANNELS: usize = 32_768;
 /// Upper limit on the bytes that the samples of an OpenEXR file take in memory. A file that is larger than this divided by
 /// [`LARGEST_EXR_RATIO`] may take more.
 pub const MAX_EXR_BYTES: u64 = 1 << 30;
-/// Upper limit on the size of the samples of a large OpenEXR file, over the size of the file. Run lengths shrink samples no further.
+/// Upper limit on the ratio of a large OpenEXR file's samples to its size. Run lengths shrink samples no further.
 pub const LARGEST_EXR_RATIO: u64 = 64;
 
 /// In memory all samples are 32-bit.
@@ -67,7 +67,7 @@ pub(crate) fn check_header(headers: &[Header], file_bytes: u64) -> Result<(), St
     Ok(())
 }
 
-/// Describes a display window that is not the data window; `None` if both are one.
+/// Describes a display window that is not the data window; `None` if both are the same.
 pub(crate) fn describe_padding(header: &Header) -> Option<String> {
     let display = header.shared_attributes.display_window;
     let (place, size) = (header.own_attributes.layer_position, header.layer_size);

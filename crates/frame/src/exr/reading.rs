@@ -1,4 +1,4 @@
-//! Reading of OpenEXR files, whoever wrote them.
+//! Reading of OpenEXR files, from any program.
 
 use std::io::BufReader;
 use std::path::Path;
@@ -57,8 +57,8 @@ pub fn read_exr(path: &Path) -> Result<ExrFile, FileError> {
     Ok(file)
 }
 
-/// Reads size and text attributes of an OpenEXR file without its pixels, as a file without channels; none where the file is missing
-/// or broken.
+/// Reads size and text attributes of an OpenEXR file without its pixels, as a file without channels; none if
+/// the file is missing or broken.
 pub fn read_exr_header(path: &Path) -> Option<ExrFile> {
     let (handle, _) = open_regular(path, u64::MAX).ok()?;
     let chunks = exr::block::read(BufReader::new(handle), false).ok()?;
@@ -82,7 +82,7 @@ fn set_texts<'a>(
     }
 }
 
-/// Reads one text attribute of an OpenEXR file without its pixels; none where the file or the attribute is missing or broken.
+/// Reads one text attribute of an OpenEXR file without its pixels; none if the file or the attribute is missing or broken.
 pub fn read_attribute(path: &Path, name: &str) -> Option<String> {
     read_exr_header(path)?.attributes.remove(name)
 }

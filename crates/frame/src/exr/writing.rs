@@ -15,11 +15,11 @@ use super::header::to_exr;
 use crate::FileError;
 use crate::file::write_atomically;
 
-/// Writes single-part, lossless OpenEXR under a temporary name and renames it: the path holds the whole file or what it held
-/// before. A file that says its kind gets the checksum of its content.
+/// Writes single-part, lossless OpenEXR under a temporary name and renames it: the path has the whole file or its old
+/// content. A file of a `kind` gets a checksum of its content.
 ///
-/// Run lengths leave noise up to a third larger than deflate would, and take a sixth to a fourteenth of its time, which
-/// was a fifth of what measuring a picture takes.
+/// Run lengths make noise up to a third larger than deflate does, in a sixth to a fourteenth of its time, which was a fifth
+/// of the time to measure a picture.
 pub fn write_exr(path: &Path, file: &ExrFile) -> Result<(), FileError> {
     let quick = Encoding {
         compression: Compression::RLE,
@@ -28,13 +28,13 @@ pub fn write_exr(path: &Path, file: &ExrFile) -> Result<(), FileError> {
     write_encoded(path, file.clone(), quick, FlatSamples::F32)
 }
 
-/// Writes as [`write_exr`] does, smaller (ZIP16) and slower: for files that are made once, or that repeat themselves. A channel all of
-/// whose floats are halves is written as halves, such as a mask.
+/// Writes as [`write_exr`] does, smaller (ZIP16) and slower: for files that are made once, or that repeat themselves. A channel
+/// of floats that are all halves, such as a mask, is written as halves.
 pub(crate) fn write_small_exr(path: &Path, file: ExrFile) -> Result<(), FileError> {
     write_encoded(path, file, Encoding::SMALL_LOSSLESS, shorten)
 }
 
-/// Makes halves of floats that lose nothing by it.
+/// Shortens floats to halves if that loses nothing.
 fn shorten(floats: Vec<f32>) -> FlatSamples {
     let halves: Option<Vec<f16>> = floats.iter().map(|value| to_half(*value)).collect();
     match halves {
@@ -43,14 +43,14 @@ fn shorten(floats: Vec<f32>) -> FlatSamples {
     }
 }
 
-/// Returns the half that is equal to a float, bit for bit once it is widened; none where there is no such half.
+/// Returns the half that is equal to a float, bit for bit once it is widened; none if there is no such half.
 fn to_half(value: f32) -> Option<f16> {
     let half = f16::from_f32(value);
     (half.to_f32().to_bits() == value.to_bits()).then_some(half)
 }
 
-/// Writes floats rounded to halves (ZIP16), which is not lossless: for maps that people look at. What lies beyond the largest half
-/// becomes that.
+/// Writes floats rounded to halves (ZIP16), which is not lossless: for maps that people look at. Larger values become the
+/// largest half.
 pub fn write_half_exr(path: &Path, mut file: ExrFile) -> Result<(), FileError> {
     for channel in &mut file.channels {
         if let Samples::F32(samples) = &mut channel.samples {
@@ -76,7 +76,7 @@ fn write_encoded(
     floats: fn(Vec<f32>) -> FlatSamples,
 ) -> Result<(), FileError> {
     let pixels = file.width as usize * file.height as usize;
-    // Other programs may change what they are handed.
+    // No checksum for files handed to other programs, which may change them.
     let checksum = (file.attributes.contains_key("kind"))
         .then(|| (CHECKSUM.to_owned(), file.compute_checksum()));
     let channels = file.channels.into_iter().map(|channel| {
@@ -115,8 +115,8 @@ fn write_encoded(
     write_atomically(path, &bytes)
 }
 
-/// Puts the header's attributes in the order of their names: the encoder leaves them in a random one, and equal content
-/// is to make equal bytes. The header keeps its length, so that every offset in the file stays right.
+/// Sorts the header's attributes by name: the encoder leaves them in random order, and equal content must give equal
+/// bytes. The header keeps its length, so that every offset in the file stays right.
 ///
 /// An attribute is `name 0 type 0 size value`; an empty name ends the header (OpenEXR file layout, "Header").
 fn sort_attributes(bytes: &mut [u8]) {

@@ -23,7 +23,7 @@ pub enum FileError {
         /// Message of the decoder.
         reason: String,
     },
-    /// Another file than was asked for: no regular file, too large, or an OpenEXR file that lacks what it must hold.
+    /// Not the file that was asked for: not a regular file, too large, or an OpenEXR file that lacks required content.
     #[error("{path}: {reason}", path = path.display())]
     Foreign {
         /// The file.
@@ -43,7 +43,7 @@ impl FileError {
         }
     }
 
-    /// Makes an error of a file that is another than was asked for.
+    /// Makes an error of a file that is not the one asked for.
     pub fn foreign(path: &Path, reason: String) -> Self {
         Self::Foreign {
             path: path.to_owned(),

@@ -37,7 +37,7 @@ pub(crate) fn open_regular(path: &Path, limit: u64) -> Result<(File, u64), FileE
     let metadata = std::fs::metadata(path).map_err(io)?;
     refuse_unfit(path, &metadata, limit)?;
     let file = File::open(path).map_err(io)?;
-    // Another file may lie at the path by now.
+    // Another file may be at the path by now.
     let metadata = file.metadata().map_err(io)?;
     refuse_unfit(path, &metadata, limit)?;
     Ok((file, metadata.len()))
@@ -66,7 +66,7 @@ fn too_large(path: &Path, found: u64, limit: u64) -> FileError {
     )
 }
 
-/// Names what is no regular file, with its article.
+/// Names the kind of a file that is not regular, with its article.
 pub(crate) fn kind_of(metadata: &Metadata) -> &'static str {
     if metadata.is_dir() {
         return "a folder";

@@ -14,11 +14,11 @@ const PREFIX: &str = ".shuttertruth-";
 /// End of that name.
 const SUFFIX: &str = ".tmp";
 
-/// Writes `bytes` under a temporary name in the same folder, then renames the file: the path holds all of them or what it held
-/// before. Missing folders are made. The umask decides who may read the file, as with every other program.
+/// Writes `bytes` under a temporary name in the same folder, then renames the file: the path has all of them or its old
+/// content. Missing folders are made. The umask decides who may read the file, as with every other program.
 ///
 /// # Errors
-/// Fails if the file cannot be written, or if a folder, a FIFO, a socket, a device or a link to one lies there: renaming would
+/// Fails if the file cannot be written, or if a folder, a FIFO, a socket, a device or a link to one is there: renaming would
 /// replace it, even `/dev/null`.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     write_streamed(path, |file| {
@@ -26,11 +26,11 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     })
 }
 
-/// Writes a file as [`write_atomically`] does, piece by piece: `write` writes what the path is to hold. Where it fails, the path keeps
-/// what it held.
+/// Writes a file as [`write_atomically`] does, piece by piece: `write` writes the content. If it fails, the path keeps its old
+/// content.
 ///
 /// # Errors
-/// Fails as [`write_atomically`] does, and where `write` fails.
+/// Fails as [`write_atomically`] does, and if `write` fails.
 pub fn write_streamed<E: From<FileError>>(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> Result<(), E>,

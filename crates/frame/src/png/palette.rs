@@ -3,11 +3,11 @@
 /// Upper limit on the colours of a palette.
 const MAX_COLORS: usize = 256;
 
-/// Refuses a PNG whose palette is no list of whole colours, at which the decoder would panic. The error is to follow the file's
-/// name. The decoder reports all other faults.
+/// Refuses a PNG with a palette that is not a list of whole colours, at which the decoder would panic. The error's text follows
+/// the file's name. The decoder reports all other faults.
 pub fn check_png_palette(bytes: &[u8]) -> Result<(), String> {
     const SIGNATURE: usize = 8;
-    /// Bytes of a chunk beside its content: length, name and checksum.
+    /// Bytes of a chunk besides its content: length, name and checksum.
     const FRAME: usize = 12;
     let mut rest = bytes.get(SIGNATURE..).unwrap_or_default();
     while let [a, b, c, d, name @ ..] = rest {

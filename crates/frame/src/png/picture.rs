@@ -11,7 +11,7 @@ pub const MAX_PNG_PIXELS: u64 = 1 << 25;
 /// Upper limit on the bytes of such a file: the most that its pixels take.
 const MAX_PNG_BYTES: u64 = 16 * MAX_PNG_PIXELS;
 
-/// Refuses a PNG of more than [`MAX_PNG_PIXELS`] by its header: few bytes may stand for very many pixels.
+/// Refuses a PNG of more than [`MAX_PNG_PIXELS`] by its header: few bytes may encode very many pixels.
 fn check_size(bytes: &[u8]) -> Result<(), String> {
     let reader = image::ImageReader::with_format(Cursor::new(bytes), image::ImageFormat::Png);
     let (width, height) = (reader.into_dimensions())
@@ -59,7 +59,7 @@ pub fn png_bytes(display: &Raster<[f32; 3]>) -> Vec<u8> {
     let mut png = Cursor::new(Vec::new());
     to_eight_bits(display)
         .write_to(&mut png, image::ImageFormat::Png)
-        .expect("memory takes every byte");
+        .expect("writing to memory cannot fail");
     png.into_inner()
 }
 
@@ -67,7 +67,7 @@ fn to_eight_bits(display: &Raster<[f32; 3]>) -> image::RgbImage {
     let values = display.pixels.iter().flatten();
     let bytes = values.map(|value| (value * 255.0 + 0.5) as u8).collect();
     image::RgbImage::from_raw(display.width, display.height, bytes)
-        .expect("a raster has one pixel per pixel of its size")
+        .expect("a raster has as many pixels as its size")
 }
 
 /// Writes display values as [`png_bytes`] encodes them.
@@ -79,7 +79,7 @@ pub fn write_png(path: &Path, display: &Raster<[f32; 3]>) -> Result<(), FileErro
 pub fn write_jpeg(path: &Path, display: &Raster<[f32; 3]>) -> Result<(), FileError> {
     let mut bytes = Vec::new();
     let encoder = image::codecs::jpeg::JpegEncoder::new_with_quality(&mut bytes, 92);
-    (to_eight_bits(display).write_with_encoder(encoder)).expect("memory takes every byte");
+    (to_eight_bits(display).write_with_encoder(encoder)).expect("writing to memory cannot fail");
     write_atomically(path, &bytes)
 }
 

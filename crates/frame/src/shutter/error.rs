@@ -5,7 +5,7 @@ pub const SHORTEST_EXPOSURE: f64 = 1e-9;
 /// The longest exposure, in frames.
 pub const LONGEST_EXPOSURE: f64 = 1e4;
 
-/// A shutter that cannot be: what was asked for, and what is allowed.
+/// An impossible shutter: what was asked for, and what is allowed.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum ShutterError {
     /// The interval is empty, reversed or not finite.
@@ -21,7 +21,7 @@ pub enum ShutterError {
     /// The exposure is not a positive, finite number of frames.
     #[error("exposure is {0} frames; allowed: above 0 and finite (0.5 frames = 180 degrees)")]
     Exposure(f64),
-    /// The exposure is shorter or longer than anything can be rendered.
+    /// The exposure is too short or too long to render.
     #[error(
         "exposure is {0:e} frames; allowed: {SHORTEST_EXPOSURE:e} to {LONGEST_EXPOSURE} (0.5 frames = 180 degrees)"
     )]
@@ -42,7 +42,7 @@ pub enum ShutterError {
         "efficiency holds {0} values; allowed: 2 and more, at equal steps from the opening to the closing"
     )]
     Table(usize),
-    /// An efficiency that is no fraction.
+    /// An efficiency that is not a fraction.
     #[error("efficiency holds {0}; allowed: 0 to 1")]
     Efficiency(f64),
     /// A table of zeros.

@@ -41,11 +41,11 @@ impl Shutter {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Alignment {
-    /// `[-m, 0]`: the smear lies behind the mover.
+    /// `[-m, 0]`: the smear is behind the mover.
     Trailing,
-    /// `[-m/2, m/2]`: the smear lies on both sides.
+    /// `[-m/2, m/2]`: the smear is on both sides.
     Centred,
-    /// `[0, m]`: the smear lies ahead of the mover.
+    /// `[0, m]`: the smear is ahead of the mover.
     Leading,
 }
 

@@ -36,7 +36,7 @@ pub enum Efficiency {
 }
 
 impl ShutterProfile {
-    /// Refuses values that no shutter has.
+    /// Refuses impossible values.
     pub fn check(&self) -> Result<(), ShutterError> {
         self.efficiency.check()?;
         if self.rolling.is_finite() {
@@ -46,7 +46,7 @@ impl ShutterProfile {
         }
     }
 
-    /// Returns the delay of a row of `height` rows behind the middle of the picture, in frames.
+    /// Returns the delay of a row, out of `height`, relative to the middle of the picture, in frames.
     pub fn row_offset(&self, row: u32, height: u32) -> f64 {
         self.rolling * ((f64::from(row) + 0.5) / f64::from(height) - 0.5)
     }
@@ -78,7 +78,7 @@ impl ShutterProfile {
 }
 
 impl Efficiency {
-    /// Refuses values that no shutter has.
+    /// Refuses impossible values.
     pub fn check(&self) -> Result<(), ShutterError> {
         match self {
             Efficiency::Box => Ok(()),
@@ -108,7 +108,7 @@ impl Efficiency {
         match self {
             Efficiency::Box => vec![[0.0, 1.0], [1.0, 1.0]],
             Efficiency::Trapezoid { rise, fall } => {
-                // Rounding of the difference must not turn the order round.
+                // Rounding of the difference must not reverse the order.
                 let closing = (1.0 - fall).max(*rise);
                 vec![[0.0, 0.0], [*rise, 1.0], [closing, 1.0], [1.0, 0.0]]
             }

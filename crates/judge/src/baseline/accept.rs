@@ -21,14 +21,14 @@ pub struct Acceptance<'a> {
 }
 
 impl Acceptance<'_> {
-    /// Tells whether a case is accepted: references never are.
+    /// Returns whether a case is accepted; references never are.
     pub fn includes(&self, case: &Case) -> bool {
         let name = format!("{}/{}", case.scene, case.name());
         !case.is_reference && self.only.is_none_or(|only| only.matches(&name))
     }
 }
 
-/// Makes a baseline of a run, and of the old one if only some cases are accepted.
+/// Makes a baseline from a run, and from the old one if only some cases are accepted.
 pub fn accept_scores(
     run: &Run,
     old: Option<Baseline>,
@@ -84,7 +84,7 @@ fn add_case(baseline: &mut Baseline, case: &Case) -> Result<(), Error> {
     Ok(())
 }
 
-/// Refuses another class of adapter than the baseline's and, where only some scores are replaced, another adapter.
+/// Refuses another class of adapter than the baseline's and, if only some scores are replaced, another adapter.
 fn check_adapter(run: &Run, old: &Baseline, some: bool) -> Result<(), Error> {
     let [found, allowed] = [&run.adapter, &old.adapter].map(|adapter| match adapter {
         Some(adapter) => format!(

@@ -20,7 +20,7 @@ pub struct BaselineComparison {
     pub filter: String,
     /// Metric of the score.
     pub metric: Metric,
-    /// Number of scenes that were compared.
+    /// Number of compared scenes.
     pub scenes: usize,
     /// Amount by which the score is worse than the baseline's, mean over scenes, in the metric's unit; negative is better.
     pub worse: f64,
@@ -35,16 +35,16 @@ pub struct BaselineComparison {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ComparisonKind {
-    /// The interval does not reach above the margin.
+    /// The interval does not exceed the margin.
     NoWorse,
-    /// The whole interval lies above the margin.
+    /// The whole interval exceeds the margin.
     Worse,
-    /// The interval holds the margin.
+    /// The interval contains the margin.
     Inconclusive,
 }
 
 impl ComparisonKind {
-    /// Returns the words for it in a report.
+    /// Returns its words for a report.
     pub fn label(self) -> &'static str {
         match self {
             Self::NoWorse => "no worse",
@@ -65,9 +65,8 @@ impl BaselineComparison {
     }
 }
 
-/// Compares every case of a run with the baseline, scene by scene against the same truth: per filter and per metric that has
-/// a margin. Any number of scenes decides, and the interval of one scene has no width. `path` is the file of the baseline, for
-/// messages.
+/// Compares every case of a run with the baseline, scene by scene against the same truth, per filter and per metric with a margin. Any
+/// number of scenes decides, and the interval of one scene has no width. `path` is the baseline's file, for messages.
 pub fn compare_with_baseline(
     run: &Run,
     baseline: &Baseline,
@@ -153,11 +152,11 @@ fn check_truth(case: &Case, baseline: &Baseline) -> Result<(), String> {
     }
 }
 
-/// Returns the amount by which a case is worse than in the baseline; none if the metric did not apply then.
+/// Returns how much worse a case is than in the baseline; none if the metric did not apply then.
 fn difference(case: &Case, metric: Metric, baseline: &Baseline) -> Result<Option<f64>, String> {
     let filters = baseline.scores.get(&case.scene);
     let Some(scores) = filters.and_then(|filters| {
-        // A parameter with a value of its own is judged by its preset.
+        // A parameter with an overridden value is judged by its preset.
         (filters.get(&case.name())).or_else(|| filters.get(&case.of_preset().name()))
     }) else {
         return Err(format!(

@@ -1,4 +1,4 @@
-//! Baseline: accepted scores in a file that a person reviews.
+//! Baseline: accepted scores in a reviewed file.
 
 mod accept;
 mod comparison;
@@ -32,7 +32,7 @@ pub struct Baseline {
     pub program: String,
     /// Adapter of that run; none if every filter was a program.
     pub adapter: Option<AdapterDescription>,
-    /// Reasons for accepting the scores: the last time all were accepted, and every time some were since.
+    /// Reasons for accepting the scores: when all were last accepted, and each time some were since.
     pub reasons: Vec<String>,
     /// Hash of the truth's inputs, per scene and alignment.
     pub truths: BTreeMap<SceneId, BTreeMap<Alignment, String>>,
@@ -59,7 +59,7 @@ impl Baseline {
         }
     }
 
-    /// Returns true if an adapter has the class (software, integrated, discrete ..) of the baseline's.
+    /// Returns true if an adapter has the same class (software, integrated, discrete ..) as the baseline's.
     pub fn is_of_class(&self, adapter: &Option<AdapterDescription>) -> bool {
         let [own, other] = [&self.adapter, adapter].map(Option::as_ref);
         own.map(|own| &own.kind) == other.map(|other| &other.kind)

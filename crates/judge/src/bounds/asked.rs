@@ -1,4 +1,4 @@
-//! Limits that decide how scenes are measured: at which size, over which frames, and with which ladders.
+//! Limits that decide how to measure scenes: size, number of frames, and ladders.
 
 use metrics::Metric;
 use suite::{Error, FilterChoice, Frames};
@@ -16,7 +16,7 @@ fn list_limits<'a>(
     })
 }
 
-/// Tells whether any of the scenes has a limit on equivalent sub-frames of any of the filters: ladders have to be rendered for it.
+/// Returns whether any of the scenes limits equivalent sub-frames of any of the filters, which needs rendered ladders.
 pub fn bound_subframes<'a>(
     scenes: impl Iterator<Item = &'a SceneBounds>,
     filters: &'a [FilterChoice],
@@ -24,8 +24,8 @@ pub fn bound_subframes<'a>(
     list_limits(scenes, filters).any(|(metric, _)| matches!(metric, Metric::Equivalent(_)))
 }
 
-/// Returns the size that all limits on these filters hold for; `asked` if they hold for any size. Refuses limits for another size
-/// than `asked`, and limits for two sizes: growth, bleed and misplacement are in pixels.
+/// Returns the size that all limits on these filters are for; `asked` if they are for any size. Refuses limits for another size than
+/// `asked`, and limits for two sizes, since growth, bleed and misplacement are in pixels.
 pub fn size_for_bounds<'a>(
     scenes: impl Iterator<Item = &'a SceneBounds>,
     filters: &'a [FilterChoice],
@@ -60,8 +60,8 @@ pub fn size_for_bounds<'a>(
     Ok(first.map(|(_, size)| size).or(asked))
 }
 
-/// Refuses limits on these filters that hold for another length than that of the sequences that are asked for. Where single frames are
-/// asked for, limits on sequences are left alone, and nothing judges them.
+/// Refuses limits on these filters for another sequence length than requested. For single frames, ignores limits on sequences, which
+/// nothing judges then.
 pub fn check_lengths<'a>(
     scenes: impl Iterator<Item = &'a SceneBounds>,
     filters: &'a [FilterChoice],

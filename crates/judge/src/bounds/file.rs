@@ -21,7 +21,7 @@ pub struct BoundsFile {
     pub default: Bounds,
     /// Bounds for one filter, by its name, or one preset of it, by `filter:preset`.
     pub filters: BTreeMap<String, FilterBounds>,
-    /// Margins by their scores.
+    /// Margins by score.
     pub margins: BTreeMap<Metric, Margin>,
 }
 
@@ -38,7 +38,7 @@ impl BoundsFile {
 pub struct FilterBounds {
     /// File and line.
     pub place: String,
-    /// Bounds by their scores.
+    /// Bounds by score.
     pub bounds: Bounds,
 }
 
@@ -110,7 +110,7 @@ pub fn read_bounds_file(file: impl Into<Location>) -> Result<BoundsFile, Error> 
 /// Reads the name of a score, its entry and its place.
 type ReadEntry<T, U> = fn(&str, T, String) -> Result<(Metric, U), String>;
 
-/// Reads a table of entries by their scores.
+/// Reads a table of entries by score.
 fn read_entries<T, U>(
     entries: Tables<T>,
     place: &dyn Fn(usize) -> String,

@@ -7,8 +7,7 @@ use tracer::{Location, SceneId};
 use crate::bounds::sized::read_all_bounds;
 use crate::bounds::{BOUNDS_FILE, BoundsFile, Level, SceneBounds};
 
-/// Refuses bounds of a scene or a filter that does not exist, in any file below `root` and in those of `scenes`, the bounds of the
-/// scenes that take part.
+/// Refuses bounds of a scene or a filter that does not exist, in any file below `root` and in `scenes`, the bounds of the run's scenes.
 pub fn check_names<'a>(
     root: impl Into<Location>,
     scenes: impl Iterator<Item = &'a SceneBounds>,
@@ -23,9 +22,9 @@ pub fn check_names<'a>(
     })
 }
 
-/// Refuses a case without a bound, and bounds of which none is required: such a check cannot fail. `scenes` are the scenes and the
-/// bounds of scenes in the folder `root`, and `frames` those that each scene is measured at: limits on sequences of another length
-/// judge nothing.
+/// Refuses a case without a bound, and bounds without any required one, since such a check cannot fail. `scenes` are the scenes and the
+/// bounds of scenes in the folder `root`; `frames` are the measured frames of each scene: limits on sequences of another length judge
+/// nothing.
 pub fn require_bounds<'a>(
     root: impl Into<Location>,
     scenes: impl Iterator<Item = (&'a SceneId, &'a SceneBounds)>,
@@ -90,7 +89,7 @@ fn read_bounds_of_scenes(root: &Location) -> Result<Vec<BoundsFile>, Error> {
     Ok(files)
 }
 
-/// Refuses a key `filter` or `filter:preset` that is neither built in nor takes part.
+/// Refuses a key `filter` or `filter:preset` that is neither built in nor in the run.
 fn check_filter(key: &str, choices: &[FilterChoice]) -> Result<(), String> {
     let (name, preset) = match key.split_once(':') {
         Some((name, preset)) => (name, Some(preset)),

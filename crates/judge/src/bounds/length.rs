@@ -1,9 +1,9 @@
-//! Length of the sequence that a limit holds for.
+//! Sequence length of a limit.
 
 use metrics::Metric;
 use suite::{Frames, MAX_FRAMES};
 
-/// Frames that a limit on a score of a sequence holds for.
+/// Frames that a limit on a score of a sequence is for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Length {
     /// Number of frames.
@@ -54,13 +54,13 @@ impl Length {
         }
     }
 
-    /// Tells whether a limit of this length holds for the frames of a run.
+    /// Returns whether a limit of this length is for the frames of a run.
     pub fn holds_for(self, frames: Frames) -> bool {
         let has_rate = |own| own == frames.per_second;
         self.frames == frames.count && self.per_second.is_none_or(has_rate)
     }
 
-    /// Writes the length: `4 frames at 60 per second`.
+    /// Formats the length: `4 frames at 60 per second`.
     pub fn text(self) -> String {
         match self.per_second {
             None => format!("{} frames", self.frames),

@@ -19,10 +19,10 @@ pub use known::{check_names, require_bounds};
 pub use length::Length;
 pub use sized::sized_bounds_file;
 
-/// Name of the file of bounds, beside the scenes and beside one scene. [`sized_bounds_file`] names those for one picture size.
+/// Name of the file of bounds, next to the scenes and next to one scene. [`sized_bounds_file`] names those for one picture size.
 pub const BOUNDS_FILE: &str = "bounds.toml";
 
-/// Bounds by their scores.
+/// Bounds by score.
 pub type Bounds = BTreeMap<Metric, Bound>;
 
 /// Limit on one score.
@@ -30,11 +30,11 @@ pub type Bounds = BTreeMap<Metric, Bound>;
 pub struct Bound {
     /// Highest value allowed; lowest if higher is better; largest distance from the ideal if that is a value.
     pub limit: f64,
-    /// Columns and rows of the pictures that it holds for; none if it holds for all.
+    /// Columns and rows of the pictures that it is for; none if for all.
     pub size: Option<(u32, u32)>,
-    /// Length of the sequence that it holds for; none for a score of a single frame.
+    /// Length of the sequence that it is for; none for a score of a single frame.
     pub length: Option<Length>,
-    /// Reason in one line: what was measured, and how the limit follows.
+    /// Reason in one line: what was measured, and how it leads to the limit.
     pub why: String,
     /// Consequence of breaking it.
     pub level: Level,
@@ -49,20 +49,20 @@ pub enum Level {
     /// The check fails.
     #[default]
     Required,
-    /// The report says so.
+    /// The report mentions it.
     Report,
 }
 
 /// Bounds of one scene, for every filter.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SceneBounds {
-    /// Bounds of all scenes, then those of this one, which override them.
+    /// Bounds of all scenes, then this scene's own, which override them.
     pub files: Vec<BoundsFile>,
 }
 
 impl SceneBounds {
-    /// Returns the bounds of a filter preset. A later bound overrides an earlier one of the same metric: first the file beside the
-    /// scenes, then the file beside the scene; in each the default, then the filter's, then its preset's.
+    /// Returns the bounds of a filter preset. A later bound overrides an earlier one of the same metric: first all scenes' file, then this
+    /// scene's; in each the default, then the filter's, then its preset's.
     pub fn of(&self, filter: &str, preset: &str) -> Bounds {
         let own = format!("{filter}:{preset}");
         let mut bounds = Bounds::new();
@@ -76,7 +76,7 @@ impl SceneBounds {
         bounds
     }
 
-    /// Removes limits that hold only for other picture sizes.
+    /// Removes limits for other picture sizes.
     pub fn at(self, size: (u32, u32)) -> Self {
         self.retain(|bound| bound.size.is_none_or(|own| own == size))
     }
@@ -96,8 +96,8 @@ impl SceneBounds {
     }
 }
 
-/// Reads the bounds beside the scenes and beside the scene: `bounds.toml` if there is one, then, if a size is given, the file for
-/// pictures of that size, whose limits replace those of `bounds.toml` before it.
+/// Reads the bounds of all scenes and of this scene: `bounds.toml` if there is one, then, if a size is given, the file for pictures of that
+/// size, which overrides the preceding `bounds.toml`.
 pub fn read_bounds(
     root: impl Into<Location>,
     scene_folder: impl Into<Location>,
@@ -117,7 +117,7 @@ pub fn read_bounds(
     Ok(SceneBounds { files })
 }
 
-/// Reads the bounds beside the scenes alone, as [`read_bounds`] does.
+/// Reads only the bounds of all scenes, as [`read_bounds`] does.
 pub fn read_bounds_beside_scenes(
     root: impl Into<Location>,
     size: Option<(u32, u32)>,

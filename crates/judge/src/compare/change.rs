@@ -43,7 +43,7 @@ pub struct Change {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Basis {
-    /// The replicates of the truth, left out in pairs from both scores at once, so that noise in both cancels.
+    /// The truth's replicates, left out in pairs from both scores at once, so that noise in both cancels.
     Replicates,
     /// The larger noise floor of the two scores: replicates or pictures are missing.
     Floor,
@@ -53,7 +53,7 @@ pub enum Basis {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ChangeKind {
-    /// Equal to the last bit; of a mean, in every scene.
+    /// Equal to the last bit; for a mean, in every scene.
     Same,
     /// No more than the truth's noise can explain.
     WithinNoise,
@@ -63,9 +63,9 @@ pub enum ChangeKind {
     Better,
     /// The second is worse.
     Worse,
-    /// The interval of a mean holds 0.
+    /// The interval of a mean contains 0.
     Undecided,
-    /// The scenes of a mean are fewer than an interval can be trusted for.
+    /// Too few scenes to trust the interval of a mean.
     TooFewScenes,
 }
 
@@ -84,7 +84,7 @@ impl ChangeKind {
         matches!(self, Self::Better | Self::Worse)
     }
 
-    /// Returns the words for it in a report.
+    /// Returns its words for a report.
     pub fn label(self) -> &'static str {
         match self {
             Self::Same => "same",
@@ -98,7 +98,7 @@ impl ChangeKind {
     }
 }
 
-/// Uncertainty of a difference, from the noise of the truth.
+/// Uncertainty of a difference, from the truth's noise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Uncertainty {
     /// Ends of its 95 % confidence interval.
@@ -147,7 +147,7 @@ impl Change {
         })
     }
 
-    /// Estimates by how much the second is worse against a truth without noise.
+    /// Estimates how much worse the second is against a truth without noise.
     pub fn estimate(&self) -> f64 {
         let [first, second] = self
             .estimates
@@ -164,7 +164,7 @@ impl Change {
     }
 }
 
-/// Turns a change for the worse into a change of the score: more of a score that ought to be high is better.
+/// Converts a change for the worse to a change of the score, which is reversed if higher is better.
 pub fn score_change(metric: Metric, worse: f64) -> f64 {
     match metric.ideal() {
         Ideal::Highest => -worse,

@@ -8,10 +8,10 @@ use crate::bounds::Margin;
 use crate::compare::change::{Change, ChangeKind};
 use crate::compare::mean::MeanChange;
 
-/// Margins of scores that no bound names, in their units: differences that nobody sees.
+/// Margins of scores that no bound names, in their units: invisible differences.
 const USUAL_MARGINS: [(Metric, f64); 2] = [(Metric::PSNR, 0.1), (Metric::SKILL, 0.02)];
 
-/// Marks changes that are smaller than their margin: those of bounds.toml, or else the usual ones.
+/// Marks changes smaller than their margin, from bounds.toml or else the usual one.
 pub fn apply_margins(
     changes: &mut [Change],
     means: &mut [MeanChange],

@@ -12,7 +12,7 @@ use crate::groups::group_by;
 /// Mean of one metric of one filter, over the scenes that it applies to in both runs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MeanChange {
-    /// `jump_flood:paper`, and behind that the frame rate of the scenes where that is none of their files: `jump_flood:paper 24fps`.
+    /// `jump_flood:paper`, followed by the scenes' frame rate if it is not their files': `jump_flood:paper 24fps`.
     pub filter: String,
     /// Score.
     pub metric: Metric,
@@ -80,7 +80,7 @@ mod tests {
     use super::*;
     use crate::compare::change::tests::change;
 
-    /// One filter on as many scenes as there are numbers, by which each is worse.
+    /// One filter on as many scenes as there are numbers, which say how much worse each is.
     fn changes(worse: &[f64]) -> Vec<Change> {
         let change = |(index, worse): (usize, &f64)| {
             let kind = match *worse {

@@ -1,4 +1,4 @@
-//! Comparison of two finished runs: what changed, by more than noise or not.
+//! Comparison of two finished runs: changes, beyond noise or not.
 
 mod change;
 mod margin;
@@ -41,7 +41,7 @@ pub struct RunComparison {
     pub program: &'static str,
     /// Paths of the first run.json and of the second one.
     pub runs: [String; 2],
-    /// Settings in which the runs differ.
+    /// Settings that differ between the runs.
     pub settings: Vec<SettingChange>,
     /// Cases of the first run that the second one lacks: `fan / jump_flood:paper`.
     pub only_in_first: Vec<String>,
@@ -54,7 +54,7 @@ pub struct RunComparison {
 }
 
 /// Compares two runs. Separates changes from noise by the truths' replicates and the pictures, if their files exist, and counts none
-/// below its margin; writes nothing. `watch` hears of every pair of cases.
+/// below its margin; writes nothing. Reports every pair of cases to `watch`.
 pub fn compare_runs(
     first: &StoredRun,
     second: &StoredRun,

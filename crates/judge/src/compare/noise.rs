@@ -1,4 +1,4 @@
-//! Noise of a change between runs, by both pictures against the truth without each pair of its replicates.
+//! Noise of a change between runs: both pictures against the truth without each pair of its replicates.
 
 use std::path::{Path, PathBuf};
 
@@ -14,7 +14,7 @@ use tracer::{Progress, Watch};
 use crate::compare::change::{Change, Uncertainty};
 use crate::compare::pairing::Pair;
 
-/// Metrics that are compared.
+/// Compared metrics.
 const METRICS: [Metric; 9] = [
     Metric::Image(ImageMetric::Flip, Region::Moving),
     Metric::Skill(SkillMetric::Flip),
@@ -63,9 +63,9 @@ struct TruthParts {
     frame: Frame,
     /// Sharp picture of the shutter's middle; none if its file is missing.
     sharp: Option<Picture>,
-    /// Picture that the one-frame oracle makes of the frame.
+    /// The one-frame oracle's picture of the frame.
     oracle: Picture,
-    /// The whole truth, then that without each pair.
+    /// The whole truth, then the truth without each pair.
     truths: Vec<Truth>,
 }
 
@@ -136,15 +136,15 @@ impl TruthParts {
     }
 }
 
-/// Reads the picture that a filter made.
+/// Reads a filter's picture.
 fn read_picture(path: &Path, objects: &[String]) -> Result<Picture, Error> {
     let mut file = read_exr(path)?;
     file.expect_finite()?;
     Ok(Picture::take_from(&mut file, "", objects)?)
 }
 
-/// Returns the uncertainty of a score's change, from both pictures' scores against a truth and against its parts; none if the score
-/// does not apply to one of them.
+/// Returns the uncertainty of a score's change, from both pictures' scores against a truth and its parts; none if the score does not
+/// apply to one of them.
 fn find_uncertainty(scores: &[[Scores; 2]], metric: Metric) -> Option<Uncertainty> {
     let interval = |value: &dyn Fn(&[Scores; 2]) -> Option<f64>| {
         let values: Vec<f64> = scores.iter().map(value).collect::<Option<_>>()?;

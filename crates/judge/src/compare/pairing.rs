@@ -39,7 +39,7 @@ pub fn cases_missing_from(run: &Run, other: &Run) -> Vec<String> {
         .collect()
 }
 
-/// Refuses runs whose scores do not compare.
+/// Refuses runs with incomparable scores.
 pub fn check_comparable(
     first: &StoredRun,
     second: &StoredRun,
@@ -83,8 +83,8 @@ pub fn check_comparable(
     }
 }
 
-/// Finds the partner in `other` of each case of `run`: the same case, or else the only one of its preset that is in one run alone, with
-/// parameters of its own.
+/// Finds the partner in `other` of each case of `run`: the same case, or else the only unpaired one of its preset, with overridden
+/// parameters.
 fn find_partners<'a>(run: &Run, other: &'a Run) -> Vec<Option<&'a Case>> {
     // Of equal cases, the first one counts.
     let cases = other.cases.iter().rev();
@@ -113,7 +113,7 @@ fn find_partners<'a>(run: &Run, other: &'a Run) -> Vec<Option<&'a Case>> {
     run.cases.iter().map(find).collect()
 }
 
-/// Lists names, each once and six at most.
+/// Lists up to six names, each once.
 fn names(all: impl Iterator<Item = String>) -> String {
     const MOST: usize = 6;
     let mut once: Vec<String> = Vec::new();

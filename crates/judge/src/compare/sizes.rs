@@ -1,4 +1,4 @@
-//! Comparison of results at several picture sizes: does a small picture rank filters as a large one does?
+//! Comparison of results at several picture sizes: does a small picture rank filters like a large one?
 
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
@@ -18,11 +18,11 @@ const RESAMPLES: usize = 2000;
 pub struct SizeComparison {
     /// Shutter alignment of the filters.
     pub alignment: Alignment,
-    /// Scenes that every mean is over.
+    /// Scenes in every mean.
     pub scenes: Vec<SceneId>,
     /// Columns and rows of each file of results.
     pub sizes: Vec<(u32, u32)>,
-    /// Filters, the best at the largest size first.
+    /// Filters, best first at the largest size.
     pub filters: Vec<FilterAtSizes>,
     /// Agreement of each size with the largest.
     pub agreement: Vec<Agreement>,
@@ -46,17 +46,17 @@ pub struct Agreement {
     pub tau: f64,
     /// 95 % CI of tau, by resampling the scenes; none for a single scene.
     pub interval: Option<[f64; 2]>,
-    /// Pairs of filters that both sizes order, and alike.
+    /// Pairs of filters that both sizes order alike.
     pub alike: usize,
-    /// Pairs that both sizes order, each the other way round.
+    /// Pairs that both sizes order, in opposite ways.
     pub reversed: Vec<Reversal>,
-    /// Pairs that this size orders, and the largest does not.
+    /// Pairs that only this size orders.
     pub only_here: usize,
-    /// Pairs that the largest size orders, and this one does not.
+    /// Pairs that only the largest size orders.
     pub only_at_largest: usize,
 }
 
-/// Two filters that a size orders, and the largest size orders the other way round.
+/// Two filters that a size and the largest size order in opposite ways.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reversal {
     /// Filter that is better at the smaller size.
@@ -71,7 +71,7 @@ pub struct Reversal {
 type Badness = Vec<Vec<f64>>;
 
 /// Compares results of the same filters and scenes by a score, each with the last, which is the largest; one comparison per shutter
-/// alignment. A size orders two filters if the 95 % CI of their mean difference over scenes does not hold 0. That needs five scenes.
+/// alignment. A size orders two filters if the 95 % CI of their mean difference over scenes excludes 0. That needs five scenes.
 ///
 /// Scenes and filters that one of them lacks are an error.
 pub fn compare_sizes(results: &[&Results], metric: Metric) -> Result<Vec<SizeComparison>, Error> {
@@ -201,7 +201,7 @@ fn bootstrap(scenes: usize, statistic: &dyn Fn(&[usize]) -> f64) -> [f64; 2] {
     [0.025, 0.975].map(|part| found[(part * (RESAMPLES - 1) as f64).round() as usize])
 }
 
-/// Averages what the second filter has more than the first, over scenes.
+/// Averages the second filter's excess over the first, over scenes.
 fn difference(size: &Badness, first: usize, second: usize) -> SceneMean {
     let pairs = size[second].iter().zip(&size[first]);
     let differences: Vec<f64> = pairs.map(|(second, first)| second - first).collect();
@@ -209,7 +209,7 @@ fn difference(size: &Badness, first: usize, second: usize) -> SceneMean {
 }
 
 /// Computes Kendall's tau-b of two lists of values for the same things (Kendall 1945, "The treatment of ties in ranking problems").
-/// 1 for lists that are constant, which say nothing against each other.
+/// Returns 1 for constant lists, which do not contradict each other.
 fn kendalls_tau(a: &[f64], b: &[f64]) -> f64 {
     let (mut agree, mut pairs_a, mut pairs_b) = (0.0, 0.0, 0.0);
     for first in 0..a.len() {
@@ -252,7 +252,7 @@ mod tests {
     fn a_pair_is_reversed_only_if_both_sizes_order_it() {
         let better = vec![0.10, 0.11, 0.12, 0.13, 0.14, 0.15];
         let worse: Vec<f64> = better.iter().map(|value| value + 0.02).collect();
-        // Between the two on average, and too scattered to be told from either.
+        // Between the two on average, and too scattered to differ from either.
         let noisy = vec![0.25, 0.02, 0.25, 0.02, 0.25, 0.02];
         let here = vec![better.clone(), worse.clone(), noisy.clone()];
         let largest = vec![worse, better, noisy];
@@ -272,7 +272,7 @@ mod tests {
 
     #[test]
     fn an_interval_holds_the_share_of_the_scenes_that_disagree() {
-        // Two filters; one scene of four turns them round by as much as the other three do not.
+        // Two filters; one scene of four reverses them by as much as the other three do not.
         let here = vec![vec![0.1; 4], vec![0.2; 4]];
         let largest = vec![vec![0.1, 0.1, 0.1, 0.4], vec![0.2, 0.2, 0.2, 0.1]];
         let found = compare_order(&NAMES[..2], &here, &largest);

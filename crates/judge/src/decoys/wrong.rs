@@ -3,14 +3,13 @@
 use frame::{Alignment, Frame, Picture, Plane, Raster, Truth};
 use metrics::scatter_oracle;
 
-/// Number of sub-frames whose mean shows bands.
+/// Number of sub-frames with a banded mean.
 pub const FEW_SUBFRAMES: u32 = 4;
 /// Pixels by which moving objects are widened.
 const WIDENED: u32 = 2;
 
-/// Makes wrong blurs of a frame without guard band, with their names. They smear as the scatter oracle does, the best that the
-/// frame allows, so that each has the one mistake that its name says. `few_subframes` is the mean of [`FEW_SUBFRAMES`], where there is
-/// one.
+/// Makes wrong blurs of a frame without guard band, with their names. They smear like the scatter oracle, the best that the frame allows,
+/// so that each has only the mistake in its name. `few_subframes` is the mean of [`FEW_SUBFRAMES`], if there is one.
 pub fn make_wrong_pictures(
     frame: &Frame,
     truth: &Truth,

@@ -10,41 +10,41 @@ use crate::groups::group_by;
 /// A filter preset in the ranking of its shutter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RankedFilter {
-    /// `jump_flood:paper`, followed by what is not as usual.
+    /// `jump_flood:paper`, followed by everything unusual.
     pub name: String,
     /// Name of the filter alone.
     pub filter: String,
     /// Shutter alignment that it is scored against.
     pub alignment: Alignment,
-    /// Frame rate of the scenes; none for that of their files.
+    /// Frame rate of the scenes; none for their files' own.
     pub rate: Option<FrameRate>,
-    /// Best and worst rank among the filters of its shutter: the first is 1 plus the number of filters that are better, the second the
-    /// number of all filters less those that are worse.
+    /// Best and worst rank among the filters of its shutter: 1 plus the number of better filters, and the number of all filters less the
+    /// worse ones.
     pub ranks: [usize; 2],
     /// Mean score over the scenes.
     pub mean: f64,
     /// 95 % CI of the mean over scenes; none on a single scene.
     pub interval: Option<[f64; 2]>,
-    /// Number of scenes that have a score.
+    /// Number of scenes with a score.
     pub scenes: usize,
     /// Scene with the largest score, and that score.
     pub worst: (SceneId, f64),
-    /// Number of ranked presets of the filter, this one included.
+    /// Number of ranked presets of the filter, including this one.
     pub presets: usize,
 }
 
-/// Score of one filter preset on one scene, of which lower is better.
+/// Score of one filter preset on one scene; lower is better.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RankedScore {
     /// Name of the scene.
     pub scene: SceneId,
     /// Name of the filter alone.
     pub filter: String,
-    /// `jump_flood:paper`, followed by what is not as usual.
+    /// `jump_flood:paper`, followed by everything unusual.
     pub name: String,
     /// Shutter alignment that it is scored against.
     pub alignment: Alignment,
-    /// The score; of FLIP the estimate against a truth without noise.
+    /// The score; for FLIP the estimate against a truth without noise.
     pub value: f64,
     /// Difference that the truth's noise makes.
     pub floor: f64,
@@ -53,14 +53,14 @@ pub struct RankedScore {
 /// A filter preset with its scores.
 type Entry<'a> = (RankedFilter, Vec<&'a RankedScore>);
 
-/// What ranks say, for readers.
+/// Explanation of ranks for readers.
 pub const RANK_RULE: &str = "Rank 2-4: one filter is better, two are too close to tell apart, the others are worse, by the 95 % CI of \
                              the difference (on one scene, the noise floor).";
 
 /// Upper limit on presets that a summary ranks one by one.
 pub const MAX_RANKED: usize = 16;
 
-/// Lists the cases that a summary ranks: those of scenes at the frame rate of their files, or all where no scene is.
+/// Lists the cases for a summary: scenes at their files' frame rate, or all if no scene is.
 pub fn list_summarized(cases: &[Case]) -> Vec<&Case> {
     let as_written = |case: &&Case| case.rate.is_none();
     match cases.iter().any(|case| as_written(&case)) {
@@ -69,8 +69,8 @@ pub fn list_summarized(cases: &[Case]) -> Vec<&Case> {
     }
 }
 
-/// Ranks filters for a summary, with the full form of their input, on scenes at the frame rate of their files, where the run tried
-/// others as well. Where the presets are too many for it, the best preset of each filter stands for the filter.
+/// Ranks filters for a summary: with full input forms, on scenes at their files' frame rate, if the run tried others as well. If there
+/// are too many presets, each filter is represented by its best one.
 pub fn rank_for_summary(cases: &[Case]) -> Vec<Vec<RankedFilter>> {
     let full: Vec<RankedScore> = (list_summarized(cases).into_iter())
         .filter(|case| !case.is_reference && case.input == InputFormat::default())
@@ -79,7 +79,7 @@ pub fn rank_for_summary(cases: &[Case]) -> Vec<Vec<RankedFilter>> {
     rank_best(&full)
 }
 
-/// Ranks all presets; where they are too many for a summary, the best preset of each filter stands for the filter.
+/// Ranks all presets; if they are too many for a summary, only the best of each filter.
 pub(crate) fn rank_best(scores: &[RankedScore]) -> Vec<Vec<RankedFilter>> {
     let presets = rank_by_score(scores, false);
     match presets.iter().map(Vec::len).sum() {
@@ -89,7 +89,7 @@ pub(crate) fn rank_best(scores: &[RankedScore]) -> Vec<Vec<RankedFilter>> {
 }
 
 impl RankedScore {
-    /// The FLIP of a case; none where nothing moves.
+    /// Returns the FLIP of a case; none if nothing moves.
     fn flip_of(case: &Case) -> Option<Self> {
         Some(Self {
             scene: case.scene.clone(),
@@ -102,12 +102,12 @@ impl RankedScore {
     }
 }
 
-/// Ranks filters of one shutter and frame rate among each other, the best first: one group per shutter and rate. With `best_presets`,
-/// the best preset stands for its filter.
+/// Ranks filters of one shutter and frame rate, best first: one group per shutter and rate. With `best_presets`, each filter is
+/// represented by its best preset.
 ///
 /// One filter is better than another if its mean is lower and the 95 % CI of the mean difference over their common scenes excludes 0;
-/// on a single scene, if the difference exceeds the noise floor. A filter's ranks leave room for all filters that cannot be told from
-/// it. That two filters are too close to tell apart is not transitive, so that ranges overlap.
+/// on a single scene, if the difference exceeds the noise floor. A filter's ranks allow for all filters that are too close to it. Being
+/// too close is not transitive, so ranges overlap.
 pub(crate) fn rank_by_score(scores: &[RankedScore], best_presets: bool) -> Vec<Vec<RankedFilter>> {
     (group_by(scores, |own| (own.alignment, own.scene.rate)).into_iter())
         .map(|group| rank_group(group_by(group, |own| &own.name), best_presets))
@@ -136,7 +136,7 @@ fn rank_group(filters: Vec<Vec<&RankedScore>>, best_presets: bool) -> Vec<Ranked
 }
 
 impl RankedFilter {
-    /// Writes its rank, or the range of its ranks: `1`, `2-4`.
+    /// Formats its rank, or the range of its ranks: `1`, `2-4`.
     pub fn rank_text(&self) -> String {
         match self.ranks {
             [first, last] if first == last => first.to_string(),
@@ -144,7 +144,7 @@ impl RankedFilter {
         }
     }
 
-    /// Tells whether other filters are too close to it to tell apart.
+    /// Returns whether other filters are too close to it to rank.
     pub fn is_tied(&self) -> bool {
         self.ranks[0] < self.ranks[1]
     }

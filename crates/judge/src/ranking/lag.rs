@@ -1,4 +1,4 @@
-//! Lag: what it costs that the frame is not the middle of its shutter.
+//! Lag: the error of a frame that is not the middle of its shutter.
 
 use frame::Alignment;
 use metrics::Metric;
@@ -6,8 +6,8 @@ use suite::{Case, IDENTITY};
 
 use crate::ranking::filters::list_summarized;
 
-/// Returns the FLIP that the frame has above a sharp picture of the shutter's middle: the mean over the scenes of `cases`, which are of
-/// one shutter and frame rate. None where the frame is that picture.
+/// Returns the frame's excess FLIP over a sharp picture of the shutter's middle: the mean over the scenes of `cases`, which share one
+/// shutter and frame rate. None if the frame is that picture.
 pub fn mean_lag(cases: &[&Case]) -> Option<f64> {
     let lags = cases.iter().filter(|case| case.is_sharp()).map(|sharp| {
         let is_frame = |case: &&&Case| {
@@ -20,7 +20,7 @@ pub fn mean_lag(cases: &[&Case]) -> Option<f64> {
     (!lags.is_empty()).then(|| lags.iter().sum::<f64>() / lags.len() as f64)
 }
 
-/// Says what the lag behind the frame costs under each shutter; none where no shutter has one.
+/// Describes the cost of lag under each shutter; none if no shutter has one.
 pub fn lag_text(cases: &[Case]) -> Option<String> {
     let cases = list_summarized(cases);
     let mut alignments: Vec<Alignment> = cases.iter().map(|case| case.alignment).collect();

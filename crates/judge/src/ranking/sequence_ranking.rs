@@ -8,28 +8,28 @@ use tracer::SceneId;
 
 use crate::ranking::filters::{RankedFilter, RankedScore, rank_best, rank_by_score};
 
-/// The score that sequences are ranked by: the one that counts errors of single frames and of their changes together. Scores of changes
-/// alone rank a filter high that flickers little around a wrong picture.
+/// The score that ranks sequences: it counts errors of single frames and of their changes together. Scores of changes alone would favour
+/// a filter that flickers little around a wrong picture.
 pub const RANKED_BY: SequenceMetric = SequenceMetric::Jod;
 
 /// A filter preset in the ranking of sequences of its shutter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RankedSequence {
-    /// Rank by [`RANKED_BY`], and the mean of that score over the scenes; its worst scene is that of the lowest score.
+    /// Rank by [`RANKED_BY`], and the mean of that score over the scenes; its worst scene has the lowest score.
     pub ranked: RankedFilter,
-    /// Mean of every score over the scenes as tables show it; none where no scene has it.
+    /// Mean of every displayed score over the scenes; none if no scene has it.
     pub means: Vec<(SequenceMetric, Option<SceneMean>)>,
 }
 
-/// Ranks the filters of a run's sequences, one group per shutter, with the full form of their input where the run tried others as well.
-/// Where the presets are too many for a summary, the best preset of each filter stands for the filter. A filter without the score that
-/// decides has no rank, and is left out.
+/// Ranks the filters of a run's sequences, one group per shutter, with full input forms if the run tried others as well. If there are too
+/// many presets for a summary, each filter is represented by its best one. Leaves out filters without the deciding score, which have no
+/// rank.
 pub fn rank_sequences(run: &Run) -> Vec<Vec<RankedSequence>> {
     let is_full = |_: &Sequence, case: &Case| case.input == InputFormat::default();
     rank(run, is_full, rank_best)
 }
 
-/// Ranks the sequences of one scene alone, every preset in every form of the input.
+/// Ranks the sequences of one scene, every preset in every input form.
 pub fn rank_sequences_on(run: &Run, scene: &SceneId) -> Vec<Vec<RankedSequence>> {
     let is_of_scene = |own: &Sequence, _: &Case| own.scene == *scene;
     rank(run, is_of_scene, |losses| rank_by_score(losses, false))
@@ -72,7 +72,7 @@ fn rank(
         .collect()
 }
 
-/// Computes the JOD that a sequence lacks to the perfect ones, and those that the truth cannot vouch for.
+/// Computes a sequence's JOD below perfect, and the JOD that the truth's noise may account for.
 fn loss_of((own, case): &(&Sequence, &Case)) -> Option<RankedScore> {
     let Measured::Score(score) = own.scores.get(RANKED_BY) else {
         return None;
@@ -87,7 +87,7 @@ fn loss_of((own, case): &(&Sequence, &Case)) -> Option<RankedScore> {
     })
 }
 
-/// Turns lost JOD into those that are left.
+/// Converts lost JOD to remaining JOD.
 fn as_quality(lost: RankedFilter) -> RankedFilter {
     let left = |lost: f64| PERFECT_JOD - lost;
     RankedFilter {

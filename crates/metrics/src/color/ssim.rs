@@ -19,7 +19,7 @@ const BAND: usize = 64;
 /// Planes that are filtered: both pictures, their squares and their product.
 const FILTERED: usize = 5;
 
-/// Maps SSIM, mean over the channels of what a display shows, in [-1, 1]; 1 is equal. Wang et al., "Image Quality
+/// Maps SSIM of display values, mean over the channels, in [-1, 1]; 1 is equal. Wang et al., "Image Quality
 /// Assessment: From Error Visibility to Structural Similarity" (2004), with a Gaussian window, biased covariance and data
 /// range 1, as scikit-image computes it with `gaussian_weights`.
 pub fn map_ssim(output: &Image, truth: &Image) -> Raster<f64> {

@@ -118,7 +118,7 @@ impl WithSimd for Down<'_> {
     }
 }
 
-/// Lists the columns of a row that is mirrored at its ends, from `beyond` pixels before it to as many behind it.
+/// Lists the columns of a row that is mirrored at its ends, from `beyond` pixels before it to `beyond` after it.
 pub fn mirrored_places(width: usize, beyond: usize) -> Vec<usize> {
     (0..width + 2 * beyond)
         .map(|at| mirror_index(at, beyond, width))

@@ -1,7 +1,7 @@
-//! Correlations of lines with taps, a block of pixels at a time whose sums stay in registers.
+//! Correlations of lines with taps, by blocks of pixels whose sums stay in registers.
 //!
 //! Products are added one by one in the order of the taps: the width of the instructions changes no bit. Everything is inlined into
-//! the caller, which pulp makes for the instructions that the processor has.
+//! the caller, which pulp compiles for the instructions of the processor.
 
 use pulp::Simd;
 
@@ -74,7 +74,8 @@ impl<S: Simd> Number<S> for f64 {
 /// Registers of sums.
 const REGISTERS: usize = 4;
 
-/// Correlates a line, whose length is a multiple of `LANES`; `values` begins as far before the line as the taps reach.
+/// Correlates a line with a length that is a multiple of `LANES`; `values` begins as far
+/// before the line as the taps reach.
 #[inline(always)]
 pub fn correlate<S: Simd, T: Number<S>, const LANES: usize>(
     simd: S,

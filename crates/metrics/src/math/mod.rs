@@ -1,4 +1,4 @@
-//! Means, convolutions, powers and rasters that several rooms share.
+//! Means, convolutions, powers and rasters that several modules share.
 
 pub mod convolution;
 pub mod lines;

@@ -1,7 +1,7 @@
 //! Powers of numbers that are not negative, a line at a time.
 
-/// Raises `x`, not negative and finite, to `y` in [0, 1]: rounds a result that is good to 9 digits, so that it nearly always is
-/// what the system's library returns. It has no branch, so that compilers turn loops over it into wide instructions.
+/// Raises `x`, not negative and finite, to `y` in [0, 1]. The result is rounded from 9 good digits, so that it nearly always
+/// equals the system library's. There is no branch, so that loops over it compile to wide instructions.
 #[inline(always)]
 pub fn power(x: f32, y: f32) -> f32 {
     let product = f64::from(y) * log2(f64::from(x));
@@ -18,7 +18,7 @@ const FRACTION: u32 = 52;
 const ONE: u64 = 1023 << FRACTION;
 /// Bits of the root of a half: mantissas are taken from there to the root of two.
 const ROOT_OF_HALF: u64 = 0x3fe6_a09e_667f_3bcd;
-/// 2^52, whose last bit counts ones.
+/// 2^52: its last bit counts ones.
 const WHOLE: f64 = (1_u64 << FRACTION) as f64;
 
 /// Computes the binary logarithm of a positive number.
@@ -29,7 +29,7 @@ fn log2(x: f64) -> f64 {
     let mantissa = x
         .to_bits()
         .wrapping_sub((exponent << FRACTION).wrapping_sub(ONE));
-    // No instruction converts whole numbers of 64 bits: they are put into the fraction of 2^52.
+    // No instruction converts whole numbers of 64 bits, so they go into the fraction of 2^52.
     let exponent = f64::from_bits(exponent | WHOLE.to_bits()) - (WHOLE + 1023.0);
     let mantissa = f64::from_bits(mantissa);
     // log2 m = 2 / ln 2 * atanh s, |s| < 0.172: the first term that is left out is below 1e-9.

@@ -3,7 +3,7 @@
 use frame::Raster;
 use rayon::prelude::*;
 
-/// Least pixels that are worth a thread of their own.
+/// Fewest pixels worth a thread of their own.
 const PART: usize = 1 << 14;
 
 /// Makes a raster of the same size, each pixel from the other's.
@@ -14,7 +14,7 @@ pub fn map_pixels<T: Sync, U: Send>(
     index_pixels(raster, |at| value(&raster.pixels[at]))
 }
 
-/// Makes a raster of the same size, each pixel from those of both. Panics if the sizes differ.
+/// Makes a raster of the same size, each pixel from both. Panics if the sizes differ.
 pub fn zip_pixels<T: Sync, U: Sync, V: Send>(
     raster: &Raster<T>,
     other: &Raster<U>,

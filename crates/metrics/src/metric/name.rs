@@ -11,7 +11,7 @@ use super::rows::{
 };
 use crate::{ErrorMap, Ideal, PERFECT_JOD, Region, SequenceMetric};
 
-/// Name of a score. No two scores share one; files hold it as a text, and are sorted by it.
+/// Name of a score, unique; files store it as text and sort by it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(into = "String", try_from = "String")]
 pub enum Metric {
@@ -21,11 +21,11 @@ pub enum Metric {
     Object(ObjectMetric),
     /// Label total variation over the moving region: `label_tv`.
     Label(LabelMetric),
-    /// `occluder_contamination`: label total variation on the worst of the objects that stand still.
+    /// `occluder_contamination`: label total variation on the worst of the objects that do not move.
     OccluderContamination,
     /// `static_contamination`: change of the picture where nothing moves.
     StaticContamination,
-    /// An error against the truth whose shading stands still: `mse_frozen`.
+    /// An error against the truth with frozen shading: `mse_frozen`.
     Frozen(FrozenMetric),
     /// A score of pictures of ones and coordinates: `unity`.
     Probe(ProbeMetric),
@@ -35,14 +35,14 @@ pub enum Metric {
     Equivalent(EquivalentMetric),
     /// A score of a sequence: `flicker`.
     Sequence(SequenceMetric),
-    /// `bleed`: the largest of the bleeds beside, ahead of and behind a mover.
+    /// `bleed`: the largest of the bleeds to the sides of a mover, ahead of it and behind it.
     Bleed,
     /// `flip_common`, FLIP* in tables: FLIP against the shutter that all cases of a run are compared with.
     CommonFlip,
 }
 
 impl SkillMetric {
-    /// Returns the error that it is the skill of.
+    /// Returns the error that the skill is computed from.
     pub fn error(self) -> Metric {
         match self {
             SkillMetric::Mse => Metric::Image(ImageMetric::Mse, Region::Moving),
@@ -131,7 +131,7 @@ impl Metric {
                 name: "bleed",
                 unit: "px",
                 map: ErrorMap::Bleed,
-                meaning: "mover spilled where it never was: the largest of beside, ahead (>) and behind (<)",
+                meaning: "mover spilled where it never was: the largest of sideways, ahead (>) and behind (<)",
                 report_only: Some(
                     "is the largest of bleed_lateral, bleed_leading and bleed_trailing",
                 ),
@@ -164,7 +164,7 @@ impl Metric {
         self.row().ideal
     }
 
-    /// Explains the metric in one line; `README.md` beside this crate has the formulas.
+    /// Explains the metric in one line; the crate's `README.md` has the formulas.
     pub fn meaning(self) -> String {
         match self {
             Metric::Image(metric, region) => {
@@ -197,7 +197,7 @@ impl Metric {
         }
     }
 
-    /// Tells whether scores of two shutter alignments compare.
+    /// Returns whether scores of two shutter alignments can be compared.
     pub fn spans_alignments(self) -> bool {
         matches!(self, Metric::CommonFlip | Metric::Skill(_))
     }
@@ -226,10 +226,10 @@ impl Metric {
         format!("{rounded:.*}", digits as usize)
     }
 
-    /// Computes the strictest bound that a truth with this noise floor can carry: three floors from perfect. For unbiased squared
-    /// errors these are three standard deviations of a perfect picture's score, and for PSNR three times the floor's squared error.
-    /// For equivalent sub-frames it is a third of the highest count that the truth can tell, because error falls at least as fast
-    /// as the count rises.
+    /// Computes the strictest bound that a truth with this noise floor supports: three floors from perfect. For unbiased
+    /// squared errors these are three standard deviations of a perfect picture's score, and for PSNR three times the floor's
+    /// squared error. For equivalent sub-frames it is a third of the highest count that the truth can resolve, because error
+    /// falls at least as fast as the count rises.
     pub fn strictest_bound(self, floor: f64) -> f64 {
         match (self, self.ideal()) {
             (Metric::Image(ImageMetric::Psnr, _), _) => floor - 10.0 * 3f64.log10(),

@@ -11,20 +11,20 @@ pub struct Row {
     pub unit: &'static str,
     /// Ideal value.
     pub ideal: Ideal,
-    /// One line for a reader who has not met the metric.
+    /// One-line description for a reader who is new to the metric.
     pub meaning: &'static str,
     /// Group in which a report shows it.
     pub group: Group,
     /// The map that it was pooled from, or else the one that best shows what it measures.
     pub map: ErrorMap,
-    /// True for a percentile, which is no smooth function of the truth: its intervals are wider.
+    /// True for a percentile, which is not a smooth function of the truth: its intervals are wider.
     pub is_percentile: bool,
     /// Reason why no bound may name it; none for metrics that may be bounded.
     pub report_only: Option<&'static str>,
 }
 
 impl Row {
-    /// What most rows have in common: no percentile, and bounds may name them.
+    /// Defaults that most rows share: not a percentile, and bounds may name them.
     pub(crate) const USUAL: Row = Row {
         name: "",
         unit: "",
@@ -48,7 +48,7 @@ pub enum Group {
     Label,
     /// The worst moving object's silhouette and mass.
     Silhouette,
-    /// Errors split by what a single frame can tell.
+    /// Errors split by what a single frame shows.
     Instant,
     /// Places that a filter gathers from.
     Gathered,
@@ -133,7 +133,7 @@ macro_rules! metrics {
         }
 
         impl $Scores {
-            /// Makes scores that do not apply, because of `reason`, of nothing in particular.
+            /// Makes scores that do not apply, because of `reason`; facts are defaults.
             pub fn not_applicable(reason: &str) -> Self {
                 Self {
                     $($fact: Default::default(),)*

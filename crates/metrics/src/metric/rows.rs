@@ -1,6 +1,6 @@
 //! Rows of all metrics, group by group, and the structs of their scores.
 //!
-//! To add one, write its row here and measure it where the struct of its group is made; `README.md` beside this crate defines it.
+//! To add one, write its row here and measure it where the struct of its group is made; the crate's `README.md` defines it.
 
 use serde::{Deserialize, Serialize};
 
@@ -54,7 +54,7 @@ metrics! {
         meaning: "visible difference",
     }
 
-    /// Value of LDR-FLIP up to which half of its sum lies.
+    /// Value of LDR-FLIP up to which pixels make up half of its sum.
     FlipWeightedMedian => flip_weighted_median {
         name: "flip_weighted_median", unit: "", ideal: Ideal::Lowest, group: Group::RunJson, map: ErrorMap::Flip,
         meaning: "half of all visible difference is in pixels up to this value",
@@ -81,7 +81,7 @@ metrics! {
         meaning: "visible difference at the exposure that shows most of it",
     }
 
-    /// Mean structural similarity of what a display shows.
+    /// Mean structural similarity of display values.
     Ssim => ssim {
         name: "ssim", unit: "", ideal: Ideal::Highest, group: Group::Seen, map: ErrorMap::Flip,
         meaning: "structural similarity",
@@ -120,11 +120,11 @@ metrics! {
         object: String,
         /// True if any of it moves on screen.
         moves: bool,
-        /// Mean displacement over the shutter, in pixels; +x right, +y down. Zero for what is not seen.
+        /// Mean displacement over the shutter, in pixels; +x right, +y down. Zero for an object that is not seen.
         displacement: [f64; 2],
     }
 
-    /// Bleed beside the support, in pixels.
+    /// Bleed to the sides of the support, in pixels.
     BleedLateral => bleed_lateral {
         name: "bleed_lateral", unit: "px", ideal: Ideal::Lowest, group: Group::Silhouette, map: ErrorMap::Bleed,
         meaning: "mover spilled to the sides of its path",
@@ -154,13 +154,13 @@ metrics! {
         meaning: "how much more of the mover its own rows hold, as pixels of silhouette",
     }
 
-    /// Mass that they lost, likewise.
+    /// Mass that they lost, in pixels of lateral silhouette.
     RowLoss => row_loss {
         name: "row_loss", unit: "px", ideal: Ideal::Lowest, group: Group::Silhouette, map: ErrorMap::LabelTotalVariation,
         meaning: "how much less of the mover rows along the motion hold, as pixels of silhouette",
     }
 
-    /// Distance of its mass from where it should lie along the motion, in pixels.
+    /// Distance of its mass from where it should be along the motion, in pixels.
     Misplacement => misplacement {
         name: "misplacement", unit: "px", ideal: Ideal::Lowest, group: Group::Silhouette, map: ErrorMap::LabelTotalVariation,
         meaning: "how far the smear's mass is displaced along the motion",
@@ -178,13 +178,13 @@ metrics! {
         meaning: "length of the smear over the true length; 1 is right",
     }
 
-    /// Total variation along the motion over the true one, less 1: steps, ripples and noise raise it.
+    /// Total variation along the motion over the true one, minus 1: steps, ripples and noise raise it.
     TvExcess => tv_excess {
         name: "tv_excess", unit: "", ideal: Ideal::Target(0.0), group: Group::Silhouette, map: ErrorMap::LabelTotalVariation,
         meaning: "steps, ripples and grain along the smear; 0 is right",
     }
 
-    /// Mean of what is missing where nothing but the object is seen while the shutter is open.
+    /// Mean missing coverage where only the object is seen while the shutter is open.
     Hole => hole {
         name: "hole", unit: "", ideal: Ideal::Target(0.0), group: Group::Silhouette, map: ErrorMap::LabelTotalVariation,
         meaning: "how much shows through where the mover hides all; 0 is right",
@@ -218,7 +218,7 @@ metrics! {
 metrics! {
     /// An error against the frozen-shading truth, over the moving region.
     enum FrozenMetric;
-    /// Errors over the moving region against the truth whose shading stands still at the instant: errors of visibility alone.
+    /// Errors over the moving region against the truth with shading frozen at the instant: errors of visibility alone.
     struct FrozenScores of Measured {}
 
     /// Unbiased mean squared error; display white is 1.
@@ -246,7 +246,7 @@ metrics! {
 metrics! {
     /// A score of probes, which are pictures of ones and of coordinates.
     enum ProbeMetric;
-    /// Scores of what a filter makes of probes, whose truth is exact.
+    /// Scores of a filter's output for probes, which have an exact truth.
     struct ProbeScores of Measured {}
 
     /// Largest difference of a pixel's sum of weights from 1.
@@ -255,14 +255,14 @@ metrics! {
         meaning: "how far the weights of any pixel are from adding up to 1",
     }
 
-    /// Mean distance between the middle of what the filter gathers and the middle of where that was at the instant, in
+    /// Mean distance between the centres of the gathered and the true origins at the instant, in
     /// pixels, over the knowable region.
     GatherOffset => gather_offset {
         name: "gather_offset", unit: "px", ideal: Ideal::Lowest, group: Group::Gathered, map: ErrorMap::GatherOffset,
         meaning: "how far from the right place the filter gathers",
     }
 
-    /// Mean difference of the standard deviations about these middles, in pixels, over the knowable region.
+    /// Mean difference of the standard deviations about these centres, in pixels, over the knowable region.
     GatherSpread => gather_spread {
         name: "gather_spread", unit: "px", ideal: Ideal::Lowest, group: Group::Gathered, map: ErrorMap::GatherSpread,
         meaning: "how much too widely or too narrowly it gathers",

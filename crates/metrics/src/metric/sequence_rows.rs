@@ -14,10 +14,10 @@ impl SequenceMetric {
         self == Self::Jod
     }
 
-    /// Converts a score to the number that tables show: thousandths of display white, squared errors by their roots; JOD as it is.
+    /// Converts a score to the number that tables show: thousandths of display white, squared errors as roots; JOD as it is.
     pub fn shown(self, value: f64) -> f64 {
         match self.row().unit {
-            // Below 0 by the truth's noise alone.
+            // Only the truth's noise makes it negative.
             "white^2" => 1000.0 * value.max(0.0).sqrt(),
             "JOD" => value,
             _ => 1000.0 * value,
@@ -44,11 +44,11 @@ impl SequenceMetric {
 metrics! {
     /// A score of a sequence.
     enum SequenceMetric;
-    /// Scores of a sequence of pictures against that of truths. Squared errors are those of display-scaled radiance, without the bias
-    /// of the truth's noise; they may be negative by noise.
+    /// Scores of a sequence of pictures against truths. Squared errors are of display-scaled radiance, without the bias of the
+    /// truth's noise, which may make them negative.
     struct SequenceScores of Measured {}
 
-    /// Mean over the frames of the squared error over what moves.
+    /// Mean over the frames of the squared error where anything moves.
     Error => error {
         name: "error", unit: "white^2", ideal: Ideal::Lowest, group: Group::Time, map: ErrorMap::SquaredError,
         meaning: "squared error of single frames where anything moves",

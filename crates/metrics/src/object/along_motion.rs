@@ -7,8 +7,8 @@ use crate::object::mover::Mover;
 use crate::object::row_mass::{InstantRows, RowMass};
 use crate::object::rows::{Grid, Rows};
 
-/// Largest difference between the rows of instant and shutter, in pixels of silhouette, gains and losses together. Above it, growth
-/// would measure what hides the object, not what a filter did.
+/// Largest difference between the rows of instant and shutter, in pixels of silhouette, gains and losses together. Above it,
+/// growth would measure occlusion, not the filter.
 const LARGEST_ROW_CHANGE: f64 = 0.25;
 
 /// Facts about an object that translates within the picture.

@@ -5,18 +5,19 @@ use crate::object::rows::Grid;
 /// Mass along the motion, compared with the truth row by row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Misplacement {
-    /// Mean distance along the motion that mass would have to travel to lie as in the truth (Wasserstein-1), in pixels.
+    /// Mean distance along the motion that mass would have to travel to match the truth (Wasserstein-1), in pixels.
     pub distance: f64,
     /// Signed shift of the centre of all mass, in pixels; positive = ahead.
     pub centroid: f64,
-    /// Standard deviation along the motion over the truth's: 1 = right length. None where negative mass leaves no variance, as a
-    /// filter's noise makes it.
+    /// Standard deviation along the motion over the truth's: 1 = right length. None if negative mass, which a filter's
+    /// noise makes, leaves no variance.
     pub extent: Option<f64>,
 }
 
-/// Compares rows. For `distance` and `extent` each row is normalised to a mass of 1, so that lateral errors do not count. Rows weigh
-/// as the truth's mass in them; rows that are empty in either matte are left out. `centroid` compares the whole mattes. `None` if
-/// either matte has no mass, no row is left, or the truth has no length along the motion.
+/// Compares rows. For `distance` and `extent` each row is normalised to a mass of 1, so that lateral errors
+/// do not count. Rows are weighted by the truth's mass in them; rows that are empty in either matte are left
+/// out. `centroid` compares the whole mattes. `None` if either matte has no mass, no row is left, or the
+/// truth has no length along the motion.
 pub fn measure_misplacement(output: &Grid, truth: &Grid) -> Option<Misplacement> {
     let centroid = output.center()? - truth.center()?;
     let (mut weight, mut distance) = (0.0, 0.0);
@@ -89,7 +90,7 @@ mod tests {
         });
         let found = measure_misplacement(&rows.spread(&output), &rows.spread(&truth))
             .expect("both have mass");
-        // 6 of 8 px of mass lie 4 px ahead; the mean over rows would be 2. Exact in binary.
+        // 6 of 8 px of mass are 4 px ahead; the mean over rows would be 2. Exact in binary.
         assert_eq!(found.centroid, 3.0);
         assert_eq!(found.distance, 2.0);
     }
@@ -107,7 +108,7 @@ mod tests {
         });
         let [truth, output] = mattes.map(|matte| rows.spread(&matte));
         let found = measure_misplacement(&output, &truth).expect("both have mass");
-        // The second row lies 4 px ahead, and so does the third, which is left out. Mattes have 32 bits.
+        // The second row is 4 px ahead, and so is the third, which is left out. Mattes have 32 bits.
         assert!((found.distance - 0.04 / 2.01).abs() < 1e-6, "{found:?}");
     }
 

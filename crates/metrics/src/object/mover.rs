@@ -4,7 +4,7 @@ use frame::{Frame, Plane, Raster};
 
 use crate::object::nearest::find_nearest;
 
-/// Least displacement over the shutter, in pixels; less counts as none, because nothing of it can be measured.
+/// Least displacement over the shutter, in pixels; less counts as none, because it cannot be measured.
 pub const LEAST_DISPLACEMENT: f64 = 0.1;
 
 /// Largest deviation of a translation: the root mean square by which its pixels' displacements deviate from their mean, over that
@@ -22,7 +22,7 @@ pub struct Mover {
     pub silhouette: Silhouette,
 }
 
-/// Unit vector along which the nearest visible pixel of an object moves, per pixel; zero if that one stands.
+/// Unit vector along which the nearest visible pixel of an object moves, per pixel; zero if that one does not move.
 pub type Directions = Raster<[f64; 2]>;
 
 /// Length of an object's outline, in pixels, each way of crossing it counted: the total variation of its matte across
@@ -36,8 +36,9 @@ pub struct Silhouette {
 }
 
 impl Mover {
-    /// Measures object `id` of the frame, moving for the frame's exposure. Returns the directions beside it: they take more memory
-    /// than all else of an object, and nothing but its sides depends on them. The error is the reason why it has no matte scores.
+    /// Measures object `id` of the frame, moving for the frame's exposure. Returns the directions separately:
+    /// they take more memory than the rest of an object, and only its sides depend on them. The error is the
+    /// reason why it has no matte scores.
     pub fn new(frame: &Frame, id: u32) -> Result<(Self, Directions), &'static str> {
         let seen = frame.object_id.map(|object| *object == id);
         let sources = find_nearest(&seen).ok_or("is not visible at the instant")?;

@@ -24,9 +24,7 @@ pub fn find_nearest(set: &Raster<bool>) -> Option<Raster<[u32; 2]>> {
             .collect();
         let sources = find_lowest(&parabolas, set.width);
         for (pixel, x) in found.pixels[row].iter_mut().zip(sources) {
-            let source_row = columns
-                .at(x, y)
-                .expect("a parabola stands where its column has a pixel");
+            let source_row = columns.at(x, y).expect("a parabola's column has a pixel");
             *pixel = [x, source_row];
         }
     }
@@ -39,7 +37,7 @@ pub fn distance_squared(a: [u32; 2], b: [u32; 2]) -> u64 {
     x * x + y * y
 }
 
-/// Finds every pixel of `set` on this circle about `at`: all that are equally near, so that a mirrored picture finds the mirrored
+/// Finds every pixel of `set` on this circle about `at`: all that are equally near, so that a mirrored picture gives mirrored
 /// pixels.
 pub fn find_on_circle<'a>(
     set: &'a Raster<bool>,
@@ -109,7 +107,7 @@ fn find_in_columns(set: &Raster<bool>) -> Raster<Option<u32>> {
 
 /// Finds for every column the parabola `height + (column - x)^2` that is lowest there; the leftmost wins a tie.
 fn find_lowest(parabolas: &[(i64, u32)], width: u32) -> Vec<u32> {
-    // Each parabola of the envelope with the first column where it lies below all before it.
+    // Each parabola of the envelope with the first column where it is below all before it.
     let mut envelope: Vec<(i64, i64, i64)> = Vec::new();
     for &(height, x) in parabolas {
         let x = i64::from(x);

@@ -2,7 +2,7 @@
 
 use frame::{Plane, Raster};
 
-/// A rectangle of a map, outside of which it is zero.
+/// A rectangle of a map that is zero elsewhere.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Patch {
     /// Column of the first pixel.
@@ -14,7 +14,7 @@ pub struct Patch {
 }
 
 impl Patch {
-    /// Cuts out of a matte all that is not zero, with a margin as far as the picture reaches; `None` if all of it is zero.
+    /// Cuts the nonzero part out of a matte, with a margin as far as the picture reaches; `None` if all of it is zero.
     pub fn cut(matte: &Plane, margin: u32) -> Option<Self> {
         let width = matte.width as usize;
         let (mut columns, mut rows) = ((width, 0), (u32::MAX, 0));
@@ -42,7 +42,7 @@ impl Patch {
         })
     }
 
-    /// Makes the patch that holds both, each pixel from theirs.
+    /// Makes the patch that covers both, each pixel from theirs.
     pub fn zip(
         one: Option<&Self>,
         other: Option<&Self>,

@@ -37,7 +37,7 @@ struct Moving {
     /// Bleed of the truth's first half: lateral, leading and trailing.
     bleed_noise: Option<[f64; 3]>,
     rows: Result<AlongMotion, String>,
-    /// Gradient magnitude of the true matte; none where that is zero.
+    /// Gradient magnitude of the true matte; none if it is zero.
     gradient: Option<Patch>,
     /// Mean error of the first half's gradient where anything moves.
     gradient_noise: Option<f64>,
@@ -135,7 +135,7 @@ impl ObjectReference {
         }
     }
 
-    /// Maps the squared difference of the gradient magnitudes of matte and truth; `None` where it is zero, and for an object that
+    /// Maps the squared difference of the gradient magnitudes of matte and truth; `None` if it is zero, and for an object that
     /// does not move.
     pub fn map_gradient_errors(&self, matte: &Plane) -> Option<Patch> {
         let moving = self.mover.as_ref().ok()?;

@@ -5,7 +5,7 @@ use crate::object::rows::Grid;
 /// Differences of the mass of rows along the motion from the truth's, in pixels of lateral silhouette.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RowMass {
-    /// Mass that a silhouette which grew sideways adds.
+    /// Mass added by a silhouette that grew sideways.
     pub growth: f64,
     /// Mass that the silhouette's own rows gain together.
     pub gain: f64,
@@ -23,11 +23,11 @@ pub struct InstantRows {
     heaviest: f64,
 }
 
-/// Least mass of rows that tell the gain of all rows, over the mass of the heaviest. They lie so near to the widest place of a round
-/// object that it gains nothing there by growing sideways.
+/// Least mass of the rows that measure the gain of all rows, over the mass of the heaviest. They are so near a round object's
+/// widest place that growing sideways adds nothing there.
 const HEAVY: f64 = 0.99;
 
-/// Gain of which half is granted, over the mass of the heaviest row. Larger gains are granted almost whole, smaller ones hardly:
+/// Gain that is granted by half, over the mass of the heaviest row. Larger gains are granted almost whole, smaller ones hardly:
 /// they may be noise.
 const HALF_GRANTED: f64 = 0.01;
 
@@ -46,7 +46,7 @@ impl InstantRows {
         }
     }
 
-    /// Computes the gain that is granted to a row which the silhouette covers in its whole height, from the gain of each row.
+    /// Computes the gain granted to a row that the silhouette covers in its whole height, from the gain of each row.
     fn grant(&self, gained: &[f64]) -> f64 {
         let heavy = gained.iter().zip(&self.heavy);
         let heavy: Vec<f64> = heavy
@@ -55,7 +55,7 @@ impl InstantRows {
         let gained = heavy.iter().sum::<f64>() / heavy.len() as f64;
         let least = HALF_GRANTED * self.heaviest;
         match gained > 0.0 {
-            // Smooth where it begins, so that intervals of scores hold.
+            // Smooth where it begins, so that intervals of scores are valid.
             true => gained.powi(3) / (gained.powi(2) + least.powi(2)),
             false => 0.0,
         }
@@ -63,8 +63,9 @@ impl InstantRows {
 }
 
 impl RowMass {
-    /// Compares rows. A translation only shifts mass along its rows, so that rows keep their mass whatever the blur's length
-    /// or side; a silhouette of `length` pixels (both sides together) that is dilated by d pixels adds `d * length` of mass.
+    /// Compares rows. A translation only shifts mass along its rows, so that rows keep their mass for any
+    /// length or side of the blur; a silhouette of `length` pixels (both sides together) that is dilated by d
+    /// pixels adds `d * length` of mass.
     ///
     /// A row that is covered in its whole height may gain as much as the heaviest rows did, and others in proportion: that is
     /// gain. Everything above it is growth: all mass in rows that the silhouette does not touch, and mass that fills rows at its
@@ -120,7 +121,7 @@ mod tests {
 
     #[track_caller]
     fn assert_near(found: f64, expected: f64) {
-        // Mattes are single-precision, and of a gain of 2 px in 20 a hundredth is not granted: 0.02 px in 10 rows of 40 px.
+        // Mattes are single-precision, and a hundredth of a gain of 2 px in 20 is not granted: 0.02 px in 10 rows of 40 px.
         assert!((found - expected).abs() < 0.006, "{found} for {expected}");
     }
 

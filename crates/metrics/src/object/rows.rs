@@ -21,7 +21,7 @@ pub struct Grid {
 }
 
 impl Rows {
-    /// Makes rows along `along` (a unit vector) that hold every pixel of a `width` x `height` picture.
+    /// Makes rows along `along` (a unit vector) that cover every pixel of a `width` x `height` picture.
     pub fn new(along: [f64; 2], width: u32, height: u32) -> Self {
         let corners = [[0, 0], [width, 0], [0, height], [width, height]]
             .map(|corner| Self::coordinates(along, corner.map(f64::from)));
@@ -102,8 +102,8 @@ impl Grid {
         self.rows().map(|row| row.iter().sum()).collect()
     }
 
-    /// Measures the part of each row's height that the matte covers: the largest value in the row over that of all rows. It is 0
-    /// outside a silhouette, 1 within, and in between at its rim.
+    /// Measures the part of each row's height that the matte covers: the largest value in the row over the largest of all rows.
+    /// It is 0 outside a silhouette, 1 within, and in between at its rim.
     pub fn heights(&self) -> Vec<f64> {
         let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
         let heights: Vec<f64> = self.rows().map(largest).collect();
@@ -126,13 +126,13 @@ impl Grid {
         (mass > 0.0).then(|| moment / mass)
     }
 
-    /// Iterates over the rows from one side of the motion to the other; each holds mass per pixel of length along the motion.
+    /// Iterates over the rows from one side of the motion to the other, as mass per pixel of length along the motion.
     pub fn rows(&self) -> impl Iterator<Item = &[f64]> {
         self.masses.chunks_exact(self.cells)
     }
 }
 
-/// Returns the part of a unit square's shadow that lies below `t` from its centre, in [0, 1].
+/// Returns the part of a unit square's shadow that is below `t` from its centre, in [0, 1].
 fn shadow_below(t: f64, widths: [f64; 2]) -> f64 {
     let (narrow, wide) = (widths[0].min(widths[1]), widths[0].max(widths[1]));
     let (plateau, half) = ((wide - narrow) / 2.0, (wide + narrow) / 2.0);
@@ -202,7 +202,7 @@ mod tests {
             .expect("the middle row exists")
             .iter()
             .sum();
-        // Exact splitting across the row; what is left is the pixels' beat along it, below 0.5 %.
+        // Splitting across the row is exact; the pixels' beat along it is below 0.5 %.
         assert!(
             (length / (60.0 / 30f64.to_radians().cos()) - 1.0).abs() < 5e-3,
             "{length}"

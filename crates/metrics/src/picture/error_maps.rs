@@ -11,7 +11,7 @@ use crate::label::label_variation;
 use crate::math::raster::{index_pixels, map_pixels, zip_pixels};
 use crate::picture::seen_truth::SeenTruth;
 
-/// Error maps of one picture. Thousands of signed products are summed, and so are errors of 64 bits.
+/// Error maps of one picture, in 64 bits where thousands of signed products or errors are summed.
 pub struct ErrorMaps {
     /// Errors that a pixel has by itself.
     pub pixels: Raster<PixelErrors>,
@@ -39,7 +39,7 @@ pub struct PixelErrors {
 }
 
 impl ErrorMaps {
-    /// Maps the errors of `output`, which is also given as `displayed`, against the truth's mean; squared errors by `halves`.
+    /// Maps the errors of `output`, also given as `displayed`, against the truth's mean; squared errors against `halves`.
     pub fn new(
         (output, displayed): (&Picture, &Displayed),
         halves: [&Image; 2],
@@ -89,7 +89,7 @@ pub struct MoreMaps {
     pub bleed: Plane,
     /// Sum over moving objects of the errors of their gradient.
     pub gradient_error: Plane,
-    /// `(F - A)(F - B)` for the truth whose shading stands still.
+    /// `(F - A)(F - B)` for the truth with frozen shading.
     pub frozen_squared: Raster<f64>,
     /// Change of the instant's colour where nothing moves.
     pub static_change: Raster<f64>,

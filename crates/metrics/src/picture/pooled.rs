@@ -20,7 +20,7 @@ pub struct Pooled {
     pub smape: f64,
     /// Mean of LDR-FLIP.
     pub flip: f64,
-    /// Value of LDR-FLIP at or below which half of its sum lies.
+    /// Value of LDR-FLIP up to which pixels make up half of its sum.
     pub flip_weighted_median: f64,
     /// 95th percentile of LDR-FLIP.
     pub flip_p95: f64,
@@ -28,7 +28,7 @@ pub struct Pooled {
     pub flip_p99: f64,
     /// Mean of HDR-FLIP.
     pub flip_hdr: f64,
-    /// Mean of SSIM over the pixels whose window lies in the picture; `None` if the region has no such pixel.
+    /// Mean of SSIM over the pixels with their window in the picture; `None` if the region has no such pixel.
     pub ssim: Option<f64>,
     /// Mean of the label total variation.
     pub label: f64,
@@ -37,7 +37,7 @@ pub struct Pooled {
 }
 
 impl Pooled {
-    /// Pools maps over every region; `None` for those that are empty. `windows` marks the pixels whose SSIM window lies in the
+    /// Pools maps over every region; `None` for those that are empty. `windows` marks the pixels with their SSIM window in the
     /// picture.
     pub fn over_all(
         errors: &ErrorMaps,

@@ -4,7 +4,7 @@ use crate::color::cross_error::psnr;
 use crate::picture::pooled::Pooled;
 use crate::{ImageScores, LabelScores, Measured};
 
-/// Errors of a picture over a region and those of the truth's noise, or the reason why there are none.
+/// Errors of a picture and of the truth's noise over a region, or the reason why there are none.
 pub type Found = Result<(Pooled, Pooled), &'static str>;
 
 fn score(found: &Found, error: impl Fn(&Pooled) -> f64) -> Measured {

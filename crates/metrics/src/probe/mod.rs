@@ -1,4 +1,4 @@
-//! Probes: pictures of ones and coordinates whose blur tells where a filter gathers.
+//! Probes: pictures of ones and coordinates. Their blur shows where a filter gathers.
 
 mod origins;
 mod pictures;

@@ -1,4 +1,4 @@
-//! Probes: pictures of ones, coordinates and their products, and what a filter makes of them.
+//! Probes: pictures of ones, coordinates and their products, and a filter's output for them.
 
 use frame::{Image, Plane, Raster, Vectors};
 

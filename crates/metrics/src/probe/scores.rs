@@ -16,15 +16,15 @@ pub struct ProbeMeasurement {
     pub maps: ProbeMaps,
 }
 
-/// Origins in the truth, which the scores of any number of probes are measured against.
+/// Origins in the truth, to score any number of probes against.
 pub struct OriginReference {
     expected: TrueOrigins,
-    /// Mean differences of the truth's first half over what is knowable; none where that is empty.
+    /// Mean differences of the truth's first half over the knowable region; none if that is empty.
     noise: Option<Difference>,
 }
 
 impl OriginReference {
-    /// Finds the origins in the truth; `mean` is that of its halves at the instant.
+    /// Finds the origins in the truth; `mean` is the mean of its halves at the instant.
     pub fn new(truth: &Truth, mean: &AtInstant, regions: &Regions) -> Self {
         let expected = TrueOrigins::new(mean);
         let half = TrueOrigins::new(&truth.at_instant[0]);
@@ -81,7 +81,7 @@ struct Difference {
 }
 
 impl Difference {
-    /// Compares two origins; `None` unless there are both.
+    /// Compares two origins; `None` unless both exist.
     fn new(found: Option<Origin>, expected: Option<Origin>) -> Option<Self> {
         let (found, expected) = (found?, expected?);
         let [x, y] = [0, 1].map(|axis| found.offset[axis] - expected.offset[axis]);

@@ -77,7 +77,7 @@ pub fn check_agreement(frame: &Frame, truth: &Truth) -> Result<(), MeasureError>
         });
     }
     agree("the frame's object list", &frame.objects, &truth.objects)?;
-    // Files keep the interval's ends, whose difference may round.
+    // Files store the interval's ends, and their difference may round.
     let exposure = truth.shutter.exposure();
     if (frame.exposure - exposure).abs() > 1e-9 * exposure {
         agree("the frame's exposure", &frame.exposure, &exposure)?;

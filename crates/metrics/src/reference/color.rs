@@ -1,4 +1,4 @@
-//! The colours of a truth, for pictures whose own truth is another one.
+//! The colours of a truth, for pictures that have another truth of their own.
 
 use frame::{Image, Picture, Raster};
 
@@ -11,7 +11,8 @@ use crate::picture::seen_truth::SeenTruth;
 use crate::reference::check::check_brightness;
 use crate::{ImageScores, MeasureError, Region, Regions, Viewing};
 
-/// The colours of a truth over what moves. It takes a fraction of the memory of the [`Reference`] that it was.
+/// The colours of a truth where anything moves. It takes a fraction of the memory of the
+/// [`Reference`] that it is made from.
 pub struct ColorReference {
     halves: [Image; 2],
     /// The mean, with the coverage of the background alone.
@@ -40,8 +41,8 @@ impl From<Reference<'_>> for ColorReference {
 }
 
 impl ColorReference {
-    /// Measures the errors of colour over what moves of a picture that its own reference has measured: it is finite, and of the
-    /// truth's size.
+    /// Measures the errors of colour, where anything moves, of a picture that its own reference has measured: it is
+    /// finite, and has the truth's size.
     pub fn measure(&self, output: &Picture) -> Result<ImageScores, MeasureError> {
         check_brightness(output, &self.viewing, "the output")?;
         let displayed = Displayed::new(&output.color, &self.viewing);

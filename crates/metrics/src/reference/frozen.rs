@@ -1,4 +1,4 @@
-//! The truth whose shading stands still at the instant, against which only errors of visibility are left.
+//! The truth with shading frozen at the instant, which leaves only errors of visibility.
 
 use frame::{Image, Raster, Region, Regions, Truth};
 
@@ -20,7 +20,7 @@ pub struct FrozenReference {
 }
 
 impl FrozenReference {
-    /// Prepares the frozen-shading truth, whose mean this is.
+    /// Prepares the frozen-shading truth with this mean.
     pub fn new(truth: &Truth, mean: &Image, regions: &Regions, viewing: &Viewing) -> Self {
         let halves = truth.at_instant.each_ref().map(|half| half.frozen.clone());
         let seen = SeenExposures::of_display(&Displayed::new(mean, viewing));
@@ -36,7 +36,7 @@ impl FrozenReference {
         }
     }
 
-    /// Scores a picture, which is also given as it is displayed; returns the squared error that its score was pooled from as well.
+    /// Scores a picture, also given as displayed; returns the squared error that its score was pooled from as well.
     pub fn measure(
         &self,
         (output, displayed): (&Image, &Displayed),
@@ -62,7 +62,8 @@ impl FrozenReference {
 
 const NOTHING_MOVES: &str = "nothing moves on screen";
 
-/// Measures `(A - A')(B - B')`, A' and B' being the frozen halves. It scatters about 0 by its floor if shading stands still.
+/// Measures `(A - A')(B - B')`, A' and B' being the frozen halves. It scatters about 0 by its
+/// floor if shading does not change.
 fn measure_shading(
     truth: &Truth,
     frozen: &[Image; 2],

@@ -1,4 +1,4 @@
-//! Noise of a filter, told apart from its constant error.
+//! Noise of a filter, separated from its constant error.
 
 use frame::{Image, Region};
 use serde::{Deserialize, Serialize};
@@ -8,13 +8,13 @@ use crate::color::cross_error::squared_error;
 use crate::math::pooling::mean_over;
 use crate::math::raster::{index_pixels, map_pixels};
 
-/// Squared error of one frame over what moves, in two parts that add up to it on average.
+/// Squared error of one frame where anything moves, in two parts that add up to it on average.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Jitter {
     /// Number of frames; only the filter's noise differs between them.
     pub frames: u32,
     /// Squared error of the mean over all noise, in display-scaled radiance: averaging over frames does not remove it. It is
-    /// unbiased, so the truth's own noise may take it below 0.
+    /// unbiased, so the truth's own noise may make it negative.
     pub bias: f64,
     /// Variance between frames, in display-scaled radiance: averaging over frames removes it.
     pub variance: f64,
@@ -55,7 +55,7 @@ impl Reference<'_> {
         let variance = pool(&variances)?;
         Some(Jitter {
             frames: outputs.len() as u32,
-            // The mean of `count` frames still holds that part of their noise.
+            // The mean of `count` frames still contains that part of their noise.
             bias: pool(&errors)? - variance / count,
             variance,
         })

@@ -53,9 +53,9 @@ pub struct Reference<'a> {
     noise: [Option<Pooled>; Region::ALL.len()],
     /// The instant: the picture of a filter that does nothing.
     instant: Image,
-    /// The two pictures that skill lies between; none until they are given.
+    /// The two pictures that skill is measured between; none until they are given.
     ends: Option<Ends>,
-    /// Pixels whose SSIM window lies in the picture.
+    /// Pixels with their SSIM window in the picture.
     windows: Raster<bool>,
     frozen: FrozenReference,
     origins: OriginReference,
@@ -133,8 +133,8 @@ impl<'a> Reference<'a> {
         Ok(())
     }
 
-    /// Adds the pictures that skill lies between. `sharp` shows the instant in the middle of the shutter and has a skill of 0; `best`
-    /// is that of the one-frame oracle, the best that one frame can give, and has 1. Without them skill does not apply.
+    /// Adds the pictures that skill is measured between. `sharp` shows the instant in the middle of the shutter and has a skill
+    /// of 0; `best` is the one-frame oracle's, the best that one frame can give, and has 1. Without them skill does not apply.
     pub fn with_ends(mut self, sharp: &Picture, best: &Picture) -> Result<Self, MeasureError> {
         check_picture(
             sharp,
@@ -179,7 +179,7 @@ impl<'a> Reference<'a> {
                 frozen,
                 static_contamination: Measured::of(
                     mean_over(&static_change, &self.regions, Region::Still),
-                    // The instant is exact there: the picture is compared with what the filter was given.
+                    // The instant is exact there: the picture is compared with the filter's input.
                     Some(0.0),
                     explain_empty(Region::Still),
                 ),
@@ -226,7 +226,7 @@ impl<'a> Reference<'a> {
         (scores.collect(), [bleed, gradient_error])
     }
 
-    /// Takes out the scores that the truth of an engine cannot tell.
+    /// Removes the scores that an engine's truth cannot give.
     fn take_out_unknown(&self, scores: &mut Scores) {
         if self.truth.provenance.engine.is_none() {
             return;
@@ -237,7 +237,7 @@ impl<'a> Reference<'a> {
         }
     }
 
-    /// Scores what a filter made of [`Probes::images`]; its weights must be those of the measured picture.
+    /// Scores a filter's output for [`Probes::images`]; its weights must be those of the measured picture.
     pub fn measure_probes(&self, probes: &Probes) -> ProbeMeasurement {
         let mut measured = self.origins.measure(probes, &self.regions);
         if self.truth.provenance.engine.is_some() {
@@ -296,7 +296,7 @@ impl<'a> Reference<'a> {
     }
 }
 
-/// Marks the pixels whose SSIM window lies in the picture.
+/// Marks the pixels with their SSIM window in the picture.
 fn mark_whole_windows((width, height): (u32, u32)) -> Raster<bool> {
     Raster::from_fn(width, height, |x, y| {
         x.min(y) >= SSIM_BORDER && x + SSIM_BORDER < width && y + SSIM_BORDER < height

@@ -1,19 +1,19 @@
-//! Pictures of the frame before, taken to where their points are now.
+//! Pictures of the frame before, moved to where their points are now.
 
 use frame::{Image, Raster};
 
 use super::instant::Instant;
 use crate::math::raster::index_pixels;
 
-/// For every pixel, the place in the frame before of the point that it shows.
+/// For every pixel, where the point that it shows was in the frame before.
 pub struct Before {
-    /// In pixels, the centre of the first pixel at (0, 0); none where the point was outside the picture or another object was in
+    /// In pixels, the centre of the first pixel at (0, 0); none if the point was outside the picture or another object was in
     /// front of it.
     places: Raster<Option<[f32; 2]>>,
 }
 
 impl Before {
-    /// Follows every point of `now` back to `before`. A point counts as hidden where the nearest pixel of the frame before
+    /// Follows every point of `now` back to `before`. A point counts as hidden if the nearest pixel of the frame before
     /// shows another object; a point that another part of its own object hid is not noticed.
     pub fn new(before: &Instant, now: &Instant) -> Self {
         let ids = &before.object_id;
@@ -25,12 +25,12 @@ impl Before {
         Self { places }
     }
 
-    /// Tells whether the point of a pixel was seen in the frame before.
+    /// Returns whether the point of a pixel was seen in the frame before.
     pub fn is_seen(&self, at: usize) -> bool {
         self.places.pixels[at].is_some()
     }
 
-    /// Takes a picture of the frame before to where its points are now, bilinearly; zero where they were not seen.
+    /// Moves a picture of the frame before to where its points are now, bilinearly; zero where they were not seen.
     pub fn take(&self, before: &Image) -> Image {
         index_pixels(&self.places, |at| {
             self.places.pixels[at].map_or([0.0; 3], |place| bilinear(before, place))
@@ -38,7 +38,8 @@ impl Before {
     }
 }
 
-/// The place in the frame before of a pixel's point, the centre of the first pixel at (0, 0); none outside the picture.
+/// Finds the place in the frame before of a pixel's point, the centre of the first pixel at
+/// (0, 0); none outside the picture.
 fn place_before(now: &Instant, at: usize) -> Option<[f32; 2]> {
     let width = now.velocity.width as usize;
     let [x, y] = [at % width, at / width].map(|index| index as f32);
@@ -46,7 +47,7 @@ fn place_before(now: &Instant, at: usize) -> Option<[f32; 2]> {
     inside(now, [x - velocity[0], y - velocity[1]])
 }
 
-/// Returns a place if all that surrounds it lies in the picture.
+/// Returns a place if all pixels around it are in the picture.
 pub fn inside(now: &Instant, [x, y]: [f32; 2]) -> Option<[f32; 2]> {
     let [last_x, last_y] =
         [now.velocity.width - 1, now.velocity.height - 1].map(|last| last as f32);

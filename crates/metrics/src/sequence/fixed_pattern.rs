@@ -1,4 +1,4 @@
-//! Screen-fixed pattern: fine error that stands still on the screen while the picture moves below it, as dirt on a window does.
+//! Screen-fixed pattern: fine error that stays in place on the screen while the picture moves, like dirt on a window.
 
 use frame::{Image, Raster};
 
@@ -7,7 +7,7 @@ use crate::color::cross_error::multiply;
 use crate::math::pooling::mean;
 use crate::math::raster::{around, index_pixels};
 
-/// Pixels from the middle of the square whose mean is taken away, which leaves fine patterns alone.
+/// Radius in pixels of the square whose mean is subtracted, which leaves only fine patterns.
 const RADIUS: usize = 2;
 
 /// Fine parts of one frame's error.
@@ -19,7 +19,7 @@ pub struct FineError {
 }
 
 impl FineError {
-    /// Takes the fine part of a picture's errors against the truth's halves.
+    /// Extracts the fine part of a picture's errors against the truth's halves.
     pub fn new(picture: &Image, halves: [&Image; 2], moving: &Raster<bool>) -> Self {
         Self {
             halves: halves.map(|half| fine(&subtract(picture, half))),
@@ -28,9 +28,9 @@ impl FineError {
     }
 }
 
-/// Averages the product of the fine errors of different frames at one place of the screen, over all pairs of frames, where both
-/// have motion. Each frame is compared with another half of the truth, so that noise of the truth does not bias it. None where no
-/// pair has a pixel in common.
+/// Averages the product of two frames' fine errors at one place of the screen, over all pairs of frames, where both
+/// have motion. The two frames are compared with different halves of the truth, so that its noise does not bias it.
+/// None if no pair has a pixel in common.
 pub fn correlate(frames: &[FineError], scale: f64) -> Option<f64> {
     let mut products = Vec::new();
     for (index, now) in frames.iter().enumerate() {
@@ -51,7 +51,7 @@ pub fn correlate(frames: &[FineError], scale: f64) -> Option<f64> {
     mean(products)
 }
 
-/// Takes the mean of the square around each pixel away, as far as that lies in the picture.
+/// Subtracts the mean of the square around each pixel, as far as that is in the picture.
 pub fn fine(image: &Image) -> Image {
     index_pixels(image, |at| {
         let (mut sum, mut count) = ([0.0_f64; 3], 0.0);

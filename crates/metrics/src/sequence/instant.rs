@@ -20,8 +20,8 @@ pub struct Instant {
 }
 
 impl Instant {
-    /// Takes what sequences need from a truth. `velocity` is the motion since the frame before at the pixels' centres, whatever
-    /// kind of velocity the filter got.
+    /// Collects what sequences need from a truth. `velocity` is the motion since the frame before at the pixels' centres,
+    /// whatever kind of velocity the filter got.
     pub fn new(truth: &Truth, velocity: Vectors, depth: Plane, object_id: Raster<u32>) -> Self {
         Self {
             halves: truth.halves.each_ref().map(|half| half.color.clone()),

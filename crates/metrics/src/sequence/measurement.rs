@@ -1,4 +1,4 @@
-//! What was measured of a sequence of pictures.
+//! Measurement of a sequence of pictures.
 
 use frame::Plane;
 
@@ -9,9 +9,9 @@ use crate::metric::{SequenceMetric, SequenceScores};
 pub struct SequenceMeasurement {
     /// Scores over all frames.
     pub scores: SequenceScores,
-    /// Frame that is worst in a score, from 0, for every score that frames have a share in. A change is that of its second frame.
+    /// Worst frame, from 0, by every score that frames have a share in. A change belongs to its second frame.
     pub worst_frames: Vec<(SequenceMetric, usize)>,
-    /// Squared error over what moves, per frame; none where nothing does.
+    /// Squared error where anything moves, per frame; none if nothing does.
     pub errors: Vec<Option<f64>>,
     /// Squared error of the change along the motion since the frame before, per frame; none for the first.
     pub flickers: Vec<Option<f64>>,

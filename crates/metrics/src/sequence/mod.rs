@@ -1,4 +1,4 @@
-//! Scores of a sequence: what a viewer sees from frame to frame, and no single frame shows.
+//! Scores of a sequence: changes from frame to frame that a viewer sees and no single frame shows.
 
 mod along;
 mod fixed_pattern;

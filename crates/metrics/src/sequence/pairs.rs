@@ -14,7 +14,7 @@ pub struct Pair {
     pub mask: Raster<bool>,
     /// Differences of the truth's halves.
     halves: [Image; 2],
-    /// Way back of every point, for differences along the motion.
+    /// Where every point was before, for differences along the motion.
     before: Option<Before>,
 }
 
@@ -51,7 +51,7 @@ impl Pair {
         squared_error(&difference, self.halves.each_ref(), scale)
     }
 
-    /// Pools a map of errors; none where nothing is pooled over.
+    /// Pools a map of errors; none if no pixel is pooled over.
     pub fn pool(&self, map: &Raster<f64>) -> Option<f64> {
         mean_in(map, &self.mask)
     }
@@ -62,13 +62,13 @@ impl Pair {
     }
 }
 
-/// Averages a map where a mask holds; none where it holds nowhere.
+/// Averages a map inside a mask; none if the mask is empty.
 pub fn mean_in(map: &Raster<f64>, mask: &Raster<bool>) -> Option<f64> {
     let values = map.pixels.iter().zip(&mask.pixels);
     mean(values.filter(|(_, holds)| **holds).map(|(value, _)| *value))
 }
 
-/// Estimates the scatter of the mean of products of two halves' noises where a mask holds.
+/// Estimates the scatter of the mean of products of two halves' noises inside a mask.
 pub fn scatter_in([a, b]: [&Image; 2], mask: &Raster<bool>, scale: f64) -> Option<f64> {
     let half_of_difference = zip_pixels(a, b, |a, b| -> f64 {
         let square = |c: usize| (f64::from(a[c]) - f64::from(b[c])).powi(2);

@@ -17,7 +17,7 @@ pub fn object_errors(error: &Raster<f64>, seen: &[Raster<bool>]) -> Vec<Option<f
     seen.iter().map(root).collect()
 }
 
-/// Finds the largest jump of any object's error from each frame to the next; none where no object counts in both.
+/// Finds the largest jump of any object's error from each frame to the next; none if no object counts in both.
 pub fn largest_jumps(frames: &[Vec<Option<f64>>]) -> Vec<Option<f64>> {
     let largest = |pair: &[Vec<Option<f64>>]| {
         let objects = pair[0].iter().zip(&pair[1]);
@@ -27,14 +27,14 @@ pub fn largest_jumps(frames: &[Vec<Option<f64>>]) -> Vec<Option<f64>> {
     frames.windows(2).map(largest).collect()
 }
 
-/// Finds the error that the truth's noise makes of the object that it changes most; none where no object counts.
+/// Finds the largest error that the truth's noise causes on any object; none if no object counts.
 pub fn largest_floor(halves: [&Image; 2], seen: &[Raster<bool>], scale: f64) -> Option<f64> {
     let counts = |mask: &&Raster<bool>| counts(mask);
     let floors = (seen.iter().filter(counts)).filter_map(|mask| scatter_in(halves, mask, scale));
     floors.map(f64::sqrt).reduce(f64::max)
 }
 
-/// Tells whether an object covers enough of the picture.
+/// Returns whether an object covers enough of the picture.
 fn counts(seen: &Raster<bool>) -> bool {
     let covered = seen.pixels.iter().filter(|seen| **seen).count();
     covered as f64 >= LEAST_PART * seen.pixels.len() as f64

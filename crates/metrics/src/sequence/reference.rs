@@ -23,7 +23,7 @@ const NO_OBJECT: &str = "no object covers enough of two frames that follow one a
 /// The truths of a sequence.
 pub struct SequenceReference {
     instants: Vec<Instant>,
-    /// Pixels that each frame is pooled over: where anything moves, or all where nothing ever does.
+    /// Pixels that each frame is pooled over: where anything moves, or all if nothing ever does.
     masks: Vec<Raster<bool>>,
     /// Factor from radiance to display.
     scale: f64,
@@ -31,7 +31,7 @@ pub struct SequenceReference {
     along: Vec<Pair>,
     /// Mean of the truth's halves as a display shows it, per frame.
     displayed: Vec<Image>,
-    /// Quality of one half beside that mean, or the reason why there is none.
+    /// Quality of one half against that mean, or the reason why there is none.
     half_jod: Result<f64, String>,
     /// Frames per second, and exposure in stops.
     shown: (f64, f32),
@@ -41,8 +41,8 @@ pub struct SequenceReference {
 }
 
 impl SequenceReference {
-    /// Prepares the truths of consecutive frames, at least one, which are shown at a number of frames per second. Panics if they have no
-    /// one size.
+    /// Prepares the truths of consecutive frames, at least one, which are shown at a number of frames per
+    /// second. Panics if their sizes differ.
     pub fn new(instants: Vec<Instant>, viewing: &Viewing, per_second: f64) -> Self {
         let first = instants.first().expect("a sequence has a frame");
         assert!(
@@ -145,7 +145,7 @@ impl SequenceReference {
             ),
         };
         Ok(SequenceMeasurement {
-            // Of all but errors, the first value is that of the second frame.
+            // Except for errors, the first value belongs to the second frame.
             worst_frames: find_worst_frames([
                 (SequenceMetric::Error, 0, &errors),
                 (SequenceMetric::Flicker, 1, &changes),
@@ -214,7 +214,7 @@ impl SequenceReference {
         Measured::of(largest, floors.reduce(f64::max), NO_OBJECT)
     }
 
-    /// Computes the quality as a display shows it; that of one half of the truth is the most that can be vouched for.
+    /// Computes the quality as a display shows it. The truth supports at most the quality of one of its halves.
     fn jod(&self, pictures: &[Image]) -> Measured {
         let (per_second, stops) = self.shown;
         let own = displayed(pictures, stops);
@@ -247,7 +247,7 @@ impl SequenceReference {
     }
 }
 
-/// Computes the quality of a video; a single frame is none.
+/// Computes the quality of a video; a single frame has none.
 fn jod_of_several(pictures: &[Image], truths: &[Image], per_second: f64) -> Result<f64, String> {
     match pictures.len() {
         1 => Err(ONE_FRAME.to_owned()),
@@ -262,7 +262,7 @@ fn map_pairs(pairs: &[Pair], pictures: &[Image], scale: f64) -> Vec<Raster<f64>>
         .collect()
 }
 
-/// Averages the error of the change of each pair; none where no pixel counts.
+/// Averages the error of the change of each pair; none if no pixel counts.
 fn pool_pairs(pairs: &[Pair], maps: &[Raster<f64>]) -> Vec<Option<f64>> {
     let pairs = pairs.iter().zip(maps);
     pairs.map(|(pair, map)| pair.pool(map)).collect()
@@ -283,7 +283,7 @@ fn find_worst_frames(
     worst.collect()
 }
 
-/// Takes roots of squared errors, 0 for those that noise takes below 0.
+/// Takes roots of squared errors, 0 for those that noise makes negative.
 fn root(map: &Raster<f64>) -> Plane {
     map_pixels(map, |square| square.max(0.0).sqrt() as f32)
 }

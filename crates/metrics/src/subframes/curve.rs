@@ -12,9 +12,9 @@ pub struct Curve {
 impl Curve {
     /// Makes a curve through rungs in rising order of sub-frames.
     ///
-    /// Noise can make a rung no better than one with fewer sub-frames. It is left out: of several counts with one error, the lowest
-    /// is reported. Noise can also make the unbiased error of a rung zero or less. That ends the curve: from there on the ladder
-    /// cannot be told from the truth. `None` if no rung is left.
+    /// Noise can make a rung no better than one with fewer sub-frames. It is left out, so that the lowest of several counts
+    /// with one error is reported. Noise can also make the unbiased error of a rung zero or less. That ends the curve: from
+    /// there on the ladder cannot be distinguished from the truth. `None` if no rung is left.
     pub fn new(rungs: &[(u32, f64)]) -> Option<Self> {
         let mut points: Vec<(f64, f64)> = Vec::new();
         for &(subframes, error) in rungs {

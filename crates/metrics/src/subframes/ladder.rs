@@ -9,7 +9,7 @@ use crate::label::label_variation;
 use crate::math::pooling::mean_over;
 use crate::{Region, Regions, Viewing};
 
-/// What is measured of a rung, over the moving region.
+/// Kind of a rung's error, over the moving region.
 #[derive(Clone, Copy)]
 pub enum ErrorKind {
     /// Unbiased squared error of colour: neither the rungs' noise nor the truth's counts.
@@ -54,12 +54,12 @@ impl Curves {
         self.rungs.push((rung.subframes, errors));
     }
 
-    /// Tells whether no rung was added.
+    /// Returns whether no rung was added.
     pub fn is_empty(&self) -> bool {
         self.rungs.is_empty()
     }
 
-    /// Makes the curve of one kind of error; none where no rung can be told from the truth.
+    /// Makes the curve of one kind of error; none if no rung can be distinguished from the truth.
     pub fn curve(&self, kind: ErrorKind) -> Option<Curve> {
         let points: Vec<(u32, f64)> = (self.rungs.iter())
             .map(|(subframes, errors)| (*subframes, errors[kind as usize]))

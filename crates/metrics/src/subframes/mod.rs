@@ -26,9 +26,9 @@ pub enum Equivalent {
 /// A count of sub-frames between the ladder's ends.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Subframes {
-    /// The count, seldom an integer; the end of the ladder if the error lies beyond it.
+    /// The count, seldom an integer; the end of the ladder if the error is beyond it.
     pub value: f64,
-    /// The highest count that the truth's own noise can tell.
+    /// The highest count that the truth's own noise can resolve.
     pub floor: f64,
     /// Position of the error relative to the ladder.
     #[serde(rename = "reach")]

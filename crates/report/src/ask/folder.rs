@@ -1,4 +1,4 @@
-//! Folder of a page that asks people: the page and its pictures.
+//! Folder of a page for surveys: the page and its pictures.
 
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -12,14 +12,14 @@ use super::page::ask_page;
 /// Name of the page in its folder.
 pub const ASK_PAGE: &str = "index.html";
 
-/// Name of the file that stands in the folder until the page is whole.
+/// Name of the file that marks the folder until the page is complete.
 const UNFINISHED: &str = ".shuttertruth.unfinished";
 
-/// Writes the page of a study and copies of its pictures into a folder that is new or empty, or that a killed process was writing. Names of
-/// pictures tell no filter. Returns the path of the page, which comes last.
+/// Writes the page of a study and copies of its pictures into a folder that is new or empty, or that a killed process was writing. The
+/// pictures' names reveal no filter. Returns the path of the page, which is written last.
 ///
 /// # Errors
-/// The folder holds files, or a picture cannot be copied.
+/// The folder contains files, or a picture cannot be copied.
 pub fn write_ask_folder(
     study: &Study,
     clips: &[ClipFiles],
@@ -46,7 +46,7 @@ pub fn write_ask_folder(
     Ok(page)
 }
 
-/// Removes the pictures of a page that was not finished: those of another study would lie beside the new ones.
+/// Removes the pictures of an unfinished page: another study's would mix with the new ones.
 fn remove_pictures(folder: &Path) -> Result<(), Error> {
     match std::fs::remove_dir_all(folder) {
         Err(source) if source.kind() != ErrorKind::NotFound => {
@@ -56,7 +56,7 @@ fn remove_pictures(folder: &Path) -> Result<(), Error> {
     }
 }
 
-/// Refuses a folder with files: pictures of another page would lie beside the new ones.
+/// Refuses a folder with files: another page's pictures would mix with the new ones.
 fn refuse_full(out: &Path) -> Result<(), Error> {
     let entries = match std::fs::read_dir(out) {
         Ok(entries) => entries,

@@ -7,7 +7,7 @@ use suite::PROGRAM;
 
 use crate::document::{Document, Siblings, script_data};
 
-/// Makes the page of a study, which offers these questions. The pictures lie beside it, by the numbers of their clips and frames.
+/// Makes the page of a study with these questions. Its pictures are next to it, named by the numbers of their clips and frames.
 pub fn ask_page(study: &Study, questions: &[Question]) -> String {
     let data = json!({
         "program": PROGRAM,
@@ -88,7 +88,7 @@ fn keys(is_clip: bool) -> Markup {
         ("R", "play again from the first frame"),
         ("Esc", "stop"),
     ];
-    // A picture does not play.
+    // A still picture cannot be played again.
     rows.retain(|(key, _)| is_clip || *key != "R");
     html! {
         dl.facts {

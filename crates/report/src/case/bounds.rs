@@ -1,4 +1,4 @@
-//! Bounds of a case, with evidence for those that are not met.
+//! Bounds of a case, with evidence for unmet ones.
 
 use judge::{CROP, Finding, Level, number};
 use maud::{Markup, html};
@@ -9,7 +9,7 @@ use crate::finding_text::{Status, Tally, finding_line, limit_text, way_out, wors
 use crate::numbers::counted;
 use crate::sequence::SEQUENCES_PAGE;
 
-/// Lists the required bounds of a run that are not met, each with a link to its case.
+/// Lists the unmet required bounds of a run, each with a link to its case.
 pub fn broken_bounds(pages: &[CaseView]) -> Markup {
     let broken: Vec<(&CaseView, &Finding)> = (pages.iter())
         .flat_map(|page| page.findings.iter().map(move |finding| (page, *finding)))
@@ -35,7 +35,7 @@ pub fn broken_bounds(pages: &[CaseView]) -> Markup {
     }
 }
 
-/// Shows every bound of a case: those that are not met with evidence, the others as a count.
+/// Shows every bound of a case: unmet ones with evidence, the others as a count.
 pub fn bounds(page: &CaseView) -> Markup {
     let explained = page.evidence.iter().any(Option::is_some);
     let [required, targets] =
@@ -55,7 +55,7 @@ pub fn bounds(page: &CaseView) -> Markup {
     }
 }
 
-/// Names the failure pattern that all scores together are most like.
+/// Names the failure pattern that all scores together resemble most.
 fn failure_pattern(page: &CaseView) -> Markup {
     html! {
         p.alike {
@@ -72,7 +72,7 @@ fn failure_pattern(page: &CaseView) -> Markup {
     }
 }
 
-/// Shows a score of a sequence that does not meet its limit: the frame that is worst, and where to see it play.
+/// Shows a score of a sequence that does not meet its limit: the worst frame, and a link to play it.
 fn sequence_section(finding: &Finding) -> Markup {
     html! {
         div class=(verdict_class(finding)) {
@@ -97,7 +97,7 @@ fn verdict_class(finding: &Finding) -> String {
     )
 }
 
-/// Says what was found, what is allowed, and the way out.
+/// Words what was found, what is allowed, and the remedy.
 fn verdict_head(finding: &Finding) -> Markup {
     html! {
         p { strong { (finding_line(finding)) } }

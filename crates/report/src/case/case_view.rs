@@ -1,4 +1,4 @@
-//! Data of a case's section, read from the files of the run.
+//! Data of a case's section, read from the run's files.
 
 use judge::{BLOCK, Finding, worst_block};
 use metrics::Metric;
@@ -30,7 +30,7 @@ pub struct CaseView<'a> {
 }
 
 impl<'a> CaseView<'a> {
-    /// Reads the files of a case, given its number in the run, that of its scene, and the findings about the scene.
+    /// Reads the files of a case from its number in the run, its scene's number, and the findings about the scene.
     pub fn read(
         run: &'a Run,
         index: usize,
@@ -73,15 +73,15 @@ impl<'a> CaseView<'a> {
 
 /// The worst place of one score.
 pub struct Evidence {
-    /// Middle of the block whose error is largest.
+    /// Middle of the block with the largest error.
     pub place: [u32; 2],
-    /// The error map, as errors.exr calls it.
+    /// The error map, as named in errors.exr.
     pub map: String,
     pub plane: usize,
 }
 
-/// Finds the place to look at; none for a finding that needs no explanation, or is about a sequence. `check` has looked for the place;
-/// after `run` it is looked for here.
+/// Finds the place to look at; none for a finding that needs no explanation, or is about a sequence. `check` has already found the place;
+/// after `run` it is found here.
 fn find_evidence(
     finding: &Finding,
     case: &Case,

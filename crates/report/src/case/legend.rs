@@ -7,18 +7,18 @@ use crate::pixels::layer::{Layer, Painter};
 
 /// Colours of error maps, from none to all.
 const MAGMA: Gradient = colorous::MAGMA;
-/// Colours of distances, from far to near; made for readers who do not tell red from green.
+/// Colours of distances, from far to near; for readers who cannot distinguish red from green.
 const CIVIDIS: Gradient = colorous::CIVIDIS;
 /// Colours of signed errors: purple is too dark, orange too bright, white is right.
 const PURPLE_ORANGE: Gradient = colorous::PURPLE_ORANGE;
-/// Beside, ahead, behind: three colours that every kind of colour vision tells apart (Okabe and Ito).
+/// Beside, ahead, behind: three colours that all kinds of colour vision distinguish (Okabe and Ito).
 const SIDES: [(&str, &str); 3] = [
     ("e69f00", "beside"),
     ("56b4e9", "ahead"),
     ("cc79a7", "behind"),
 ];
 
-/// Writes the colours that the script paints with: per gradient 256 colours in hexadecimal digits, and the colours of the sides.
+/// Formats the script's colours: 256 hexadecimal colours per gradient, and the colours of the sides.
 pub fn colors() -> String {
     let table = |gradient: Gradient| -> String {
         (0..256)
@@ -35,7 +35,7 @@ pub fn colors() -> String {
     colors.to_string()
 }
 
-/// Explains every way of drawing but radiance; the script shows the key of the picture.
+/// Explains every way of drawing except radiance; the script shows the key of the picture.
 pub fn draw_legends() -> Markup {
     html! {
         @for painter in Painter::ALL {
@@ -71,7 +71,7 @@ fn key(painter: Painter) -> Option<Markup> {
     })
 }
 
-/// Draws a gradient from its first colour to its last, or the other way round.
+/// Draws a gradient from its first colour to its last, or reversed.
 fn strip(gradient: Gradient, reversed: bool) -> Markup {
     const STOPS: usize = 9;
     let colors: Vec<String> = (0..STOPS)

@@ -25,7 +25,7 @@ use crate::numbers::{counted, value_text};
 use crate::pixels::scene_files::find_traced;
 use crate::run_facts::{provenance_line, truth_text};
 
-/// Tables of a case: what stands above its pictures, and below them.
+/// Tables of a case: above its pictures, and below them.
 pub struct CaseTables {
     head: Markup,
     rest: Markup,
@@ -65,15 +65,15 @@ impl CaseTables {
         Self { head, rest }
     }
 
-    /// Returns both texts for a file beside the page, by the address of the case.
+    /// Returns both texts for a file next to the page, by the address of the case.
     pub fn texts(self, case: &Case) -> (String, [String; 2]) {
         let Self { head, rest } = self;
         (case_anchor(case), [head, rest].map(Markup::into_string))
     }
 }
 
-/// Writes a case; it is seen while it is open, and the script brings the viewer. Where scripts run, its tables are text until then:
-/// a browser takes seconds for those of all cases. Without `tables` the script loads them from a file beside the page.
+/// Writes a case, which is visible while open; the script adds the viewer. If scripts run, its tables are text until then, since a
+/// browser needs seconds for all cases' tables. Without `tables` the script loads them from a file next to the page.
 pub fn case_section(view: &CaseView, tables: Option<&CaseTables>) -> Markup {
     let case = view.case;
     let filter = case.filter_id();
@@ -91,7 +91,7 @@ pub fn case_section(view: &CaseView, tables: Option<&CaseTables>) -> Markup {
     }
 }
 
-/// Writes tables, or their place.
+/// Writes tables, or a placeholder.
 fn part(tables: Option<&Markup>) -> Markup {
     html! {
         @match tables {
@@ -101,7 +101,7 @@ fn part(tables: Option<&Markup>) -> Markup {
     }
 }
 
-/// Writes the scores that a reader looks for first, and the place among the filters of one shutter.
+/// Writes the scores that a reader looks for first, and the rank among the filters of one shutter.
 fn score_line(view: &CaseView, table: &CaseTable) -> Markup {
     let case = view.case;
     let (place, of) = place_on_scene(table, case);
@@ -133,7 +133,7 @@ fn interval(case: &Case, metric: Metric) -> String {
     })
 }
 
-/// Counts the filters of the scene with the same shutter: those that are better by FLIP, and all.
+/// Counts the scene's filters with the same shutter: those with better FLIP, and all.
 fn place_on_scene(table: &CaseTable, case: &Case) -> (Option<usize>, usize) {
     let flip = |case: &Case| case.estimate(Metric::FLIP);
     let rivals = (table.cases_on(&case.scene).map(|(_, own)| own))
@@ -191,13 +191,13 @@ fn neighbours(view: &CaseView, table: &CaseTable) -> Markup {
     }
 }
 
-/// Title and hint of a truth that an engine drew, as the script takes them.
+/// Title and hint of an engine's truth, in the script's format.
 fn truth_words(drawn: &Drawn) -> String {
     let hint = format!("{}: scores are against it", drawn.truth_text());
     serde_json::json!({ "title": "Engine's truth", "hint": hint }).to_string()
 }
 
-/// Says whose truth a case is scored against, and where ours is, if an engine drew the scene.
+/// Describes whose truth a case is scored against, and where ours is, if an engine drew the scene.
 fn truth_facts(view: &CaseView) -> Markup {
     let traced = find_traced(view.run, view.case);
     html! {

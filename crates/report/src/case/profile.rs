@@ -5,11 +5,11 @@ use suite::Case;
 
 use crate::pixels::scene_files::{CaseFiles, SceneFiles, TruthFile};
 
-/// Least motion of a place that moves, in pixels over the shutter.
+/// Smallest motion of a moving place, in pixels over the shutter.
 const LEAST_MOTION: f32 = 0.5;
-/// Least and largest length before and behind the place, in pixels.
+/// Smallest and largest length before and after the place, in pixels.
 const REACH: [f32; 2] = [16.0, 80.0];
-/// Length before and behind the place, in lengths of the motion there.
+/// Length before and after the place, relative to the motion there.
 const LENGTHS: f32 = 1.5;
 
 /// One line through a case's pictures.
@@ -31,7 +31,7 @@ pub struct Curve {
     pub points: Vec<(f64, f64)>,
 }
 
-/// Follows the motion through `place` in the pictures of a case, and in the accumulation of its scene where the run has one.
+/// Follows the motion through `place` in a case's pictures, and in its scene's accumulation if the run has one.
 pub fn trace_profile(
     place: [u32; 2],
     case: &Case,
@@ -75,7 +75,7 @@ pub fn trace_profile(
     }
 }
 
-/// Finds the pixel of a block whose error is largest; the first of equal ones.
+/// Finds the pixel with the largest error in a block; the first of equal ones.
 pub fn worst_pixel(map: &Raster<f32>, [x, y]: [u32; 2], block: u32) -> [u32; 2] {
     let around = |middle: u32, size: u32| {
         let first = middle / block * block;
@@ -92,8 +92,8 @@ pub fn worst_pixel(map: &Raster<f32>, [x, y]: [u32; 2], block: u32) -> [u32; 2] 
     worst
 }
 
-/// Measures the motion over the shutter, in pixels: of the surface seen at the place, else of the nearest one that moves, else of
-/// what the truth saw there.
+/// Measures the motion over the shutter, in pixels: of the surface visible at the place, else of the nearest moving one, else of what the
+/// truth saw there.
 fn motion_at([x, y]: [u32; 2], frame: &Frame, truth: &TruthFile) -> [f32; 2] {
     let over_shutter = |motion: &[f32; 2]| motion.map(|axis| axis * frame.exposure as f32);
     nearest_moving(&frame.velocity.map(over_shutter), [x, y])
@@ -124,7 +124,7 @@ fn pixel_at(place: [u32; 2], direction: [f32; 2], step: f32, size: [u32; 2]) -> 
     Some([on(0)?, on(1)?])
 }
 
-/// Weighs the components as Rec.709 does.
+/// Weighs the components like Rec.709.
 fn luminance([r, g, b]: &[f32; 3]) -> f32 {
     0.2126 * r + 0.7152 * g + 0.0722 * b
 }

@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use super::profile::{Curve, Profile};
 use crate::charts::plot::{Axis, Plot};
 
-/// Draws a profile with its key; a screen reader hears the values in the middle.
+/// Draws a profile with its key; screen readers read the values in the middle.
 pub fn profile_chart(profile: &Profile) -> Markup {
     let [x, y] = profile.place;
     let points = || profile.curves.iter().flat_map(|curve| &curve.points);

@@ -75,7 +75,7 @@ fn row(page: &CaseView, metric: Metric) -> Markup {
     }
 }
 
-/// Writes a value with its unit; counts of sub-frames with the end of the ladder that they lie beyond.
+/// Formats a value with its unit, and for a count of sub-frames beyond the ladder the end of the ladder.
 fn value(case: &Case, metric: Metric, value: f64) -> String {
     match metric {
         Metric::Equivalent(metric) => case.scores.equivalent_subframes.get(metric).to_string(),

@@ -1,4 +1,4 @@
-//! Viewer of pictures: one set of controls, which the script moves to the case that is open.
+//! Viewer of pictures: one set of controls, which the script moves to the open case.
 
 use judge::BLOCK;
 use maud::{Markup, html};
@@ -9,7 +9,7 @@ use super::legend::draw_legends;
 use crate::document::script_data;
 use crate::pixels::layer::Layer;
 
-/// Modes in which two pictures are compared: the script's word, the name, and the key.
+/// Modes of comparing two pictures: the script's word, the name, and the key.
 const MODES: [(&str, &str, &str); 5] = [
     ("slide", "Slide", "1"),
     ("blink", "Blink", "2"),
@@ -18,7 +18,7 @@ const MODES: [(&str, &str, &str); 5] = [
     ("difference", "Difference", "5"),
 ];
 
-/// Exposures beside the scene's own, in stops.
+/// Exposures relative to the scene's own, in stops.
 const EXPOSURES: [(i32, &str); 3] = [(-2, "−2 EV"), (0, "0 EV"), (2, "+2 EV")];
 
 /// Keys and their actions.
@@ -149,14 +149,14 @@ fn layers() -> String {
     Value::Object(Layer::ALL.iter().map(describe).collect()).to_string()
 }
 
-/// Makes a picture that zooms and moves with all others.
+/// Makes a picture that zooms and pans with all others.
 fn layer(run: &Run, place: &str) -> Markup {
     html! {
         div.layer data-place=(place) { canvas width=(run.render.width) height=(run.render.height) role="img" {} }
     }
 }
 
-/// Marks the line of the profile, the worst place of a bound, and the pixel that is read.
+/// Marks the profile's line, a bound's worst place, and the pixel that is read.
 fn marks(run: &Run) -> Markup {
     let [width, height] = [run.render.width, run.render.height];
     html! {
@@ -171,7 +171,7 @@ fn marks(run: &Run) -> Markup {
     }
 }
 
-/// Lists the numbers of a pixel, one row per picture; the script fills it and hides what a case lacks.
+/// Lists the numbers of a pixel, one row per picture; the script fills it and hides rows that a case lacks.
 fn readout() -> Markup {
     html! {
         table.readout {

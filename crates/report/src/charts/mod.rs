@@ -3,7 +3,7 @@
 pub mod plot;
 pub mod strip;
 
-/// Finds the least and the largest of some numbers; 0 and 1 where there are none.
+/// Finds the smallest and the largest of some numbers; 0 and 1 without any.
 pub fn ends(values: impl Iterator<Item = f64>) -> (f64, f64) {
     let pairs = values.map(|value| (value, value));
     pairs
@@ -11,7 +11,7 @@ pub fn ends(values: impl Iterator<Item = f64>) -> (f64, f64) {
         .unwrap_or((0.0, 1.0))
 }
 
-/// Tells whether no other point is as low in both coordinates and lower in one.
+/// Returns whether no other point is as low in both coordinates and lower in one.
 pub fn is_undominated(own: [f64; 2], all: &[[f64; 2]]) -> bool {
     let beats = |other: &[f64; 2]| other[0] <= own[0] && other[1] <= own[1] && *other != own;
     !all.iter().any(beats)

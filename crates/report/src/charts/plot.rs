@@ -4,32 +4,32 @@ use maud::{Markup, html};
 
 use super::ends;
 
-/// Room for the labels of either axis, and at the other sides.
+/// Space for the labels of either axis, and at the other sides.
 const LEFT: f64 = 56.0;
 const BOTTOM: f64 = 34.0;
 const RIGHT: f64 = 10.0;
 const TOP: f64 = 10.0;
 
-/// Scale of one side of a chart.
+/// Scale of one axis of a chart.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
     /// Quantity, with its unit.
     pub title: String,
-    /// At the left or the bottom.
+    /// Value at the left or the bottom.
     pub low: f64,
-    /// At the other end.
+    /// Value at the other end.
     pub high: f64,
     /// True if equal lengths are equal factors.
     pub log: bool,
-    /// Places with their labels.
+    /// Positions with their labels.
     pub ticks: Vec<(f64, String)>,
 }
 
 impl Axis {
-    /// Makes an axis over all of some numbers, in equal steps.
+    /// Makes an axis over the range of some numbers, in equal steps.
     pub fn linear(title: &str, values: impl Iterator<Item = f64>) -> Self {
         let (low, high) = ends(values);
-        // A single number lies in the middle.
+        // A single number is in the middle.
         let room = match high > low {
             true => 0.04 * (high - low),
             false => 0.5 * low.abs().max(1e-3),
@@ -38,7 +38,7 @@ impl Axis {
         Self::new(title, [low, high], false, ticks(low, high))
     }
 
-    /// Makes an axis over all of some numbers above 0, in equal factors.
+    /// Makes an axis over the range of some numbers above 0, in equal factors.
     pub fn log(title: &str, values: impl Iterator<Item = f64>) -> Self {
         let (low, high) = ends(values);
         let (low, high) = (low / 1.15, high * 1.15);
@@ -55,7 +55,7 @@ impl Axis {
         Self::new(title, [low, high], true, ticks)
     }
 
-    /// Makes an axis with one place per word.
+    /// Makes an axis with one position per word.
     pub fn words(title: &str, words: &[String]) -> Self {
         let ends = [-0.5, words.len() as f64 - 0.5];
         let places = (0..).map(f64::from);
@@ -81,7 +81,7 @@ impl Axis {
     }
 }
 
-/// Two axes, and marks placed by them.
+/// Two axes, and marks positioned by them.
 #[derive(Clone, Debug)]
 pub struct Plot {
     /// Width and height, in the picture's own units.
@@ -93,7 +93,7 @@ pub struct Plot {
 }
 
 impl Plot {
-    /// Makes a chart that has others next to it.
+    /// Makes a chart with others next to it.
     pub fn small(x: Axis, y: Axis) -> Self {
         let size = [360.0, 220.0];
         Self { size, x, y }
@@ -105,7 +105,7 @@ impl Plot {
         Self { size, x, y }
     }
 
-    /// Finds the place of a pair of values in the chart.
+    /// Finds the position of a pair of values in the chart.
     pub fn place(&self, x: f64, y: f64) -> (f64, f64) {
         let [width, height] = self.size;
         (
@@ -114,7 +114,7 @@ impl Plot {
         )
     }
 
-    /// Draws a disc with words that show where a pointer rests on it.
+    /// Draws a disc that shows words under the pointer.
     pub fn mark(&self, (x, y): (f64, f64), class: &str, radius: f64, words: &str) -> Markup {
         let (x, y) = self.place(x, y);
         html! {
@@ -177,7 +177,7 @@ fn ticks(low: f64, high: f64) -> Vec<(f64, String)> {
         .collect()
 }
 
-/// Writes a number in two digits.
+/// Formats a number with two digits.
 fn short(value: f64) -> String {
     match value.abs() {
         0.0 => "0".to_owned(),
@@ -215,7 +215,7 @@ mod tests {
             left > LEFT && right < plot.size[0] - RIGHT,
             "{left} {right}"
         );
-        // The middle of three decades lies half way.
+        // The middle of three decades is half way.
         let (middle, _) = plot.place(0.1_f64.sqrt(), 0.0);
         assert!((middle - f64::midpoint(left, right)).abs() < 1e-9);
     }

@@ -1,4 +1,4 @@
-//! Charts of one line, which stand beside the same numbers in a table.
+//! One-line charts next to the same numbers in a table.
 
 use maud::{Markup, html};
 
@@ -7,12 +7,12 @@ use super::ends;
 /// Sides of the picture, in its own units.
 const WIDTH: f64 = 240.0;
 const HEIGHT: f64 = 14.0;
-/// Room for a mark at either end.
+/// Space for a mark at either end.
 const MARGIN: f64 = 6.0;
-/// A value beyond an end of the scale lies here, in lengths of the scale.
+/// Position of a value beyond an end of the scale, in lengths of the scale.
 const BEYOND: f64 = 0.01;
 
-/// A scale from left to right. What lies beyond it is drawn at its end.
+/// A scale from left to right. Values beyond it are drawn at its end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Strip {
     /// Value at the left end.
@@ -30,13 +30,13 @@ impl Strip {
         }
     }
 
-    /// Makes a scale over all of some values.
+    /// Makes a scale over the range of some values.
     pub fn over(values: impl Iterator<Item = f64>) -> Self {
         let (low, high) = ends(values);
         Self { low, high }
     }
 
-    /// Tells whether a value has no place on the scale.
+    /// Returns whether a value is off the scale.
     fn is_beyond(&self, value: f64) -> bool {
         let room = BEYOND * (self.high - self.low);
         value < self.low - room || value > self.high + room
@@ -56,7 +56,7 @@ impl Strip {
         html! { line.interval x1=(short(low)) x2=(short(high)) y1=(middle) y2=(middle) {} }
     }
 
-    /// Draws a value as a disc, or as an arrow that points to a value beyond the scale.
+    /// Draws a value as a disc, or as an arrow towards a value beyond the scale.
     pub fn mark(&self, value: f64, class: &str) -> Markup {
         let (x, y) = (self.place(value), HEIGHT / 2.0);
         let way = if value > self.high { 1.0 } else { -1.0 };
@@ -83,7 +83,7 @@ impl Strip {
         html! { line.zero x1=(x) x2=(x) y1="0" y2=(HEIGHT) {} }
     }
 
-    /// Draws the scale below its marks. Screen readers skip it: the numbers stand beside it.
+    /// Draws the scale below its marks. Screen readers skip it, since the numbers are next to it.
     pub fn draw(&self, marks: &Markup) -> Markup {
         let middle = HEIGHT / 2.0;
         html! {
@@ -95,7 +95,7 @@ impl Strip {
     }
 }
 
-/// Writes a coordinate: a tenth of a unit is less than a line is wide.
+/// Formats a coordinate: a tenth of a unit is thinner than a line.
 fn short(coordinate: f64) -> String {
     format!("{coordinate:.1}")
 }

@@ -1,4 +1,4 @@
-//! Words and numbers of a change, alike on the page and in the terminal.
+//! Words and numbers of a change, the same on the page and in the terminal.
 
 use judge::{Change, ChangeKind, MeanChange, number, score_change};
 use metrics::Metric;
@@ -13,7 +13,7 @@ pub struct ChangeCells {
     pub second: String,
     /// Change with its sign and its verdict: `+0.0123 worse`.
     pub change: String,
-    /// 95 % confidence interval of the change, its lower end first.
+    /// 95 % confidence interval of the change, lower end first.
     pub interval: String,
 }
 

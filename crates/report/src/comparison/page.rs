@@ -13,10 +13,10 @@ use crate::document::{Document, Siblings};
 use crate::table::Column::{Chart, Plain, Text};
 use crate::table::{grouped_table, scroll_table};
 
-/// Number of cases that are shown in pictures, those that changed most.
+/// Number of cases with pictures, the largest changes.
 const SHOWN: usize = 12;
 
-/// Makes the page of a comparison. Reads the pictures of what changed most and writes no file; the same runs make the same bytes.
+/// Makes the page of a comparison. Reads the pictures of the largest changes and writes no file; the same runs make the same bytes.
 pub fn compare_page(
     compared: &RunComparison,
     first: &StoredRun,
@@ -76,7 +76,7 @@ fn summary(compared: &RunComparison) -> String {
     )
 }
 
-/// Lists settings that differ, and cases of one run alone.
+/// Lists settings that differ, and cases of only one run.
 fn differences(compared: &RunComparison) -> Markup {
     let sides = [
         (&compared.only_in_first, &compared.runs[0]),
@@ -256,7 +256,7 @@ fn change_class(kind: ChangeKind) -> &'static str {
     }
 }
 
-/// Draws a mean change with its interval, no change in the middle.
+/// Draws a mean change with its interval; no change is in the middle.
 fn change_strip(mean: &MeanChange, most: f64) -> Markup {
     let strip = Strip::about_zero(most);
     let class = if mean.worse > 0.0 { "worse" } else { "" };

@@ -7,7 +7,7 @@ use suite::{Error, StoredRun};
 
 use crate::pixels::png::{embed_file, embed_picture};
 
-/// Pictures of one case, each as an address that holds the picture itself.
+/// Pictures of one case, each embedded in an address.
 pub struct Pictures {
     /// Output of the filter in either run.
     pub first: String,
@@ -18,7 +18,7 @@ pub struct Pictures {
 }
 
 impl Pictures {
-    /// Reads the pictures; none where one of the runs has no picture of the case.
+    /// Reads the pictures; none if one of the runs has no picture of the case.
     pub fn read(sides: [&StoredRun; 2], pair: &Pair) -> Result<Option<Self>, Error> {
         let [first, second] = pair.files(sides, "output.png");
         let (Some(first), Some(second)) = (embed_file(&first)?, embed_file(&second)?) else {
@@ -53,7 +53,7 @@ fn change(sides: [&StoredRun; 2], pair: &Pair) -> Result<Option<String>, Error> 
     Ok(Some(embed_picture(&worse.map(|worse| color(*worse)))))
 }
 
-/// Orange is worse and blue better, as elsewhere on the page; black is no change, full colour one of a half or more.
+/// Colours a change: orange is worse and blue better, as elsewhere on the page; black is no change, full colour a half or more.
 fn color(worse: f32) -> [f32; 3] {
     let full = match worse > 0.0 {
         true => [0.98, 0.55, 0.15],

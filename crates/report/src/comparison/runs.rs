@@ -11,7 +11,7 @@ use crate::run_facts::facts;
 use crate::table::Column::{Plain, Text};
 use crate::table::scroll_table;
 
-/// Lists the settings of both runs, and the truths that they share.
+/// Lists the settings of both runs, and their common truths.
 pub fn both_runs(first: &StoredRun, second: &StoredRun) -> Markup {
     let rows = facts(&first.run).into_iter().zip(facts(&second.run));
     let settings = html! {
@@ -42,7 +42,7 @@ pub fn both_runs(first: &StoredRun, second: &StoredRun) -> Markup {
     }
 }
 
-/// Lists scene, alignment and hash of the truths that both have, each once.
+/// Lists scene, alignment and hash of the common truths, each once.
 fn truths<'a>(first: &'a Run, second: &'a Run) -> Vec<(&'a SceneId, Alignment, &'a str)> {
     let list = |run: &'a Run| {
         let truth = |own: &'a Case| (&own.scene, own.alignment, own.truth_hash.as_str());

@@ -1,4 +1,4 @@
-//! The bench.json beside a run, and the costs in it.
+//! A run's bench.json, and the costs in it.
 
 use std::path::Path;
 
@@ -12,10 +12,10 @@ use crate::numbers::three_digits;
 
 /// Name of the file that `shuttertruth bench` writes.
 const BENCH_FILE: &str = "bench.json";
-/// Seconds of anything that a bench times: a day.
+/// Longest duration in a bench, in seconds: a day.
 const LONGEST: f64 = 86_400.0;
 
-/// Reads the bench that was written into the folder of a run; none if there is no such file.
+/// Reads the bench in a run's folder; none if there is no such file.
 pub fn read_bench(folder: &Path) -> Result<Option<Bench>, Error> {
     let path = folder.join(BENCH_FILE);
     if !path.exists() {
@@ -33,8 +33,7 @@ pub fn read_bench(folder: &Path) -> Result<Option<Bench>, Error> {
     })
 }
 
-/// Refuses another version, times that no clock takes, sizes that no picture has, and reaches that were not timed: charts take
-/// logarithms.
+/// Refuses another version, impossible times and sizes, and reaches that were not timed: charts take logarithms.
 fn check(bench: Bench) -> Result<Bench, String> {
     if bench.format != BENCH_FORMAT {
         let format = bench.format;
@@ -72,7 +71,7 @@ fn check(bench: Bench) -> Result<Bench, String> {
     Ok(bench)
 }
 
-/// Writes a time in milliseconds: `1.23`.
+/// Formats a time in milliseconds: `1.23`.
 pub fn milliseconds(seconds: f64) -> String {
     three_digits(1e3 * seconds)
 }
@@ -85,8 +84,8 @@ pub fn spread(seconds: &Spread) -> Markup {
     }
 }
 
-/// Finds the cost of a filter; none for references, and for filters that were not timed with these very parameters. A bench of
-/// another width has its own values in pixels.
+/// Finds the cost of a filter; none for references, and for filters that were not timed with exactly these parameters. A bench of another
+/// width has its own values in pixels.
 pub fn cost_of<'a>(table: &'a CaseTable, filter: &FilterId) -> Option<&'a CaseCost> {
     let (_, case) = table.cases_of(filter).next()?;
     let bench = table.bench.as_ref()?;
@@ -102,8 +101,7 @@ pub fn cost_of<'a>(table: &'a CaseTable, filter: &FilterId) -> Option<&'a CaseCo
     })
 }
 
-/// Tells whether a value in pixels is another one for pictures `ratio` times as wide, but for what rounding may do to the
-/// smaller of both.
+/// Returns whether a value in pixels equals another one for pictures `ratio` times as wide, up to rounding of the smaller one.
 fn are_equally_long(first: &Value, second: &Value, ratio: f64) -> bool {
     let number = |value: &Value| match value {
         Value::Integer(value) => Some(f64::from(*value)),

@@ -1,4 +1,4 @@
-//! Cell of the overview: one score of one case, which leads to the case.
+//! Cell of the overview: one score of one case, with a link to the case.
 
 use judge::{Finding, Level, Outcome};
 use maud::{Markup, html};
@@ -8,9 +8,9 @@ use crate::address::case_anchor;
 use crate::case::case_view::CaseView;
 use crate::finding_text::{Status, interval_text, limit_text};
 
-/// Least badness that a colour tells from another one, where scores have a logarithmic scale.
+/// Smallest badness with a colour of its own, for scores on a logarithmic scale.
 const LEAST: f64 = 1e-3;
-/// Part of the scores, at either end, that have the strongest colour and no share in the scale.
+/// Part of the scores, at either end, that have the strongest colour and no influence on the scale.
 const OUTLIERS: f64 = 0.05;
 
 /// Colours of a table: from blue, good, over the paper's colour to orange, bad.
@@ -20,7 +20,7 @@ pub struct Colors {
 }
 
 impl Colors {
-    /// Spreads the colours over some scores, but for the outliers among them.
+    /// Spreads the colours over some scores, except the outliers among them.
     pub fn over(ideal: Ideal, scores: impl Iterator<Item = f64>) -> Self {
         let mut all: Vec<f64> = scores.map(|score| scale(ideal, score)).collect();
         all.sort_by(f64::total_cmp);
@@ -40,7 +40,7 @@ impl Colors {
     }
 }
 
-/// Scales badness: equal steps are equal factors where 0 is perfect.
+/// Scales badness: equal steps are equal factors if 0 is perfect.
 fn scale(ideal: Ideal, score: f64) -> f64 {
     match ideal {
         Ideal::Lowest | Ideal::Target(_) => ideal.badness(score).max(LEAST).ln(),
@@ -75,7 +75,7 @@ pub fn cell(metric: Metric, colors: &Colors, view: &CaseView) -> Markup {
     }
 }
 
-/// Finds the required bound on a case's score, and the score's status; none where it has no such bound, or does not apply.
+/// Finds the required bound on a case's score, and the score's status; none if it has no such bound, or does not apply.
 fn find_judged<'a>(metric: Metric, view: &'a CaseView) -> Option<(&'a Finding, Status)> {
     let metric = view.case.scores.behind(metric);
     let mut findings = view.findings.iter();

@@ -1,4 +1,4 @@
-//! Section on the cost of filters, from the bench.json beside the run.
+//! Section on the cost of filters, from the run's bench.json.
 
 use filters::Clock;
 use maud::{Markup, html};
@@ -13,7 +13,7 @@ use crate::run_facts::adapter_text;
 use crate::table::Column::{self, Plain};
 use crate::table::{grouped_table, scroll_table};
 
-/// Writes `1.23`, in milliseconds; `-` where nothing was timed.
+/// Formats `1.23`, in milliseconds; `-` if nothing was timed.
 pub fn cost_text(cost: Option<&CaseCost>) -> String {
     cost.map_or("-".to_owned(), |cost| milliseconds(cost.seconds.median))
 }
@@ -55,7 +55,7 @@ fn provenance(bench: &Bench) -> String {
     )
 }
 
-/// Lists the run's filters that were timed.
+/// Lists the run's timed filters.
 fn list_timed<'a>(table: &'a CaseTable) -> Vec<(&'a FilterId, &'a CaseCost)> {
     let timed = table.filters.iter();
     timed
@@ -63,8 +63,7 @@ fn list_timed<'a>(table: &'a CaseTable) -> Vec<(&'a FilterId, &'a CaseCost)> {
         .collect()
 }
 
-/// Measures FLIP and time of every filter that was timed. Filters of all shutters are in one chart, so FLIP is against one
-/// shutter for all.
+/// Measures FLIP and time of every timed filter. Filters of all shutters are in one chart, so FLIP is against one shutter for all.
 fn points(table: &CaseTable, timed: &[(&FilterId, &CaseCost)]) -> Vec<Point> {
     let point = |(filter, cost): &(&FilterId, &CaseCost)| {
         Some(Point {
@@ -76,7 +75,7 @@ fn points(table: &CaseTable, timed: &[(&FilterId, &CaseCost)]) -> Vec<Point> {
     timed.iter().filter_map(point).collect()
 }
 
-/// Measures the references' errors, which no time belongs to.
+/// Measures the references' errors, which have no time.
 fn references(table: &CaseTable) -> Vec<(String, f64)> {
     let all = table.filters.iter();
     all.filter(|filter| filter.is_reference)

@@ -79,7 +79,7 @@ pub fn overview(table: &CaseTable, views: &[CaseView], thumbnails: &[String]) ->
     }
 }
 
-/// Says whether a check passes.
+/// States whether a check passes.
 fn outcome(required: &Tally) -> Markup {
     let (class, word) = match (required.broken, required.undecided) {
         (0, 0) => ("met", "PASS"),
@@ -106,7 +106,7 @@ fn counts(table: &CaseTable, targets: &Tally) -> Markup {
     }
 }
 
-/// Says which scenes an engine drew, and whose truth is whose.
+/// Lists the scenes that an engine drew, and whose truths they have.
 fn engines(table: &CaseTable) -> Markup {
     let first = |scene: &&SceneId| table.cases_on(scene).next();
     let cases = table.scenes.iter().filter_map(first);
@@ -128,7 +128,7 @@ fn panel(
     thumbnails: &[String],
     (metric, title): (Metric, &str),
 ) -> Markup {
-    // One copy of the pictures is enough: the script moves them to the table that is seen.
+    // One copy of the pictures is enough: the script moves them to the visible table.
     let is_first = metric == TABLE_SCORES[0].0;
     let content = html! {
         p.meaning {
@@ -139,7 +139,7 @@ fn panel(
     };
     html! {
         div.panel data-metric=(metric.name()) {
-            // Where scripts run, the other tables are text until somebody looks at them, so that the page opens sooner.
+            // If scripts run, the other tables are text until somebody looks at them, so that the page opens sooner.
             @if is_first { (content) } @else { noscript { (content) } }
         }
     }
@@ -159,7 +159,7 @@ fn key(is_checked: bool) -> Markup {
     }
 }
 
-/// Names the values that are good.
+/// Describes good values.
 fn better(metric: Metric) -> String {
     match metric.ideal() {
         Ideal::Lowest => "low is good".to_owned(),

@@ -1,4 +1,4 @@
-//! Chart of error against time, and the filters that no other one beats in both.
+//! Chart of error against time, and the filters that no other beats in both.
 
 use maud::{Markup, html};
 use suite::Spread;
@@ -10,11 +10,11 @@ use crate::numbers::three_digits;
 use crate::table::Column::Plain;
 use crate::table::scroll_table;
 
-/// Width of a letter of a label, and height of its line, in the chart's units.
+/// Width of a label's letter, and height of its line, in the chart's units.
 const LETTER: f64 = 5.8;
 const LINE: f64 = 11.0;
 
-/// A filter that was timed.
+/// A timed filter.
 pub struct Point {
     pub title: String,
     /// Time of all its passes.
@@ -46,7 +46,7 @@ pub fn pareto_section(points: &[Point], references: &[(String, f64)]) -> Markup 
     let places: Vec<[f64; 2]> = points.iter().map(Point::place).collect();
     let with_front = (points.iter()).map(|point| (point, is_undominated(point.place(), &places)));
     let mut sorted: Vec<(&Point, bool)> = with_front.collect();
-    // Filters that nothing beats are named first: labels that find no room are left out.
+    // Unbeaten filters are named first: labels without room are left out.
     sorted.sort_by(|(a, a_leads), (b, b_leads)| {
         let times = a.seconds.median.total_cmp(&b.seconds.median);
         b_leads.cmp(a_leads).then(times)
@@ -153,8 +153,8 @@ fn text_width(text: &str) -> f64 {
     LETTER * text.chars().count() as f64
 }
 
-/// Finds the upper left corner of every label: next to its disc, where it covers no disc, no other label and nothing that is taken; none
-/// if there is no room.
+/// Finds the upper left corner of every label: next to its disc, where it covers no disc, no other label and nothing in `taken`; none if
+/// there is no room.
 fn place_labels(
     discs: &[(&str, [f64; 4])],
     mut taken: Vec<[f64; 4]>,
@@ -183,7 +183,7 @@ fn place_labels(
     discs.iter().map(place).collect()
 }
 
-/// Sorts references, lowest first. Of lines nearer than `near` only the uppermost has a name, which is that of all.
+/// Sorts references, lowest first. Of lines closer than `near` only the top one has a name, which combines all of them.
 fn named_levels(references: &[(String, f64)], near: f64) -> Vec<(String, f64)> {
     let mut sorted = references.to_vec();
     sorted.sort_by(|a, b| a.1.total_cmp(&b.1));

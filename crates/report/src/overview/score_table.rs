@@ -16,10 +16,10 @@ use crate::charts::strip::Strip;
 use crate::finding_text::Tally;
 use crate::numbers::mean;
 
-/// Lengths of the middle half of the means that the scale goes on beyond it; what lies farther is drawn as an arrow.
+/// Extent of the scale beyond the middle half of the means, relative to it; means farther out are arrows.
 const WHISKERS: f64 = 1.5;
 
-/// Scenes from which on their columns are narrow.
+/// Number of scenes at which their columns become narrow.
 const MANY: usize = 8;
 
 /// A row before it is drawn.
@@ -32,9 +32,9 @@ struct Row<'a> {
     mean: Option<f64>,
 }
 
-/// Groups the filters of a run by shutter, unless the score compares across shutters; the best mean comes first.
+/// Groups the filters of a run by shutter, unless the score compares across shutters; best mean first.
 fn rank_rows<'a>(table: &CaseTable<'a>, metric: Metric) -> Vec<Vec<Row<'a>>> {
-    // Shutters come in the order of their filters, as in every ranking, and references behind the filters.
+    // Shutters have the order of their filters, as in every ranking, with references after the filters.
     let mut filters = table.filters.clone();
     filters.sort_by_key(|filter| filter.is_reference);
     let rate = summarized_rate(&table.run.cases);
@@ -72,7 +72,7 @@ fn rank_rows<'a>(table: &CaseTable<'a>, metric: Metric) -> Vec<Vec<Row<'a>>> {
     groups
 }
 
-/// Writes the table; a table without means, that of a single scene, has no column for them.
+/// Writes the table; without means, for a single scene, it has no column for them.
 pub fn score_table(
     table: &CaseTable,
     views: &[CaseView],
@@ -89,7 +89,7 @@ pub fn score_table(
     let strip = strip_over(rows().filter(|row| !row.filter.is_reference), ideal);
     let columns =
         1 + scenes.len() + 3 * usize::from(has_means) + usize::from(table.bench.is_some());
-    // What a reader looks for comes first.
+    // Best first.
     let order = match ideal {
         Ideal::Highest => "descending",
         Ideal::Lowest | Ideal::Target(_) => "ascending",
@@ -126,7 +126,7 @@ pub fn score_table(
     }
 }
 
-/// Writes the headings of the columns; `ends` of the means' scale are none where there are no means.
+/// Writes the headings of the columns; `ends` of the means' scale are none without means.
 fn heading(table: &CaseTable, thumbnails: &[String], ends: Option<Markup>) -> Markup {
     html! {
         tr {
@@ -166,14 +166,14 @@ fn caption(metric: Metric, has_means: bool, scenes: usize) -> &'static str {
     }
 }
 
-/// Finds the frame rate whose means are shown: that of the scenes' files, or the only one; none where there are several others.
+/// Finds the frame rate of the displayed means: the scene files' own, or the only one; none if there are several others.
 fn summarized_rate(cases: &[Case]) -> Option<Option<FrameRate>> {
     let cases = list_summarized(cases);
     let first = cases.first().map(|case| case.rate);
     first.filter(|rate| cases.iter().all(|case| case.rate == *rate))
 }
 
-/// Tells whether any required bound on a filter's scores is broken.
+/// Returns whether any required bound on a filter's scores is broken.
 fn is_failing(table: &CaseTable, views: &[CaseView], filter: &FilterId) -> bool {
     let cases = table.cases_of(filter);
     let findings = cases.flat_map(|(index, _)| &views[index].findings);
@@ -189,7 +189,7 @@ fn name(metric: Metric, filter: &FilterId) -> Markup {
     }
 }
 
-/// Writes a name that may break behind every word.
+/// Writes a name that may break after every word.
 fn breakable(name: &str) -> Markup {
     html! {
         @for part in name.split_inclusive(['_', ':']) { (part) wbr; }
@@ -201,7 +201,7 @@ fn mean_cells(table: &CaseTable, metric: Metric, strip: &Strip, row: &Row) -> Ma
         return html! { td { "-" } td {} td {} };
     };
     let class = if own.is_reference { "open" } else { "" };
-    // Only where less is better does a floor lie between perfect and the score.
+    // A floor is between perfect and the score only if lower is better.
     let floor = match metric.ideal() {
         Ideal::Lowest => {
             let cases = table.cases_of(&row.filter);
@@ -223,7 +223,7 @@ fn mean_cells(table: &CaseTable, metric: Metric, strip: &Strip, row: &Row) -> Ma
     }
 }
 
-/// Makes a scale from perfect, where that is known, over all means but outliers.
+/// Makes a scale from perfect, if that is known, over all means except outliers.
 fn strip_over<'a>(rows: impl Iterator<Item = &'a Row<'a>>, ideal: Ideal) -> Strip {
     let mut means: Vec<f64> = rows
         .filter_map(|row| row.mean)
@@ -245,7 +245,7 @@ fn strip_over<'a>(rows: impl Iterator<Item = &'a Row<'a>>, ideal: Ideal) -> Stri
     Strip::over(means.into_iter().filter(within).chain(perfect))
 }
 
-/// Writes the cost of a filter, which sorts as the scores do.
+/// Writes the cost of a filter, which sorts like the scores.
 fn cost(table: &CaseTable, filter: &FilterId) -> Markup {
     let cost = cost_of(table, filter);
     html! { td.cost data-value=[cost.map(|own| own.seconds.median)] { (cost_text(cost)) } }

@@ -9,7 +9,7 @@ use crate::address::{case_anchor, section_anchor};
 use crate::case_table::CaseTable;
 use crate::sequence::SEQUENCES_PAGE;
 
-/// Names the best filters of every shutter, the scene that the first is weakest on, and the last filter of the ranking.
+/// Names the best filters of every shutter, the first one's weakest scene, and the last filter of the ranking.
 pub fn winners(table: &CaseTable) -> Markup {
     let number = |value: f64| Metric::FLIP.number(value);
     let id = |ranked: &RankedFilter| FilterId {
@@ -41,7 +41,7 @@ pub fn winners(table: &CaseTable) -> Markup {
     }
 }
 
-/// Names the best filters of the sequences of every shutter; nothing where the run has no sequences.
+/// Names the best filters of the sequences of every shutter; nothing if the run has no sequences.
 pub fn sequence_winners(run: &Run) -> Markup {
     let groups = rank_sequences(run);
     let number = |value: f64| RANKED_BY.shown_text(value);
@@ -62,7 +62,7 @@ pub fn sequence_winners(run: &Run) -> Markup {
     }
 }
 
-/// Names the filters that share the first rank, and the scene that the first is weakest on.
+/// Names the filters that share the first rank, and the first one's weakest scene.
 fn first_rank(
     group: &[RankedFilter],
     score: &str,

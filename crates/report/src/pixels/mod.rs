@@ -1,4 +1,4 @@
-//! Numbers behind the pictures of a page, and the files that hold them.
+//! Numbers of a page's pictures, and the files that contain them.
 
 pub mod layer;
 pub mod planes;

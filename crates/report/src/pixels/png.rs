@@ -1,4 +1,4 @@
-//! Pictures that a page holds itself.
+//! Embedded pictures of a page.
 
 use std::path::Path;
 
@@ -8,10 +8,10 @@ use frame::{FileError, Image, Raster, display_srgb, png_bytes, read_bounded};
 
 /// Largest PNG file that a page shows, in bytes.
 const MAX_PICTURE_BYTES: u64 = 1 << 28;
-/// Width of a thumbnail in pixels; pictures that are narrower stay as they are.
+/// Width of a thumbnail in pixels; narrower pictures stay unchanged.
 const THUMBNAIL: u32 = 192;
 
-/// Reads a PNG file as an address that holds the picture itself; none where there is no such file.
+/// Reads a PNG file as an address that embeds the picture; none if there is no such file.
 pub fn embed_file(path: &Path) -> Result<Option<String>, FileError> {
     if !path.is_file() {
         return Ok(None);
@@ -19,7 +19,7 @@ pub fn embed_file(path: &Path) -> Result<Option<String>, FileError> {
     Ok(Some(address(&read_bounded(path, MAX_PICTURE_BYTES)?)))
 }
 
-/// Writes display values in [0, 1] as an address that holds the picture itself.
+/// Writes display values in [0, 1] as an address that embeds the picture.
 pub fn embed_picture(display: &Raster<[f32; 3]>) -> String {
     address(&png_bytes(display))
 }

@@ -1,4 +1,4 @@
-//! Files that a run left of one scene.
+//! Files of one scene in a run.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -19,19 +19,19 @@ pub type Layers = Vec<(Layer, Vec<usize>)>;
 pub struct SceneFiles {
     /// Without its guard band.
     pub frame: Frame,
-    /// Truths by their alignment.
+    /// Truths by alignment.
     pub truths: BTreeMap<Alignment, TruthFile>,
     /// The planes of all its cases.
     pub planes: Planes,
-    /// Accumulation that is part of every profile, with its title, by their alignment.
+    /// Accumulation in every profile, with its title, by alignment.
     pub accumulations: BTreeMap<Alignment, (String, Image)>,
-    /// Plane of the object that each pixel's centre sees.
+    /// Plane of the object visible at each pixel's centre.
     pub objects: usize,
     /// Folder of the run.
     folder: PathBuf,
-    /// Folder of the same scene as it was rendered, where an engine drew this one.
+    /// Folder of the same scene as rendered, if an engine drew this one.
     traced: Option<PathBuf>,
-    /// Those that every case of the scene shows.
+    /// Pictures that every case of the scene shows.
     shared: Layers,
 }
 
@@ -39,17 +39,17 @@ pub struct SceneFiles {
 pub struct TruthFile {
     /// Mean of all replicates.
     pub mean: Picture,
-    /// From each pixel to where what it shows was at the instant, in pixels: mean over the shutter.
+    /// Offset from each pixel to its surface's position at the instant, in pixels: mean over the shutter.
     pub offset: frame::Vectors,
     /// Regions that scores are pooled over.
     pub regions: Regions,
-    /// Per object that moves, with its index: where its bleed belongs.
+    /// Sides of each moving object's bleed, with the object's index.
     sides: Vec<(usize, frame::Raster<Side>)>,
     /// Truth and knowability.
     layers: Layers,
 }
 
-/// Files that a run left of one case.
+/// Files of one case in a run.
 pub struct CaseFiles<'a> {
     pub output: Image,
     pub errors: ErrorMaps<'a>,
@@ -91,14 +91,14 @@ impl SceneFiles {
         })
     }
 
-    /// Draws a small truth, that of any alignment, as an address that holds the picture itself.
+    /// Draws a small truth, of any alignment, as an address that embeds the picture.
     pub fn thumbnail(&self) -> String {
         let truth = self.truths.values().next();
         let image = truth.map_or(&self.frame.color, |truth| &truth.mean.color);
         embed_picture(&thumbnail(image, self.frame.display.stops))
     }
 
-    /// Reads the truth that a case is scored against.
+    /// Reads a case's truth.
     fn read_truth(&mut self, case: &Case) -> Result<TruthFile, Error> {
         let alignment = case.alignment;
         let path = case.render_path(&self.folder, RenderFile::Truth(alignment));
@@ -137,7 +137,7 @@ impl SceneFiles {
         })
     }
 
-    /// Reads the truth that the tracer made of a scene that an engine drew; none where the run has none.
+    /// Reads the tracer's truth of a scene that an engine drew; none if the run has none.
     fn read_traced_truth(
         &mut self,
         alignment: Alignment,
@@ -153,7 +153,7 @@ impl SceneFiles {
         Ok(Some((Layer::TracedTruth, planes)))
     }
 
-    /// Reads the files that a run left of a case.
+    /// Reads the files of a case.
     pub fn read_case<'c>(&mut self, case: &'c Case) -> Result<CaseFiles<'c>, Error> {
         let own = self.folder.join(&case.folder);
         let file = read_exr(&own.join("output.exr"))?;
@@ -176,7 +176,7 @@ impl SceneFiles {
         layers.push((Layer::Output, colors));
         let bleeds = bleeds.map(|plane| self.planes.add(&plane));
         let mut maps = vec![(Layer::Flip, "flip")];
-        // Where nobody knows what object a pixel shows, nothing is wrong about it.
+        // If the objects in a pixel are unknown, nothing is wrong about them.
         if self.frame.objects.len() > 1 || case.drawn.is_none() {
             layers.push((Layer::Bleed, bleeds.to_vec()));
             maps.push((Layer::LabelTotalVariation, "label_tv"));
@@ -218,12 +218,12 @@ fn check_size(path: &Path, found: (u32, u32), expected: (u32, u32)) -> Result<()
     )))
 }
 
-/// Tells whether a case is the accumulation that is part of every profile.
+/// Returns whether a case is the accumulation in every profile.
 fn is_in_profiles(case: &Case) -> bool {
     case.is_reference && case.filter == ACCUMULATE && case.preset == "16"
 }
 
-/// Beside, ahead and behind: the sum over moving objects of their matte where the truth never shows them.
+/// Reads beside, ahead and behind: the sum over moving objects of their matte where the truth never shows them.
 fn read_bleeds(file: &ExrFile, objects: &[String], truth: &TruthFile) -> Result<[Plane; 3], Error> {
     let mut bleeds = [(); 3].map(|()| truth.regions.moving.map(|_| 0.0));
     let wanted = [Side::Lateral, Side::Leading, Side::Trailing];

@@ -13,7 +13,7 @@ use super::ranking::ranking_tables;
 use super::scores::score_tables;
 use crate::document::{Document, Siblings, script_data};
 
-/// Name of the page, beside run.json: it shows pictures that lie below.
+/// Name of the page, next to run.json: it shows pictures below that folder.
 pub const SEQUENCES_PAGE: &str = "sequences.html";
 
 /// Pictures of a frame: the name in attributes, and the title.
@@ -25,8 +25,8 @@ const PICTURES: [(&str, &str); 5] = [
     ("change", "error of the change"),
 ];
 
-/// Makes the page that plays the sequences of a run; none where it has none. `findings` are those about the run. The page must lie in
-/// the run's folder, whose pictures it loads.
+/// Makes the page that plays the sequences of a run; none if it has none. `findings` are about the run. The page must be in the run's
+/// folder, since it loads the pictures there.
 pub fn sequences_page(run: &Run, findings: &[Finding]) -> Option<String> {
     if run.sequences.is_empty() {
         return None;
@@ -68,7 +68,7 @@ pub fn sequences_page(run: &Run, findings: &[Finding]) -> Option<String> {
     Some(document.render())
 }
 
-/// Writes the controls, and the places of the pictures.
+/// Writes the controls, and the frames for the pictures.
 fn player(run: &Run) -> Markup {
     let mut sequences = run.sequences.iter();
     let first_filter = (sequences.position(|own| !own.is_reference)).unwrap_or(0);
@@ -106,7 +106,7 @@ fn player(run: &Run) -> Markup {
     }
 }
 
-/// The run's own rate, and the usual ones.
+/// Lists the run's own rate, and the usual ones.
 fn rates(own: f64) -> Vec<f64> {
     let mut rates = vec![60.0, 30.0, 12.0];
     rates.retain(|rate| *rate != own);
@@ -118,7 +118,7 @@ fn name(own: &Sequence) -> String {
     format!("{} / {} ({})", own.scene, own.name, own.alignment)
 }
 
-/// Lists what the player needs of a sequence. Paths are relative to the page; errors are roots of squares in thousandths of white.
+/// Lists the player's data of a sequence. Paths are relative to the page; errors are roots of squares in thousandths of white.
 fn play(own: &Sequence) -> Value {
     let truth = RenderFile::Truth(own.alignment).picture();
     let path = |folder: &Path, name: &str| {

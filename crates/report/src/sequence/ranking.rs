@@ -7,7 +7,7 @@ use suite::{Run, SceneMean};
 
 use crate::table::{Column, scroll_table};
 
-/// Makes a table per shutter; nothing where the run has one scene, whose own table is ranked.
+/// Makes a table per shutter; nothing if the run has one scene, since that scene's table is ranked.
 pub fn ranking_tables(run: &Run, scenes: usize) -> Markup {
     let groups = match scenes {
         ..=1 => Vec::new(),

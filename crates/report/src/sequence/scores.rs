@@ -34,7 +34,7 @@ pub fn score_tables(run: &Run, findings: &[Finding]) -> Markup {
     }
 }
 
-/// Orders the sequences of one scene and shutter, each with its number in the run and the text of its rank.
+/// Orders the sequences of one scene and shutter, each with its number in the run and its formatted rank.
 fn order_rows<'a>(
     run: &'a Run,
     scene: &SceneId,
@@ -71,7 +71,7 @@ fn row(index: usize, rank: &str, own: &Sequence, findings: &[Finding]) -> Markup
     }
 }
 
-/// Shows a score, and the status of its bound where it has one.
+/// Shows a score, and the status of its bound if it has one.
 fn cell(own: &Sequence, metric: SequenceMetric, finding: Option<&Finding>) -> Markup {
     let score = own.scores.get(metric);
     let status = finding.and_then(|own| Status::of(own.outcome));

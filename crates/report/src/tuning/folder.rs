@@ -1,4 +1,4 @@
-//! Files that `tune` leaves in its folder.
+//! Files of `tune` in its folder.
 
 use std::path::{Path, PathBuf};
 
@@ -7,16 +7,16 @@ use store::read_text;
 use suite::Error;
 use tune::{JournalHeader, Sensitivity, TUNE_FORMAT, Trial, Tuning, read_journal};
 
-/// Contents of tune.json, journal.jsonl and sensitivity.json; at least one is there.
+/// Contents of tune.json, journal.jsonl and sensitivity.json; at least one exists.
 #[derive(Clone, Debug)]
 pub struct TuneFolder {
     /// The folder.
     pub path: PathBuf,
-    /// Outcome; none of a tuning that is not finished, or of a study of sensitivity alone.
+    /// Outcome; none for an unfinished tuning, or for a study of sensitivity alone.
     pub tuning: Option<Tuning>,
     /// The journal's first line.
     pub header: Option<JournalHeader>,
-    /// All whole lines of the journal behind it.
+    /// The journal's complete lines after the first.
     pub trials: Vec<Trial>,
     /// Result of `sensitivity`.
     pub sensitivity: Option<Sensitivity>,

@@ -15,7 +15,7 @@ use crate::document::{Document, Siblings};
 use crate::table::Column::{Plain, Text};
 use crate::table::scroll_table;
 
-/// Writes the page of a folder that `tune` made. The same folder makes the same bytes.
+/// Writes the page of `tune`'s folder. The same folder makes the same bytes.
 pub fn tuning_page(folder: &TuneFolder) -> Result<String, Error> {
     let body = html! {
         @if let Some(tuning) = &folder.tuning { (choice::summary(tuning)) }

@@ -1,4 +1,4 @@
-//! Importance of each parameter, and the error along it.
+//! Importance of each parameter, and the error along its range.
 
 use std::collections::BTreeSet;
 
@@ -13,12 +13,12 @@ use crate::charts::strip::Strip;
 use crate::table::Column::{Chart, Plain, Text};
 use crate::table::scroll_table;
 
-/// Ranges of more than this factor have an axis of equal factors.
+/// Ratio of a range's ends above which its axis is logarithmic.
 const LOG_FROM: f64 = 30.0;
-/// Largest error that is drawn; what is worse is drawn here.
+/// Largest error in a chart; larger ones are drawn here.
 const MAX_ERROR: f64 = 1.0;
 
-/// One chart per parameter: every trial, and the line along which all others stay at the start, where there is one.
+/// Draws one chart per parameter: every trial, and the line with all others at the start, if there is one.
 pub fn slices(folder: &TuneFolder) -> Markup {
     let trials = folder.trials.iter().filter(|trial| trial.error.is_some());
     let studied = folder
@@ -92,7 +92,7 @@ fn slice(folder: &TuneFolder, name: &str) -> Markup {
     html! { figure { (plot.draw(&format!("Error against {name}"), &marks)) } }
 }
 
-/// The words of a choice, each once, in the order in which they are met; none of numbers.
+/// Lists the words of a choice, each once, in order of appearance; none for numbers.
 fn distinct_words(values: &[&Value]) -> Vec<String> {
     let mut words: Vec<String> = Vec::new();
     for value in values {
@@ -125,7 +125,7 @@ fn axis(name: &str, values: &[&Value], words: &[String]) -> Axis {
     }
 }
 
-/// Lists the parameters, those that matter most first.
+/// Lists the parameters, most important first.
 pub fn importance(found: &Sensitivity) -> Markup {
     let mut rows: Vec<(&String, &ParameterSensitivity)> = found.parameters.iter().collect();
     rows.sort_by(|(_, a), (_, b)| b.indices.total.value.total_cmp(&a.indices.total.value));

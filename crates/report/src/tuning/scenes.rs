@@ -1,4 +1,4 @@
-//! Start and choice of a tuning, scene by scene and family by family.
+//! Start and choice of a tuning, by scene and by family.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use crate::numbers::percent;
 use crate::table::Column::{Chart, Plain};
 use crate::table::scroll_table;
 
-/// Lists the scenes that were tuned on, those with the largest error of the start first.
+/// Lists the scenes tuned on, those with the start's largest errors first.
 pub fn tuned_on(tuning: &Tuning) -> Markup {
     let pairs = pair_scores(&tuning.start.scenes, &tuning.chosen.scenes);
     html! {
@@ -21,7 +21,7 @@ pub fn tuned_on(tuning: &Tuning) -> Markup {
     }
 }
 
-/// Lists the held-out scenes as they were measured last.
+/// Lists the held-out scenes as last measured.
 pub fn held_out(results: &[HeldOutResult]) -> Markup {
     let Some(last) = results.last() else {
         return html! {};
@@ -71,7 +71,7 @@ fn table(caption: &str, pairs: &BTreeMap<String, [SceneScore; 2]>) -> Markup {
     }
 }
 
-/// Cross-validation: lists the choices that were made without a family of scenes, on that family; nothing if there were no two.
+/// Cross-validation: lists the choices made without a family of scenes, scored on that family; nothing unless there are two.
 pub fn folds(folds: &[Fold]) -> Markup {
     if folds.is_empty() {
         return html! {};

@@ -1,4 +1,4 @@
-//! Trials of a tuning: those that no other one beats, and the convergence of the search.
+//! Trials of a tuning: those that no other beats, and the convergence of the search.
 
 use maud::{Markup, html};
 use tune::{Advice, Trial, TrialOutcome, round_bleed};
@@ -9,7 +9,7 @@ use crate::charts::plot::{Axis, Plot};
 use crate::numbers::percent;
 use crate::table::{Column, scroll_table};
 
-/// Reads a measure of a trial; none where it was not measured.
+/// Returns a measure of a trial; none if it was not measured.
 type Measure = fn(&Trial) -> Option<f64>;
 
 /// Measures that a chart shows against the error, with their titles.
@@ -20,11 +20,11 @@ const AGAINST: [(&str, Measure); 2] = [
     }),
 ];
 
-/// Draws all trials, and lists those that no other one beats.
+/// Draws all trials, and lists those that no other beats.
 pub fn front_section(folder: &TuneFolder) -> Markup {
     let done: Vec<&Trial> = (folder.trials.iter()).filter(|own| own.is_done()).collect();
     let tuning = folder.tuning.as_ref();
-    // A choice that is not worth taking is a trial as any other.
+    // A choice that is not recommended is an ordinary trial.
     let taken = tuning.filter(|tuning| tuning.advice() == Advice::Take);
     let chosen = taken.map(|tuning| tuning.choice.trial);
     html! {
@@ -77,7 +77,7 @@ fn chart(
 
 fn table(front: &[Trial], start: &Trial, chosen: Option<usize>) -> Markup {
     let number = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.3}"));
-    // Only what the tuning measured has a column.
+    // Unmeasured scores have no column.
     let [timed, bled] =
         AGAINST.map(|(_, measure)| front.iter().any(|trial| measure(trial).is_some()));
     let mut columns = vec![Column::Plain("trial"), Column::Plain("error")];
@@ -105,7 +105,7 @@ fn table(front: &[Trial], start: &Trial, chosen: Option<usize>) -> Markup {
     )
 }
 
-/// Writes `samples 16, jitter start_offset`.
+/// Formats `samples 16, jitter start_offset`.
 fn differing(trial: &Trial, start: &Trial) -> String {
     let differ =
         (trial.values.iter()).filter(|(name, value)| start.values.get(*name) != Some(value));
@@ -115,10 +115,10 @@ fn differing(trial: &Trial, start: &Trial) -> String {
     words.join(", ")
 }
 
-/// Largest loss that is drawn: failed trials, and those far off, are drawn here.
+/// Largest loss in a chart: larger ones, and failed trials, are drawn here.
 const MAX_LOSS: f64 = 1.0;
 
-/// Loss of every trial in its order, and the least so far of those that ran everywhere.
+/// Draws the loss of every trial in order, and the smallest so far of trials that ran everywhere.
 pub fn convergence(trials: &[Trial]) -> Markup {
     let loss = |trial: &Trial| trial.loss.min(MAX_LOSS);
     let mut best: Vec<(f64, f64)> = Vec::new();

@@ -8,16 +8,16 @@ use crate::folder::is_below;
 use crate::gather::MAX_TAKEN_BYTES;
 use crate::render_file::{RenderFile, RenderPath};
 
-/// Version of the layout of a pack; it rises when a reader of the old one would misread the new one.
+/// Version of a pack's layout; it rises when a reader of the old layout would misread the new one.
 pub const PACK_FORMAT: u32 = 1;
 /// Name of the manifest in the archive.
 pub(super) const MANIFEST: &str = "manifest.json";
 /// Upper limit on the bytes of a manifest.
 pub const MAX_MANIFEST_BYTES: u64 = 1 << 26;
-/// Upper limit on the bytes of all files of a pack, relative to those of the archive. Rendered files are compressed already.
+/// Upper limit on the bytes of a pack's files together, relative to the archive's. Rendered files are compressed already.
 pub const LARGEST_PACK_RATIO: u64 = 64;
 
-/// Least bytes of an archive for each of its files: its hash and its checksum alone take as many.
+/// Fewest bytes of an archive per file: a file's hash and checksum alone take that many.
 pub const LEAST_BYTES_PER_FILE: u64 = 64;
 
 /// What a pack holds.
@@ -28,7 +28,7 @@ pub struct Manifest {
     pub format: u32,
     /// Program name and version.
     pub program: String,
-    /// The files, in the order of the archive: that of their paths.
+    /// The files, in the order of the archive: by path.
     pub files: Vec<PackedFile>,
 }
 
@@ -42,13 +42,13 @@ pub struct PackedFile {
     pub bytes: u64,
     /// BLAKE3 hash of these bytes, in hexadecimal.
     pub blake3: String,
-    /// Hash of scene, settings and tracer, as the file's header has it; that of a truth is the `truth_hash` of run.json.
+    /// Hash of scene, settings and tracer, from the file's header; for a truth, the `truth_hash` of run.json.
     pub content_hash: String,
     /// Name of the scene, with its variant and its frame.
     pub scene: String,
-    /// Columns, with the guard band of a frame.
+    /// Columns, a frame's guard band included.
     pub width: u32,
-    /// Rows, with the guard band of a frame.
+    /// Rows, a frame's guard band included.
     pub height: u32,
     /// Mean samples per pixel of this file.
     pub samples_per_pixel: u32,

@@ -1,4 +1,4 @@
-//! Reading of packs, whoever wrote them.
+//! Reader of packs, which anybody may have written.
 
 use std::fs::File;
 use std::io::{BufReader, Read};
@@ -15,7 +15,7 @@ const MAX_PADDING: u64 = 10_240;
 
 type Unpacked = zstd::Decoder<'static, BufReader<File>>;
 
-/// A pack whose manifest was read and checked. Its files were not.
+/// A pack with a manifest that was read and checked; its files were not.
 #[derive(Clone, Debug)]
 pub struct Pack {
     /// The archive.
@@ -44,7 +44,7 @@ impl Pack {
     /// Reads all of the archive, and hands each file with its bytes to `visit`, in the order of the manifest.
     ///
     /// # Errors
-    /// The archive holds anything else than the files of its manifest, byte for byte; or `visit` fails.
+    /// The archive does not match its manifest byte for byte, or `visit` fails.
     fn visit(
         &self,
         mut visit: impl FnMut(&PackedFile, &[u8]) -> Result<(), Error>,
@@ -65,7 +65,7 @@ impl Pack {
                 )));
             }
         }
-        // Reading to the end finds an archive that was cut off behind its last file.
+        // Reading to the end finds an archive that was cut off after its last file.
         let mut rest = Vec::new();
         let padding = archive
             .into_inner()
@@ -81,13 +81,13 @@ impl Pack {
     /// Reads all of the archive and compares it with the manifest; writes nothing.
     ///
     /// # Errors
-    /// The archive holds anything else than the files of its manifest, byte for byte.
+    /// The archive does not match its manifest byte for byte.
     pub fn check(&self) -> Result<(), Error> {
         self.visit(|_, _| Ok(()))
     }
 
-    /// Writes those files that `is_wanted` below a folder, in place of what lies there. Call [`Pack::check`] first, so that nothing is
-    /// written from an archive that is not what it says.
+    /// Writes the files that `is_wanted` below a folder, replacing any there. Call [`Pack::check`] first, so that nothing is written
+    /// from a broken archive.
     ///
     /// # Errors
     /// As [`Pack::check`], or a file cannot be written.
@@ -115,10 +115,10 @@ fn open_archive(path: &Path) -> Result<Archive<Unpacked>, Error> {
     Ok(Archive::new(zstd::Decoder::new(file).map_err(io)?))
 }
 
-/// An entry of an archive, or the reason why there is none to be read.
+/// An entry of an archive, or why it cannot be read.
 type Found<'a> = std::io::Result<Entry<'a, Unpacked>>;
 
-/// Lists the entries as they are: names that extend over entries of their own are refused as these.
+/// Lists the entries as they are, so that long names, which are entries of their own, are refused.
 fn list_entries(
     archive: &mut Archive<Unpacked>,
 ) -> Result<impl Iterator<Item = Found<'_>>, String> {
@@ -181,7 +181,7 @@ fn read_entry(entry: Option<Found>, file: &PackedFile) -> Result<Vec<u8>, String
     }
 }
 
-/// Reads an entry up to one byte beyond a limit. Memory grows with what is there, not with what a header says.
+/// Reads an entry up to one byte beyond a limit. Memory grows with the bytes read, not with a header's claim.
 fn read_at_most(entry: &mut Entry<Unpacked>, limit: u64) -> Result<Vec<u8>, String> {
     let mut bytes = Vec::new();
     let read = entry.take(limit + 1).read_to_end(&mut bytes);

@@ -17,7 +17,7 @@ const LEVEL: i32 = 3;
 /// Permissions of a packed file: everybody may read it.
 const MODE: u32 = 0o644;
 
-/// Writes files below `folder` into the archive `pack`; their sizes and hashes of bytes are filled in. The same files give the same
+/// Writes files below `folder` into the archive `pack`, and fills in their sizes and byte hashes. The same files give the same
 /// bytes. `program` is the name and version that the manifest records.
 ///
 /// # Errors
@@ -102,11 +102,11 @@ fn read_unchanged(folder: &Path, file: &PackedFile) -> Result<Vec<u8>, Error> {
     }
 }
 
-/// Appends a file whose header says nothing of who packed it, and when.
+/// Appends a file with a header that does not say who packed it, or when.
 fn append<W: Write>(archive: &mut Builder<W>, path: &str, bytes: &[u8]) -> std::io::Result<()> {
     let mut header = Header::new_ustar();
     header.set_entry_type(EntryType::Regular);
-    // Fails for a path beyond the 255 bytes that such a header has room for.
+    // Fails for a path longer than the 255 bytes of such a header.
     header.set_path(path)?;
     header.set_size(bytes.len() as u64);
     header.set_mode(MODE);

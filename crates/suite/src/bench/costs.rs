@@ -1,4 +1,4 @@
-//! Costs of filters, summed up from the times of their runs.
+//! Costs of filters, summarised from the times of their runs.
 
 use filters::PassTime;
 
@@ -8,7 +8,7 @@ use crate::filter_choice::FilterChoice;
 /// Times of every dispatch of one run of a filter.
 pub type Times = Vec<PassTime>;
 
-/// Sums up the runs of one filter preset.
+/// Summarises the runs of one filter preset.
 pub fn case_cost(
     choice: &FilterChoice,
     runs: &[Times],
@@ -33,7 +33,7 @@ pub fn case_cost(
     }
 }
 
-/// Sums up the runs of each pass, whose iterations follow one another.
+/// Summarises the runs of each pass, with its iterations in sequence.
 pub fn pass_costs(runs: &[Times], pixels: f64) -> Vec<PassCost> {
     let mut start = 0;
     let passes = runs[0].chunk_by(|a, b| a.entry == b.entry);
@@ -56,7 +56,7 @@ pub fn spread(runs: &[Times]) -> Spread {
     Spread::of(runs.iter().map(|run| total_seconds(run)))
 }
 
-/// Divides times by others, round by round.
+/// Divides times by base times, round by round.
 pub fn ratio(runs: &[Times], base: &[Times]) -> Spread {
     let pairs = runs.iter().zip(base);
     Spread::of(pairs.map(|(run, base)| total_seconds(run) / total_seconds(base)))

@@ -1,4 +1,4 @@
-//! Bench of filters: the time of every pass, its memory traffic, and the growth of both with the reach.
+//! Bench of filters: the time of every pass, its memory traffic, and how both grow with the reach.
 
 mod costs;
 mod panels;
@@ -16,7 +16,7 @@ pub use self::timing::{BenchPlan, bench};
 /// Version of the layout of `bench.json`.
 pub const BENCH_FORMAT: u32 = 1;
 
-/// Filter and preset that times are divided by.
+/// Filter and preset that other times are divided by.
 pub const BASELINE: &str = "jump_flood:paper";
 
 /// Exposure of the frames, in frames: trails are as long as the motion.
@@ -28,7 +28,7 @@ pub const SPEED: u32 = 32;
 /// Reaches whose cost is measured, in pixels.
 pub const REACHES: [u32; 6] = [8, 16, 32, 64, 128, 256];
 
-/// The reach, in pixels, that the longest one is compared with.
+/// Reach, in pixels, that the longest one is compared with.
 pub const GROWTH_FROM: u32 = 16;
 
 /// A finished bench: `bench.json`. Durations are in seconds.
@@ -40,7 +40,7 @@ pub struct Bench {
     pub program: String,
     /// Adapter that the filters ran on.
     pub adapter: AdapterDescription,
-    /// Clock behind the durations.
+    /// Clock of the durations.
     pub clock: Clock,
     /// Pixels per row.
     pub width: u32,
@@ -50,7 +50,7 @@ pub struct Bench {
     pub rounds: u32,
     /// Exposure in frames.
     pub exposure: f64,
-    /// Motion behind `cases`, in pixels per frame.
+    /// Motion of `cases`, in pixels per frame.
     pub speed: u32,
     /// Speed of the adapter's memory.
     pub copy: CopyCost,
@@ -80,8 +80,8 @@ pub struct CaseCost {
     pub preset: String,
     /// Every parameter's value.
     pub parameters: BTreeMap<String, Value>,
-    /// Width of the pictures that the preset was made for, from which values in pixels were scaled; none where the preset
-    /// names none, or values were left as written.
+    /// Picture width that the preset was made for, from which values in pixels were scaled; none if the preset names none, or values were
+    /// left as written.
     #[serde(default)]
     pub reference_width: Option<u32>,
     /// Time of all passes.
@@ -92,9 +92,9 @@ pub struct CaseCost {
     pub bytes_per_pixel: f64,
     /// Bytes over median time.
     pub bytes_per_second: f64,
-    /// Bytes per second as a part of those of the copy.
+    /// Bytes per second, relative to the copy's.
     pub part_of_copy: f64,
-    /// Passes in the order in which they run.
+    /// Passes in the order of their runs.
     pub passes: Vec<PassCost>,
 }
 
@@ -118,23 +118,23 @@ pub struct ReachCost {
     pub filter: String,
     /// The preset.
     pub preset: String,
-    /// The parameter that was set for each reach; none where nothing bounds the filter's reach.
+    /// Parameter that was set for each reach; none if nothing limits the filter's reach.
     pub parameter: Option<String>,
     /// Costs at each of [`REACHES`].
     pub points: Vec<ReachPoint>,
-    /// Time at the longest reach over that at [`GROWTH_FROM`] in the same round; none where either cannot be set.
+    /// Time at the longest reach, relative to [`GROWTH_FROM`] in the same round; none if either cannot be set.
     pub growth: Option<Spread>,
 }
 
 /// The cost at one reach.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct ReachPoint {
-    /// Motion in pixels per frame, which the filter is set to cover.
+    /// Motion in pixels per frame that the filter is set to cover.
     pub pixels: u32,
-    /// Time of all passes; none where the parameter's range ends before.
+    /// Time of all passes; none if the parameter's range does not reach this far.
     pub seconds: Option<Spread>,
     /// Value of the parameter that was set.
     pub value: Option<Value>,
-    /// Passes in the order in which they run; empty where nothing was timed.
+    /// Passes in the order of their runs; empty if nothing was timed.
     pub passes: Vec<PassCost>,
 }

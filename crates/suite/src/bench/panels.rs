@@ -1,4 +1,4 @@
-//! Frame that filters are timed on, made by formula.
+//! Synthetic frame for timing filters.
 
 use frame::{Camera, CameraPose, FAR_DEPTH, Image, Plane, Raster, Reprojection, Vectors};
 
@@ -10,9 +10,9 @@ pub struct Panels {
     pub velocity: Vectors,
     /// Depth in metres.
     pub depth: Plane,
-    /// Camera motion, for filters that know no other: a pan of the same speed.
+    /// Camera motion, for filters that use nothing else: a pan of the same speed.
     pub reprojection: Reprojection,
-    /// Camera at the world's origin, for shaders that take its matrices.
+    /// Camera at the world's origin, for shaders that use its matrices.
     pub camera: Camera,
 }
 
@@ -29,11 +29,11 @@ const PANELS: [Panel; 5] = [
     ([0.20, 0.80], [0.03, 0.12], [0.96, -0.28], 12.0),
 ];
 
-/// Change of a panel's speed at the ends of its long side, as a turning one has it: no two of its pixels move alike.
+/// Change of a panel's speed at the ends of its long side, as in a turning panel: no two of its pixels move alike.
 const SPREAD: f32 = 0.1;
 
 impl Panels {
-    /// Makes five panels that move `speed` pixels per frame, each in its own direction, over a still ground; all of it textured.
+    /// Makes five textured panels that move `speed` pixels per frame, each in its own direction, over a still textured ground.
     pub fn new(width: u32, height: u32, speed: f32) -> Self {
         let at = |x, y| panel_at(width, height, x, y);
         Self {
@@ -67,7 +67,7 @@ impl Panels {
     }
 }
 
-/// Finds the panel that a pixel shows, and the pixel's place along its sides: -1 to 1.
+/// Finds the panel that a pixel shows, and the pixel's position along its sides: -1 to 1.
 fn panel_at(width: u32, height: u32, x: u32, y: u32) -> Option<(Panel, f32)> {
     let point = [x as f32 + 0.5, y as f32 + 0.5];
     let size = [width as f32, height as f32];
@@ -81,7 +81,7 @@ fn panel_at(width: u32, height: u32, x: u32, y: u32) -> Option<(Panel, f32)> {
     })
 }
 
-/// Computes a texture with contrast at every scale down to the pixel, so that a fetch that is left out shows.
+/// Computes a texture with contrast at every scale down to the pixel, so that a skipped fetch is visible.
 fn texture(x: u32, y: u32) -> f32 {
     let checker = if (x / 16 + y / 16).is_multiple_of(2) {
         0.6

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use statrs::statistics::{Data, OrderStatistics};
 
-/// Median and quartiles: one round in four lies below the lower one, and one above the upper one.
+/// Median and quartiles: a quarter of the rounds is below the lower one, and a quarter above the upper one.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Spread {
     /// Half of the rounds took longer, half took less.
@@ -15,7 +15,7 @@ pub struct Spread {
 }
 
 impl Spread {
-    /// Computes median and quartiles of one value per round. Panics where there is none.
+    /// Computes median and quartiles of one value per round. Panics without rounds.
     pub fn of(rounds: impl IntoIterator<Item = f64>) -> Self {
         let values: Vec<f64> = rounds.into_iter().collect();
         assert!(!values.is_empty(), "a spread is of at least one round");

@@ -1,4 +1,4 @@
-//! Bench of filters: the work behind its tables.
+//! Bench of filters: its measurements.
 
 use std::cell::Cell;
 use std::collections::BTreeMap;
@@ -15,9 +15,9 @@ use super::{
 use crate::filter_choice::FilterChoice;
 use crate::{Error, PROGRAM};
 
-/// Everything that a bench is told to do.
+/// All settings of a bench.
 pub struct BenchPlan {
-    /// Filters to time, beside [`BASELINE`].
+    /// Filters to time, in addition to [`BASELINE`].
     pub filters: Vec<FilterChoice>,
     /// Pixels per row.
     pub width: u32,
@@ -30,14 +30,13 @@ pub struct BenchPlan {
 }
 
 impl BenchPlan {
-    /// Counts the runs of filters: in every round each of them once among the others, and once at each reach.
+    /// Counts the runs of filters: in every round, one of each filter among the others, and one at each reach.
     pub fn count_runs(&self) -> u64 {
         u64::from(self.rounds + 1) * self.filters.len() as u64 * (1 + REACHES.len() as u64)
     }
 }
 
-/// Times every filter. Those of one table take turns, one run each per round, so that whatever else the machine does
-/// affects all of them alike.
+/// Times every filter. Filters of one table take turns, one run each per round, so that other load on the machine affects them alike.
 pub fn bench(mut plan: BenchPlan, gpu: &Gpu, watch: Watch) -> Result<Bench, Error> {
     if !plan.filters.iter().any(|choice| choice.name() == BASELINE) {
         let (filter, preset) = (BASELINE.split_once(':')).expect("the baseline has a preset");
@@ -77,22 +76,22 @@ pub fn bench(mut plan: BenchPlan, gpu: &Gpu, watch: Watch) -> Result<Bench, Erro
     })
 }
 
-/// A filter with settings, and the speed of the frame that it is timed on.
+/// A filter with settings, and the speed in its timing frame.
 type Timed<'a> = (&'a FilterChoice, &'a Settings, u32);
 
-/// The rounds of a bench, and the progress over the runs of filters.
+/// The rounds of a bench, with progress over the filters' runs.
 struct Timer<'a> {
     plan: &'a BenchPlan,
     gpu: &'a Gpu,
     watch: Watch<'a>,
     /// Frames by speed: every one of [`REACHES`], and so [`SPEED`].
     panels: BTreeMap<u32, Panels>,
-    /// Runs that are done, of all tables.
+    /// Finished runs, of all tables.
     done: Cell<u64>,
 }
 
 impl Timer<'_> {
-    /// Times every filter preset on the frame of [`SPEED`], and the memory copy beside them.
+    /// Times every filter preset at [`SPEED`], and the memory copy in the same rounds.
     fn time_presets(&self) -> Result<(CopyCost, Vec<CaseCost>), Error> {
         let filters = &self.plan.filters;
         let timed = filters.iter().map(|own| (own, &own.settings, SPEED));
@@ -115,7 +114,7 @@ impl Timer<'_> {
 
     /// Times one filter at every reach, in turns.
     fn time_reaches(&self, choice: &FilterChoice) -> Result<ReachCost, Error> {
-        // A range that ends before a reach leaves a gap in the table.
+        // A range too short for a reach leaves a gap in the table.
         let settings = |pixels| choice.settings.with_reach(&choice.filter, pixels).ok();
         let settings: BTreeMap<u32, Settings> = (REACHES.into_iter())
             .filter_map(|pixels| Some((pixels, settings(pixels)?)))
@@ -146,7 +145,7 @@ impl Timer<'_> {
         })
     }
 
-    /// Runs each filter once, then `beside`, in every round; returns the runs of each filter. A round before the first is not counted.
+    /// Runs each filter once, then `beside`, in every round; returns the runs of each filter. Discards a first round.
     fn time<T>(
         &self,
         filters: &[Timed],
@@ -176,7 +175,7 @@ impl Timer<'_> {
         Ok((runs, besides))
     }
 
-    /// Shows that some runs are done, or left out.
+    /// Reports finished or skipped runs.
     fn advance(&self, runs: u64) -> Result<(), Error> {
         self.done.set(self.done.get() + runs);
         let progress = Progress {
@@ -201,6 +200,8 @@ fn load<'b, 'g>(
     blur.load(&Input {
         color: &[&panels.color],
         velocity: &panels.velocity,
+        velocity_next: Some(&panels.velocity),
+        velocity_z: Some(&panels.depth.map(|_| 0.0)),
         depth: &panels.depth,
         reprojection: Some(panels.reprojection),
         camera: Some(panels.camera),

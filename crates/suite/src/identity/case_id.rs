@@ -14,29 +14,29 @@ use super::filter_id::FilterId;
 use crate::InputFormat;
 use crate::filter_choice::overrides_text;
 
-/// Identity of a case: a filter or a reference on a scene, with all that was chosen of both. As a text: `fan / jump_flood:paper`.
+/// Identity of a case: a filter or a reference on a scene, with all choices. As a text: `fan / jump_flood:paper`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CaseId {
     /// Scene.
     pub scene: SceneId,
-    /// Filter name; of a reference picture [`IDENTITY`](crate::IDENTITY), [`SCATTER_ORACLE`](crate::SCATTER_ORACLE) or `accumulate`.
+    /// Filter name; [`IDENTITY`](crate::IDENTITY), [`SCATTER_ORACLE`](crate::SCATTER_ORACLE) or `accumulate` for a reference picture.
     pub filter: String,
-    /// The preset that the parameters started from; of `accumulate` the number of sub-frames.
+    /// Preset that the parameters started from; for `accumulate` the number of sub-frames.
     pub preset: String,
-    /// True for a reference picture that filters are compared with: no filter made it, and no bound limits it.
+    /// True for a reference picture to compare filters with: no filter made it, and no bound limits it.
     #[serde(rename = "bar")]
     pub is_reference: bool,
-    /// Form in which the filter got the frame.
+    /// Form of the frame that the filter got.
     pub input: InputFormat,
-    /// Parameters that `--set` gave a value of their own.
+    /// Parameters that `--set` changed.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub overrides: BTreeMap<String, Value>,
-    /// The shutter alignment that the filter declares and is scored against.
+    /// Shutter alignment that the filter declares and is scored against.
     pub alignment: Alignment,
 }
 
 impl CaseId {
-    /// Names the case apart from its scene, as tables do: `jump_flood:paper`, followed by what is not as usual.
+    /// Names the case without its scene, as in tables: `jump_flood:paper`, followed by everything unusual.
     pub fn name(&self) -> String {
         let mut name = match self.preset.as_str() {
             "" => self.filter.clone(),
@@ -55,7 +55,7 @@ impl CaseId {
         }
     }
 
-    /// Returns the identity of the filter or reference apart from the scene.
+    /// Returns the identity of the filter or reference without the scene.
     pub fn filter_id(&self) -> FilterId {
         FilterId {
             is_reference: self.is_reference,
@@ -82,7 +82,7 @@ impl fmt::Display for CaseId {
     }
 }
 
-// No value of a parameter is NaN.
+// No parameter value is NaN.
 impl Eq for CaseId {}
 
 impl Hash for CaseId {

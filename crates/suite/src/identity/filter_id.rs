@@ -1,18 +1,18 @@
-//! Identity of a filter apart from scenes: what a row of every table stands for.
+//! Identity of a filter without a scene: the key of a table row.
 
 use std::fmt;
 
 use frame::Alignment;
 use serde::{Deserialize, Serialize};
 
-/// A filter preset with one form of its input, or a reference with one shutter. As a text: `jump_flood:paper`, and of a reference, which
-/// every alignment has of its own, `identity (trailing)`.
+/// A filter preset with one form of its input, or a reference with one shutter. As a text: `jump_flood:paper`, or for a reference, which
+/// exists once per alignment, `identity (trailing)`.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct FilterId {
-    /// `jump_flood:paper`, followed by what is not as usual.
+    /// `jump_flood:paper`, followed by everything unusual.
     #[serde(rename = "filter")]
     pub name: String,
-    /// True of a reference: `identity`, `scatter_oracle`, `accumulate:N`.
+    /// True for a reference: `identity`, `scatter_oracle`, `accumulate:N`.
     #[serde(rename = "bar")]
     pub is_reference: bool,
     /// Shutter alignment that it is scored against.

@@ -1,4 +1,4 @@
-//! Identities, by which scenes, filters and cases are named, matched, sorted and found in folders.
+//! Identities that name, match, sort and locate scenes, filters and cases.
 
 mod case_id;
 mod filter_id;

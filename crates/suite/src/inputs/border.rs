@@ -1,10 +1,10 @@
-//! Policies for what lies beyond the border of the picture.
+//! Content beyond the border of the picture.
 
 use frame::{Frame, Raster};
 
 use crate::named;
 
-/// Widest border that is filled up, in pixels.
+/// Widest filled border, in pixels.
 const WIDEST: u32 = 256;
 
 named! {
@@ -17,7 +17,7 @@ named! {
     }
 }
 
-/// Returns the width of the border that the longest smear of a frame reaches, in pixels.
+/// Returns the width of the border that a frame's longest smear reaches, in pixels.
 pub(crate) fn smear_margin(frame: &Frame) -> u32 {
     longest_smear(frame).ceil().min(f64::from(WIDEST)) as u32
 }
@@ -28,7 +28,7 @@ fn longest_smear(frame: &Frame) -> f64 {
     f64::from(speeds.fold(0.0, f32::max)) * frame.exposure
 }
 
-/// Repeats the outermost pixels of a frame on every side, as a part of the guard band.
+/// Repeats the outermost pixels of a frame on every side, as part of the guard band.
 pub(crate) fn repeat_border(frame: &Frame, margin: u32) -> Frame {
     fn wide<T: Clone>(raster: &Raster<T>, margin: u32) -> Raster<T> {
         let inside = |place: u32, side: u32| place.saturating_sub(margin).min(side - 1);
@@ -41,6 +41,8 @@ pub(crate) fn repeat_border(frame: &Frame, margin: u32) -> Frame {
         guard_band: frame.guard_band + margin,
         color: wide(&frame.color, margin),
         velocity: wide(&frame.velocity, margin),
+        velocity_next: (frame.velocity_next.as_ref()).map(|own| wide(own, margin)),
+        velocity_z: (frame.velocity_z.as_ref()).map(|own| wide(own, margin)),
         depth: wide(&frame.depth, margin),
         object_id: wide(&frame.object_id, margin),
         coverage: (frame.coverage.iter())

@@ -23,8 +23,8 @@ named! {
 }
 
 impl BufferSize {
-    /// Returns the frame with velocity and depth as a filter reads them from such buffers: every pixel gets the texel that it lies in.
-    /// Blocks count from the buffers' top left corner, guard band included; those at the right and at the bottom may be cut.
+    /// Returns the frame with velocity and depth as a filter reads them from such buffers: every pixel gets the texel that contains it.
+    /// Blocks count from the buffers' top left corner, including the guard band; the last blocks at the right and the bottom may be cut.
     pub(crate) fn apply(self, frame: Frame) -> Frame {
         let (side, is_dilated) = match self {
             Self::Full | Self::FullDilated => (1, false),
@@ -46,17 +46,23 @@ impl BufferSize {
             }
         });
         let velocity = places.map(|&[x, y]| *frame.velocity.at(x, y));
+        let next = frame.velocity_next.as_ref();
+        let velocity_next = next.map(|own| places.map(|&[x, y]| *own.at(x, y)));
+        let z = frame.velocity_z.as_ref();
+        let velocity_z = z.map(|own| places.map(|&[x, y]| *own.at(x, y)));
         let depth = places.map(|&[x, y]| *frame.depth.at(x, y));
         Frame {
             velocity,
+            velocity_next,
+            velocity_z,
             depth,
             ..frame
         }
     }
 }
 
-/// Finds the nearest surface of a block of pixels, row by row, up to `end`. Another one must be nearer than `own` to take its place, and
-/// the first of equals stays.
+/// Finds the nearest surface of a block of pixels, row by row, up to `end`. Only a nearer one replaces `own`, and the first of equals
+/// stays.
 fn nearest(depth: &Plane, own: [u32; 2], begin: [u32; 2], end: [u32; 2]) -> [u32; 2] {
     let mut best = own;
     for y in begin[1]..end[1].min(depth.height) {
@@ -74,7 +80,7 @@ mod tests {
     use super::*;
     use crate::inputs::test_frame::test_frame;
 
-    /// Lists the pixels that a row of five took, and their depths, in a frame of three rows with one near pixel.
+    /// Lists the pixels that a row of five reads, and their depths, in a frame of three rows with one near pixel.
     fn taken(size: BufferSize, near: (u32, u32), row: u32) -> [[f32; 3]; 5] {
         let mut frame = test_frame(5, 3);
         frame.velocity = Raster::from_fn(5, 3, |x, y| [x as f32, y as f32]);
@@ -88,7 +94,7 @@ mod tests {
 
     #[test]
     fn blocks_store_their_first_pixel() {
-        // The near pixel is no first one, and gets lost; the last row is a block of its own.
+        // The near pixel is not the first of its block, and gets lost; the last row is a block of its own.
         for (row, first) in [(1, 0.0), (2, 2.0)] {
             let expected = [0.0, 0.0, 2.0, 2.0, 4.0].map(|x| [x, first, 8.0]);
             assert_eq!(taken(BufferSize::Half, (1, 1), row), expected);

@@ -1,4 +1,4 @@
-//! Jitter of the camera, as temporal anti-aliasing has it. Velocity and depth are those of the moved pixels.
+//! Jitter of the camera, as for temporal anti-aliasing. Velocity and depth belong to the shifted pixels.
 
 use frame::{Frame, Vectors};
 use tracer::{PixelGrid, PointMotion, trace_motion_on};
@@ -31,7 +31,7 @@ impl CameraJitter {
         let settings = settings_of(&frame);
         let grid = PixelGrid {
             size: [settings.width, settings.height],
-            // What moves to the right in the picture lies further to the left for the pixels.
+            // A picture that moves right is sampled further left.
             offset: jitter(index).map(|part| -part),
         };
         let render = || renderer.frame("jittered frame", &settings, &grid);
@@ -40,29 +40,35 @@ impl CameraJitter {
             Self::Removed => render(),
             Self::LeftIn => {
                 let jittered = render()?;
-                let velocity = add_motion(&jittered, jitter_motion(index));
+                let add = |velocity, motion| add_motion(&jittered, velocity, motion);
+                let next = jittered.velocity_next.as_ref();
+                let velocity_next = next.map(|next| add(next, jitter_motion(index + 1)));
                 Ok(Frame {
-                    velocity,
+                    velocity: add(&jittered.velocity, jitter_motion(index)),
+                    velocity_next,
                     ..jittered
                 })
             }
             Self::Resolved => {
                 let motion = &PointMotion::RIGHT;
                 let points = trace_motion_on(renderer.scene, &settings, motion, &grid)?;
-                Ok(Frame {
+                let resolved = Frame {
                     velocity: points.velocity,
+                    velocity_next: None,
+                    velocity_z: None,
                     depth: points.depth,
                     object_id: points.object_id,
                     ..frame
-                })
+                };
+                renderer.complete(resolved, &settings, &grid)
             }
         }
     }
 }
 
-/// Adds a motion of the whole picture to all vectors, but to none of a background that has no velocity.
-fn add_motion(frame: &Frame, motion: [f32; 2]) -> Vectors {
-    frame.velocity.zip(&frame.object_id, |velocity, object| {
+/// Adds a motion of the whole picture to all vectors, except those of a background without velocity.
+fn add_motion(frame: &Frame, velocity: &Vectors, motion: [f32; 2]) -> Vectors {
+    velocity.zip(&frame.object_id, |velocity, object| {
         match *object == 0 && !frame.options.sky_velocity {
             true => *velocity,
             false => [0, 1].map(|axis| velocity[axis] + motion[axis]),
@@ -70,15 +76,14 @@ fn add_motion(frame: &Frame, motion: [f32; 2]) -> Vectors {
     })
 }
 
-/// Returns by how much the jitter moves the picture of a frame from the frame before it, in pixels.
+/// Returns how far jitter moves a frame's picture from the previous frame's, in pixels.
 pub(super) fn jitter_motion(frame: u32) -> [f32; 2] {
     let before = (frame + PHASES - 1) % PHASES;
     let [before, now] = [before, frame].map(jitter);
     [0, 1].map(|axis| (now[axis] - before[axis]) as f32)
 }
 
-/// Returns by how much the jitter moves the picture of a frame, in pixels; +x right, +y down. The frame 0 has the second of the
-/// jitters.
+/// Returns how far jitter moves a frame's picture, in pixels; +x right, +y down. Frame 0 has the second jitter.
 fn jitter(frame: u32) -> [f64; 2] {
     let point = (frame + 1) % PHASES + 1;
     [2, 3].map(|base| halton(point, base) - 0.5)

@@ -5,7 +5,7 @@ use half::f16;
 
 use crate::named;
 
-/// Near plane that reversed depth is computed with, in metres.
+/// Near plane of reversed depth, in metres.
 const NEAR: f64 = 0.1;
 
 named! {
@@ -23,11 +23,11 @@ named! {
 }
 
 impl DepthFormat {
-    /// Returns depth as it comes out of this buffer.
+    /// Returns depth as read from this buffer.
     pub(crate) fn apply(self, depth: &Plane) -> Plane {
         depth.map(|&depth| match self {
             Self::Float32 => depth,
-            // The background is told apart by being far, and stays so.
+            // The background's mark is its far depth, which must not change.
             _ if depth == FAR_DEPTH => depth,
             Self::Float16 => f16::from_f32(depth).to_f32().min(f16::MAX.to_f32()),
             Self::Reversed24 => match unorm(NEAR / f64::from(depth), 24) {

@@ -20,7 +20,7 @@ named! {
 }
 
 impl DepthOfField {
-    /// Refuses a form that means nothing for a scene.
+    /// Refuses a form that has no meaning for a scene.
     pub(crate) fn check(self, scene: &Scene) -> Result<(), Error> {
         match (self, scene.camera.lens) {
             (Self::After, None) => Err(Error::Usage(format!(
@@ -32,7 +32,7 @@ impl DepthOfField {
         }
     }
 
-    /// Returns the frame that a filter gets, and the scene as it shows it.
+    /// Returns the frame that a filter gets, and the scene as shown in it.
     pub(crate) fn apply<'s>(
         self,
         frame: Frame,
@@ -45,17 +45,14 @@ impl DepthOfField {
                 let scene = scene.clone().pinhole();
                 let settings = settings_of(&frame);
                 let grid = PixelGrid::of_picture(settings.width, settings.height);
-                let renderer = Renderer {
-                    scene: &scene,
-                    monitor,
-                };
+                let renderer = Renderer::of(&frame, &scene, monitor);
                 let frame = renderer.frame("frame of a pinhole", &settings, &grid)?;
                 Ok((frame, Cow::Owned(scene)))
             }
         }
     }
 
-    /// Prepares the pass behind a filter; none where the filter comes last. [`DepthOfField::check`] has passed the scene.
+    /// Prepares the pass after a filter; none if the filter comes last. [`DepthOfField::check`] has accepted the scene.
     pub(crate) fn prepare_pass(
         self,
         frame: &Frame,
@@ -66,7 +63,7 @@ impl DepthOfField {
             return Ok(None);
         }
         let settings = settings_of(frame);
-        let pass = Renderer { scene, monitor }.watch("depth of field", |watch| {
+        let pass = Renderer::of(frame, scene, monitor).watch("depth of field", |watch| {
             trace_defocus(scene, &settings, watch)
         })?;
         Ok(Some(pass))

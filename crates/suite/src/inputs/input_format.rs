@@ -1,6 +1,6 @@
-//! Forms in which an engine hands over the input of its motion blur.
+//! Forms of the input that an engine gives its motion blur.
 
-use frame::{Frame, VelocityKind};
+use frame::{Frame, Vectors, VelocityKind};
 use serde::{Deserialize, Serialize};
 use tracer::Scene;
 
@@ -17,12 +17,12 @@ use super::velocity_defect::VelocityDefect;
 use super::velocity_format::VelocityFormat;
 use crate::{Error, Monitor};
 
-/// A kind of input, and the forms that it can have.
+/// A kind of input, and its possible forms.
 #[derive(Serialize)]
 pub struct InputKind {
     /// Name, as in `velocity=float16`.
     pub name: &'static str,
-    /// What it is, in a sentence.
+    /// Description, in a sentence.
     pub help: &'static str,
     /// Its forms; the first one is the full one.
     pub forms: Vec<InputForm>,
@@ -33,17 +33,17 @@ pub struct InputKind {
 pub struct InputForm {
     /// Name, as in `velocity=float16`.
     pub name: &'static str,
-    /// What it is, in a sentence.
+    /// Description, in a sentence.
     pub help: &'static str,
-    /// The frame in this form, and in the full form otherwise.
+    /// The frame's format with this form, and full forms otherwise.
     #[serde(skip)]
     pub format: InputFormat,
 }
 
-/// Defines [`InputFormat`] from the list of the kinds of input; those behind the semicolon are left out of files where they are full.
+/// Defines [`InputFormat`] from the kinds of input; files omit those after the semicolon if they are full.
 macro_rules! input_format {
     ($($kind:ident: $form:ident),+; $($later:ident: $later_form:ident),+) => {
-        /// The form in which a filter gets its frame.
+        /// Form of the frame that a filter gets.
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
         pub struct InputFormat {
             $(#[doc = concat!("See [`", stringify!($form), "`].")] pub $kind: $form,)+
@@ -73,7 +73,7 @@ macro_rules! input_format {
                 }),+]
             }
 
-            /// Names what differs from the full form, as the command line does: `velocity=float16`; none for the full form.
+            /// Names the differences from the full form, as on the command line: `velocity=float16`; none for the full form.
             pub fn change(&self) -> Option<String> {
                 let full = Self::default();
                 let mut changes = Vec::new();
@@ -104,7 +104,7 @@ fn is_default<T: Default + PartialEq>(part: &T) -> bool {
 }
 
 impl InputFormat {
-    /// Refuses a form that needs the scene where there is none, and one of motion that a buffer of the camera's motion alone does not have.
+    /// Refuses a form that needs a missing scene, or motion that a buffer of camera motion alone does not have.
     pub(crate) fn check(&self, kind: VelocityKind, has_scene: bool) -> Result<(), Error> {
         let without_scene = Self {
             velocity: self.velocity,
@@ -122,10 +122,10 @@ impl InputFormat {
         }
     }
 
-    /// Returns the frame as a filter gets it. Some forms need the scene, to render it again.
+    /// Returns the frame as a filter gets it. Some forms need the scene to render it again.
     ///
     /// # Errors
-    /// The form needs a scene, and there is none; or the scene cannot be rendered so.
+    /// The form needs a scene, and there is none; or the scene cannot be rendered in this form.
     pub fn apply(
         &self,
         frame: &Frame,
@@ -137,17 +137,17 @@ impl InputFormat {
         if let Some(scene) = scene {
             self.depth_of_field.check(scene)?;
             let (seen, scene) = self.depth_of_field.apply(stored, scene, monitor)?;
-            let renderer = Renderer {
-                scene: &scene,
-                monitor,
-            };
+            let renderer = Renderer::of(frame, &scene, monitor);
             stored = self.msaa.apply(seen, &renderer)?;
             stored = self.jitter.apply(stored, &renderer)?;
             stored = self.scale.apply(stored, &renderer)?;
             stored = self.rule.apply(stored, &scene);
         }
         stored.velocity = self.defect.apply(&stored, scene)?;
-        stored.velocity = self.velocity.apply(&stored);
+        let store = |velocity: &Vectors| self.velocity.apply(&stored, velocity);
+        let next = stored.velocity_next.as_ref().map(store);
+        stored.velocity = store(&stored.velocity);
+        stored.velocity_next = next;
         stored.depth = self.depth.apply(&stored.depth);
         stored = self.buffers.apply(stored);
         Ok(match self.border {

@@ -1,4 +1,4 @@
-//! Forms in which filters get their frames: formats, sizes and defects of the buffers, and how the frame was sampled.
+//! Forms of the frames that filters get: formats, sizes and defects of the buffers, and sampling of the frame.
 
 pub mod border;
 pub mod buffer_size;

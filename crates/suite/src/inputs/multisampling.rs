@@ -1,4 +1,4 @@
-//! Frames with several samples per pixel (MSAA): colour is their mean, velocity and depth are of one of them.
+//! Frames with several samples per pixel (MSAA): colour is their mean, velocity and depth come from one of them.
 
 use frame::{ColorSampling, Frame, Raster};
 use tracer::{PixelGrid, RenderSettings};
@@ -7,7 +7,7 @@ use super::renderer::Renderer;
 use crate::render::settings::settings_of;
 use crate::{Error, named};
 
-/// Places of the four samples from the pixel's top left corner, in pixels: the standard pattern of Direct3D and Vulkan.
+/// Offsets of the four samples from the pixel's top left corner, in pixels: the standard pattern of Direct3D and Vulkan.
 const SAMPLES: [[f64; 2]; 4] = [
     [0.375, 0.125],
     [0.875, 0.375],
@@ -30,7 +30,7 @@ named! {
 }
 
 impl Multisampling {
-    /// Returns the frame as it comes out of four samples per pixel.
+    /// Returns the frame as resolved from four samples per pixel.
     pub(crate) fn apply(self, frame: Frame, renderer: &Renderer) -> Result<Frame, Error> {
         if self == Self::None {
             return Ok(frame);
@@ -46,7 +46,7 @@ impl Multisampling {
         Ok(self.resolve(frame, &samples.collect::<Result<Vec<_>, _>>()?))
     }
 
-    /// Averages colour and coverage of the samples, and takes velocity and depth of one of them.
+    /// Averages colour and coverage of the samples, and takes velocity and depth from one of them.
     fn resolve(self, frame: Frame, samples: &[Frame]) -> Frame {
         let (width, height) = frame.size();
         let taken = Raster::from_fn(width, height, |x, y| {
@@ -65,6 +65,8 @@ impl Multisampling {
             }),
             coverage: coverage.collect(),
             velocity: Raster::from_fn(width, height, |x, y| *each(x, y).velocity.at(x, y)),
+            velocity_next: take_further(&taken, samples, |own| own.velocity_next.as_ref()),
+            velocity_z: take_further(&taken, samples, |own| own.velocity_z.as_ref()),
             depth: Raster::from_fn(width, height, |x, y| *each(x, y).depth.at(x, y)),
             object_id: Raster::from_fn(width, height, |x, y| *each(x, y).object_id.at(x, y)),
             ..frame
@@ -84,7 +86,19 @@ impl Multisampling {
     }
 }
 
-/// Lists the settings of the four samples: each has a quarter of the frame's rays, at one place, and random numbers of its own.
+/// Takes a raster that few frames have, of the chosen samples; none if a sample lacks it.
+fn take_further<T: Copy>(
+    taken: &Raster<usize>,
+    samples: &[Frame],
+    raster: fn(&Frame) -> Option<&Raster<T>>,
+) -> Option<Raster<T>> {
+    let rasters: Option<Vec<&Raster<T>>> = samples.iter().map(raster).collect();
+    let rasters = rasters?;
+    let at = |x, y| *rasters[*taken.at(x, y)].at(x, y);
+    Some(Raster::from_fn(taken.width, taken.height, at))
+}
+
+/// Lists the settings of the four samples: each has a quarter of the frame's rays, at one offset, and its own random numbers.
 fn sample_settings(frame: &Frame) -> [RenderSettings; 4] {
     let mut settings = settings_of(frame);
     settings.options.color = ColorSampling::Point;

@@ -1,6 +1,6 @@
 //! Frames that are rendered small and upscaled.
 
-use frame::{Frame, Image};
+use frame::{Frame, Image, Vectors};
 use tracer::{PixelGrid, RenderSettings};
 
 use super::renderer::Renderer;
@@ -29,8 +29,7 @@ named! {
 }
 
 impl RenderScale {
-    /// Returns the part of the picture's width and height, in percent, and true if a filter gets the small frame and its output is
-    /// upscaled.
+    /// Returns the percentage of the picture's width and height, and true if a filter gets the small frame and its output is upscaled.
     fn parts(self) -> (u32, bool) {
         match self {
             Self::Full => (100, false),
@@ -43,13 +42,13 @@ impl RenderScale {
         }
     }
 
-    /// Returns the rendered size of a picture: rounded to whole pixels, and one at least.
+    /// Returns the rendered size of a picture: rounded to whole pixels, at least one.
     fn rendered_size(self, picture: [u32; 2]) -> [u32; 2] {
         let percent = u64::from(self.parts().0);
         picture.map(|side| ((u64::from(side) * percent + 50) / 100).max(1) as u32)
     }
 
-    /// Returns the size of the picture that a filter gets, where the whole picture is of such a size.
+    /// Returns the size that a filter gets for a picture of this size.
     pub(crate) fn blurred_size(self, picture: [u32; 2]) -> [u32; 2] {
         match self.parts() {
             (_, true) => self.rendered_size(picture),
@@ -57,8 +56,7 @@ impl RenderScale {
         }
     }
 
-    /// Returns the frame as a filter gets it: small, or upscaled. Upscaled colour is bilinear; velocity and depth are those of the
-    /// nearest small pixel.
+    /// Returns the frame as a filter gets it: small, or upscaled with bilinear colour and the nearest small pixel's velocity and depth.
     pub(crate) fn apply(self, frame: Frame, renderer: &Renderer) -> Result<Frame, Error> {
         if self == Self::Full {
             return Ok(frame);
@@ -90,14 +88,19 @@ impl RenderScale {
 /// Upscales a small frame to the size of the whole one.
 fn upscale(frame: Frame, small: &Frame, from: Extent, to: Extent) -> Frame {
     let step = [0, 1].map(|axis| to.picture[axis] as f32 / from.picture[axis] as f32);
-    let velocity = read_nearest(&small.velocity, from, to);
+    let read_velocity = |own: &Vectors| {
+        let velocity = read_nearest(own, from, to);
+        velocity.map(|velocity| [0, 1].map(|axis| velocity[axis] * step[axis]))
+    };
     let coverage = small.coverage.iter();
     Frame {
         color: read_bilinear(&small.color, from, to, mix_colors),
         coverage: coverage
             .map(|plane| read_bilinear(plane, from, to, mix))
             .collect(),
-        velocity: velocity.map(|velocity| [0, 1].map(|axis| velocity[axis] * step[axis])),
+        velocity: read_velocity(&small.velocity),
+        velocity_next: small.velocity_next.as_ref().map(read_velocity),
+        velocity_z: (small.velocity_z.as_ref()).map(|own| read_nearest(own, from, to)),
         depth: read_nearest(&small.depth, from, to),
         object_id: read_nearest(&small.object_id, from, to),
         ..frame

@@ -1,8 +1,8 @@
-//! Reading a raster at the pixels of another size.
+//! Rasters read at another picture size.
 
 use frame::Raster;
 
-/// A raster's part that shows the picture.
+/// Part of a raster that shows the picture.
 #[derive(Clone, Copy)]
 pub(crate) struct Extent {
     /// Columns and rows of the picture.
@@ -12,7 +12,7 @@ pub(crate) struct Extent {
 }
 
 impl Extent {
-    /// Returns that of a raster without a guard band.
+    /// Returns the extent of a raster without a guard band.
     pub fn bare(picture: [u32; 2]) -> Self {
         Self { picture, band: 0 }
     }
@@ -22,14 +22,14 @@ impl Extent {
         self.picture.map(|side| side + 2 * self.band)
     }
 
-    /// Finds the place of the centre of another raster's pixel along an axis, in pixels from this raster's corner.
+    /// Finds the position of another raster's pixel centre along an axis, in pixels from this raster's corner.
     fn place(&self, axis: usize, other: &Extent, pixel: u32) -> f64 {
         let step = f64::from(self.picture[axis]) / f64::from(other.picture[axis]);
         (f64::from(pixel) + 0.5 - f64::from(other.band)) * step + f64::from(self.band)
     }
 }
 
-/// Gives each pixel of another size the pixel that its centre lies in.
+/// Gives each pixel of another size the pixel that contains its centre.
 pub(crate) fn read_nearest<T: Clone>(raster: &Raster<T>, from: Extent, to: Extent) -> Raster<T> {
     let [width, height] = to.size();
     let size = from.size();
@@ -42,7 +42,7 @@ pub(crate) fn read_nearest<T: Clone>(raster: &Raster<T>, from: Extent, to: Exten
     })
 }
 
-/// Interpolates between the four pixels around each centre of another size; the outermost pixels go on beyond the border. `mix`
+/// Interpolates between the four pixels around each centre of another size; the outermost pixels continue beyond the border. `mix`
 /// interpolates between two values.
 pub(crate) fn read_bilinear<T: Copy>(
     raster: &Raster<T>,
@@ -109,7 +109,7 @@ mod tests {
         assert_eq!(row, [0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5]);
         let column: Vec<u32> = (0..10).map(|y| read.at(0, y).1).collect();
         assert_eq!(column, [0, 0, 1, 1, 1, 2, 2, 2, 3, 3]);
-        // The centres of 7 pixels lie at 0.2, 0.6, 1.1, 1.5, 1.9, 2.4 and 2.8 of 3.
+        // The centres of 7 pixels are at 0.2, 0.6, 1.1, 1.5, 1.9, 2.4 and 2.8 of 3.
         let three = Raster::from_fn(3, 1, |x, _| x);
         let seven = read_nearest(&three, Extent::bare([3, 1]), Extent::bare([7, 1]));
         assert_eq!(seven.pixels, [0, 0, 1, 1, 1, 2, 2]);

@@ -22,10 +22,10 @@ named! {
 }
 
 impl ShutterRule {
-    /// Returns the frame with the exposure that the filter blurs by.
+    /// Returns the frame with the exposure that the filter uses.
     pub(crate) fn apply(self, frame: Frame, scene: &Scene) -> Frame {
         let written = match scene.rate().shutters_per_second {
-            // The settings of the render may have another exposure than the file.
+            // The render settings may have another exposure than the file.
             None => frame.exposure,
             Some(_) => scene.written_exposure,
         };

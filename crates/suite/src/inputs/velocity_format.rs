@@ -31,40 +31,40 @@ named! {
     }
 }
 
-/// What a buffer keeps of a velocity, in units of the format.
+/// Rounds a velocity as the buffer stores it, in units of the format.
 type Store = fn([f64; 2]) -> [f64; 2];
 
 impl VelocityFormat {
-    /// Returns the frame's velocity as it comes out of this buffer.
-    pub(crate) fn apply(self, frame: &Frame) -> Vectors {
+    /// Returns a velocity of the frame as read from this buffer.
+    pub(crate) fn apply(self, frame: &Frame, velocity: &Vectors) -> Vectors {
         let (width, height) = frame.size();
         let [width, height] = [width, height].map(|side| f64::from(side - 2 * frame.guard_band));
         let to_border = [0.5 * width, 0.5 * height];
         let half_smear = 0.5 * frame.exposure;
         let (unit, store): ([f64; 2], Store) = match self {
-            Self::Float32 => return frame.velocity.clone(),
+            Self::Float32 => return velocity.clone(),
             Self::Float16 => {
                 let store = |part| f16::from_f32(part).to_f32();
-                return frame.velocity.map(|velocity| velocity.map(store));
+                return velocity.map(|velocity| velocity.map(store));
             }
             Self::Linear8 => (to_border, linear8),
             Self::PolarSqrt8 => (to_border, polar_sqrt8),
             Self::Kino10 => ([KINO_RADIUS * height / half_smear; 2], kino10),
             Self::TileClamped => ([1.0 / half_smear; 2], tile_clamped),
         };
-        frame.velocity.map(|velocity| {
+        velocity.map(|velocity| {
             let stored = store([0, 1].map(|axis| f64::from(velocity[axis]) / unit[axis]));
             [0, 1].map(|axis| (stored[axis] * unit[axis]) as f32)
         })
     }
 }
 
-/// Stores parts of the way from the centre to the border.
+/// Stores parts of the distance from the centre to the border.
 fn linear8(parts: [f64; 2]) -> [f64; 2] {
     parts.map(|part| 2.0 * unorm(0.5 + 0.5 * part, 8) - 1.0)
 }
 
-/// Stores parts of the way from the centre to the border.
+/// Stores parts of the distance from the centre to the border.
 fn polar_sqrt8(parts: [f64; 2]) -> [f64; 2] {
     match parts[0].hypot(parts[1]) {
         0.0 => [0.0; 2],
@@ -75,10 +75,10 @@ fn polar_sqrt8(parts: [f64; 2]) -> [f64; 2] {
     }
 }
 
-/// Stores half the smear, in parts of the longest one.
+/// Stores half the smear, relative to the longest one.
 fn kino10(half: [f64; 2]) -> [f64; 2] {
     let shortened = half[0].hypot(half[1]).max(1.0);
-    // 512 of 1023 stands for 0, so that what stands still does.
+    // 512 of 1023 is exactly 0, so that still pixels stay still.
     half.map(|part| ((512.0 + 511.0 * part / shortened).round() - 512.0) / 511.0)
 }
 

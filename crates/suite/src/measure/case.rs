@@ -26,41 +26,41 @@ use crate::run::case::{Case, Intervals};
 use crate::runner::Runner;
 use crate::stats::intervals::intervals;
 
-/// Upper limit on the difference between the blur of a mixture and the mixture of the blurs, as a part of what the blur changes;
-/// far above rounding.
+/// Upper limit on the difference between the blur of a mixture and the mixture of the blurs, relative to the blur's change; far above
+/// rounding.
 const MAX_NONLINEARITY: f64 = 1e-3;
 
 const NO_MATTES: &str =
     "an engine's picture does not say which share of a pixel it gives to each object";
 const OTHER_SHUTTER: &str = "the engine drew no truth of the run's common shutter";
 
-/// Everything that cases of one scene and one shutter are measured with.
+/// Everything needed to measure the cases of one scene and one shutter.
 pub(crate) struct CaseContext<'a> {
     pub scene: &'a SceneContext<'a>,
     pub frame: &'a Frame,
-    /// The frame in the forms in which filters get it.
+    /// The frame in the forms that filters get.
     pub stored_frames: &'a [StoredFrame],
-    /// The pass after filters that run before depth of field; none where no case has one.
+    /// Pass after filters that run before depth of field; none if no case has one.
     pub depth_of_field: Option<&'a Defocus>,
     pub references: &'a TruthReferences<'a>,
-    /// Reads the rung of a number of sub-frames, as a ladder of it alone.
+    /// Reads the rung of a number of sub-frames, as a ladder of one rung.
     pub read_rung: &'a dyn Fn(u32) -> Result<Ladder, Error>,
-    /// The truth that every case is compared with.
+    /// Truth that every case is compared with.
     pub common: CommonTruth<'a>,
 }
 
-/// The truth of the shutter that all cases of a run are compared with.
+/// The truth of a run's common shutter, which all cases are compared with.
 #[derive(Clone, Copy)]
 pub(crate) enum CommonTruth<'a> {
-    /// That of the case itself.
+    /// The case's own truth.
     Own,
     /// Another one.
     Other(&'a ColorReference),
-    /// None: an engine drew another shutter alone.
+    /// None: an engine drew only another shutter.
     Missing,
 }
 
-/// A picture, and everything that was measured of it.
+/// A picture with its measurements.
 struct MeasuredPicture {
     picture: Picture,
     measurement: Measurement,
@@ -71,7 +71,7 @@ struct MeasuredPicture {
 }
 
 impl MeasuredPicture {
-    /// Joins a picture that no filter of ours made with its measurement.
+    /// Joins a picture that none of our filters made with its measurement.
     fn new(picture: Picture, measurement: Measurement) -> Self {
         Self {
             picture,
@@ -85,7 +85,7 @@ impl MeasuredPicture {
 }
 
 impl CaseContext<'_> {
-    /// Makes the picture, measures it, and writes it with its error maps; returns the names of the files as well.
+    /// Makes the picture, measures it, and writes it with its error maps; also returns the files' names.
     pub fn measure(&self, planned: &PlannedCase) -> Result<(Case, Vec<String>), Error> {
         let measured = match &planned.source {
             PictureSource::Identity => self.measure_reference(self.frame.cropped().picture())?,
@@ -107,7 +107,7 @@ impl CaseContext<'_> {
         Ok(MeasuredPicture::new(picture, measurement))
     }
 
-    /// Measures the engine's own picture, with intervals as the pictures of filters have them.
+    /// Measures the engine's own picture, with intervals as for filters.
     fn measure_engine(&self, scene: &EngineScene) -> Result<MeasuredPicture, Error> {
         let picture = scene.read_picture(self.frame)?;
         let (measurement, intervals) = self.measure_with_intervals(|reference| {
@@ -130,7 +130,7 @@ impl CaseContext<'_> {
         let stored = stored.find(|stored| stored.format == input);
         let StoredFrame { frame, before, .. } =
             stored.expect("the frame was stored in every form of the plan");
-        // The first frame stands in for the one before it.
+        // The first frame has no previous one; it serves as its own.
         let before = before.as_ref().unwrap_or(frame);
         let picture = self.picture_size();
         let mut runner = Runner::new(
@@ -170,7 +170,7 @@ impl CaseContext<'_> {
         })
     }
 
-    /// Returns the pass that a filter's output goes through before it is measured; none where the filter comes last.
+    /// Returns the pass between a filter's output and its measurement; none if the filter comes last.
     fn pass_behind(&self, input: InputFormat) -> Option<&Defocus> {
         (self.depth_of_field).filter(|_| input.depth_of_field == DepthOfField::After)
     }
@@ -180,7 +180,7 @@ impl CaseContext<'_> {
         self.references.truth.size().into()
     }
 
-    /// Measures a picture, with the intervals of its scores; these are empty where none are asked for.
+    /// Measures a picture, with score intervals if requested.
     fn measure_with_intervals(
         &self,
         measure: impl Fn(&Reference) -> Result<Measurement, MeasureError>,
@@ -196,7 +196,7 @@ impl CaseContext<'_> {
         Ok((measurement, intervals))
     }
 
-    /// Separates the filter's noise from its other errors; none where it has no noise, or too few frames are asked for.
+    /// Separates the filter's noise from its other errors; none without noise, or for too few frames.
     fn measure_jitter(
         &self,
         runner: &mut Runner,
@@ -276,7 +276,7 @@ impl CaseContext<'_> {
     }
 }
 
-/// Measures the output of a filter, by its picture and its probes.
+/// Measures a filter's output by its picture and its probes.
 fn measure_output(
     reference: &Reference,
     output: &FilterOutput,
@@ -286,7 +286,7 @@ fn measure_output(
     Ok(measurement)
 }
 
-/// Adds the scores of probes, or takes out all that need a filter whose weights do not depend on colour.
+/// Adds the scores of probes, or removes those that need a filter with weights independent of colour.
 fn add_probes(reference: &Reference, output: &FilterOutput, measurement: &mut Measurement) {
     let scores = &mut measurement.scores;
     if output.nonlinearity > MAX_NONLINEARITY {
@@ -310,7 +310,7 @@ fn add_probes(reference: &Reference, output: &FilterOutput, measurement: &mut Me
     measurement.probes = Some(probed.maps);
 }
 
-/// Adds the scene to the error of a program, which may fail on one scene and not on another.
+/// Adds the scene to a program's error, since the program may fail on only some scenes.
 fn name_scene(error: FilterError, scene: RunScene) -> FilterError {
     match error {
         FilterError::Command { filter, reason } => FilterError::Command {

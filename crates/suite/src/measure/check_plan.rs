@@ -2,6 +2,7 @@
 
 use frame::Alignment;
 use store::refuse_long_names;
+use tracer::check_next_frame;
 
 use super::plan::RunPlan;
 use super::planned_case::PlannedCase;
@@ -11,7 +12,7 @@ use crate::run::sequence::{Frames, MAX_FRAMES};
 use crate::stats::intervals::MIN_REPLICATES;
 
 impl RunPlan {
-    /// Refuses settings with which a scene cannot be rendered, and names that no folder can have, before anything is rendered.
+    /// Refuses settings that a scene cannot be rendered with, and names that no folder can have, before anything is rendered.
     pub fn check(&self) -> Result<(), Error> {
         self.check_frames()?;
         let replicates = self.render.replicates;
@@ -29,6 +30,9 @@ impl RunPlan {
             for frame in 0..self.frames.count {
                 let scene = &scene.at_frame(frame);
                 frame_settings(&self.render).check_frame(scene)?;
+                if self.reads_further_velocities() {
+                    check_next_frame(scene)?;
+                }
                 for alignment in self.traced_alignments(frame) {
                     self.render.check_truth(scene, alignment)?;
                 }
@@ -48,8 +52,8 @@ impl RunPlan {
         Ok(())
     }
 
-    /// Lists the alignments whose shutters are traced. Trailing and centred truths share their numbers of samples: a pilot looks at
-    /// both. The first frame is defined at all times.
+    /// Lists the alignments of traced shutters. Trailing and centred truths share their numbers of samples, since a pilot looks at both.
+    /// The first frame is defined at all times.
     fn traced_alignments(&self, frame: u32) -> Vec<Alignment> {
         let mut alignments = self.alignments();
         let shares = alignments.contains(&Alignment::Trailing);
@@ -59,7 +63,7 @@ impl RunPlan {
         alignments
     }
 
-    /// Refuses no frame, too many, or several of what an engine drew.
+    /// Refuses zero or too many frames, and several frames of an engine's scene.
     fn check_frames(&self) -> Result<(), Error> {
         let Frames { count, per_second } = self.frames;
         if !(1..=MAX_FRAMES).contains(&count) {

@@ -1,12 +1,12 @@
-//! Dilated velocity of a filter, kept for inspection.
+//! Dilated velocity of a filter, for inspection.
 
 use filters::{Filter, FilterError, Holds};
 use frame::{Frame, Raster, Vectors};
 
 use crate::runner::Runner;
 
-/// Reads the velocity that the runner's last run gave to each pixel, without the frame's guard band; none for filters that give
-/// pixels no place to take a velocity from.
+/// Reads the velocity that the runner's last run gave to each pixel, without the guard band; none for filters that do not record where
+/// pixels take their velocity.
 pub(crate) fn read_dilated_velocity(
     filter: &Filter,
     runner: &Runner,
@@ -23,7 +23,7 @@ pub(crate) fn read_dilated_velocity(
     ))
 }
 
-/// Looks up the velocity at each place; border pixels stand for places beyond the frame.
+/// Looks up the velocity at each place; places beyond the frame use border pixels.
 fn velocities_at(places: &Raster<[f32; 4]>, frame: &Frame) -> Vectors {
     let (width, height) = frame.size();
     places.map(|[x, y, ..]| {

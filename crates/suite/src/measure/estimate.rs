@@ -1,5 +1,5 @@
-//! Rough estimates of the time, disk and memory that a run, and each of the jobs that it can be split into, takes. Times are off by a
-//! factor of two or three: scenes differ by a factor of six.
+//! Rough estimates of the time, disk space and memory of a run and of its possible jobs. Times are off by a factor of two or three: scenes
+//! differ by a factor of six.
 
 use std::convert::Infallible;
 
@@ -14,25 +14,24 @@ use super::planned_case::PlannedCase;
 use crate::render::ladders::needed_rungs;
 use crate::render::settings::frame_settings;
 
-/// Threads that the times below were measured with, on two cores of a server with llvmpipe: means over the shipped scenes.
+/// Threads in the measurements of the times below: means over the shipped scenes, on two cores of a server with llvmpipe.
 const CORES: f64 = 2.0;
 /// CPU time in seconds to prepare a scene for rays, and of a sample.
 const SCENE: f64 = 0.2;
 const SAMPLE: f64 = 0.9e-6;
-/// Samples of a whole ladder, relative to its truth: it is about the pixels near motion alone.
+/// Samples of a whole ladder, relative to its truth: only pixels near motion need it.
 const WHOLE_LADDER: f64 = 0.4;
-/// Time in seconds to run a filter and measure its picture, whatever its size, and per pixel; and per pixel to write its part of the
-/// report.
+/// Time in seconds to run a filter and measure its picture: at any size, and per pixel; and per pixel to write its part of the report.
 const CASE: f64 = 0.035;
 const CASE_PIXEL: f64 = 6e-6;
 const REPORT_PIXEL: f64 = 0.45e-6;
 /// Time of a case with intervals, relative to one without.
 const INTERVALS: f64 = 2.0;
-/// Cases that take as long as the start of a process and its truth.
+/// Cases that need as much time as the start of a process and its truth.
 const START_CASES: f64 = 2.0;
-/// Bytes on disk per pixel of a picture: of a frame, a replicate, or a case with its part of the report.
+/// Bytes on disk per pixel of a picture: a frame, a replicate, or a case with its part of the report.
 const PICTURE_BYTES: u64 = 36;
-/// Pictures that are as large on disk as a truth with its ladder, without its replicates.
+/// Pictures with the disk space of a truth and its ladder, without replicates.
 const PICTURES_OF_TRUTH: u64 = 5;
 
 /// Work that a run has to do.
@@ -42,7 +41,7 @@ pub struct RunEstimate {
     pub seconds: f64,
     /// Bytes of files that will be written.
     pub disk: u64,
-    /// Bytes of memory at the most.
+    /// Peak memory in bytes.
     pub memory: u64,
     /// Number of cases.
     pub cases: usize,
@@ -50,19 +49,19 @@ pub struct RunEstimate {
     pub read_back: usize,
 }
 
-/// Expected cost of a job, on any number of cores: a truth may take three times as long, references take a fifth.
+/// Expected cost of a job, on any number of cores: a truth may need three times as long, references a fifth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JobCost {
     /// Time on one core, in seconds.
     pub cpu_seconds: f64,
-    /// Bytes of memory at the most.
+    /// Peak memory in bytes.
     pub memory: u64,
 }
 
 /// Costs of the jobs of one scene of a plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneJobs {
-    /// Frames, truths and ladders; none for what an engine drew.
+    /// Frames, truths and ladders; none for an engine's scene.
     pub render: Option<JobCost>,
     /// Number of all references.
     pub references: usize,
@@ -70,7 +69,7 @@ pub struct SceneJobs {
     pub inputs: usize,
     /// CPU time of each case, in seconds.
     case_seconds: f64,
-    /// Bytes of memory at the most.
+    /// Peak memory in bytes.
     memory: u64,
 }
 
@@ -84,7 +83,7 @@ impl SceneJobs {
     }
 }
 
-/// Estimates a run: cases and truths that lie in the folder take no time. Does not read their pictures, and measures nothing.
+/// Estimates a run: cases and truths in the folder need no time. Does not read their pictures, and measures nothing.
 pub fn estimate_run(plan: &RunPlan, gpu: Option<&Gpu>) -> RunEstimate {
     let pixels = count_pixels(&plan.render);
     let mut estimate = RunEstimate::default();
@@ -118,7 +117,7 @@ pub fn estimate_run(plan: &RunPlan, gpu: Option<&Gpu>) -> RunEstimate {
     estimate
 }
 
-/// Estimates the jobs of every scene, where nothing is rendered yet. Measures nothing, so that a plan is the same each time.
+/// Estimates the jobs of every scene if nothing is rendered yet. Measures nothing, so that a plan is the same each time.
 pub fn estimate_jobs(plan: &RunPlan) -> Vec<SceneJobs> {
     let frames = f64::from(plan.frames.count);
     let alignments = plan.alignments();
@@ -153,30 +152,30 @@ pub fn estimate_report(plan: &RunPlan, cases: usize) -> JobCost {
     }
 }
 
-/// Estimates the seconds that it takes to render a scene's frame and some truths.
+/// Estimates the time to render a scene's frame and some truths, in seconds.
 pub fn estimate_render_seconds(render: &RenderSettings, truths: usize) -> f64 {
     render_cpu_seconds(render, true, truths, 0.0) / threads()
 }
 
-/// Estimates the seconds that it takes to run a filter once and to measure its picture.
+/// Estimates the time to run a filter once and measure its picture, in seconds.
 pub fn estimate_case_seconds(render: &RenderSettings) -> f64 {
     CASE + count_pixels(render) * CASE_PIXEL
 }
 
-/// Estimates the seconds of one case of a plan, with its intervals.
+/// Estimates the time of one case of a plan with its intervals, in seconds.
 fn case_seconds(plan: &RunPlan) -> f64 {
     let intervals = if plan.intervals { INTERVALS } else { 1.0 };
     intervals * estimate_case_seconds(&plan.render)
 }
 
-/// Counts the ladders that measuring against some truths needs, in parts of whole ones.
+/// Counts the ladders that measuring against some truths needs, in whole ladders.
 fn count_ladders(plan: &RunPlan, truths: &[Alignment]) -> f64 {
     let rungs = truths.iter();
     let rungs = rungs.map(|alignment| needed_rungs(*alignment, plan.ladders).len());
     rungs.sum::<usize>() as f64 / LADDER.len() as f64
 }
 
-/// Estimates the CPU time to render a scene's frame, if it is to be rendered, and some truths and ladders.
+/// Estimates the CPU time to render some truths and ladders of a scene, and its frame if `frame` is set.
 fn render_cpu_seconds(render: &RenderSettings, frame: bool, truths: usize, ladders: f64) -> f64 {
     let of_frame = u32::from(frame) * frame_settings(render).samples_per_pixel;
     let of_truths = (truths as f64 + WHOLE_LADDER * ladders) * f64::from(render.samples_per_pixel);

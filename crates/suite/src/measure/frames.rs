@@ -7,7 +7,7 @@ use super::plan::RunPlan;
 use super::run_scene::RunScene;
 use super::scene::SceneContext;
 
-/// Visits every scene of a plan, and behind each its later frames, of which one at a time is in memory.
+/// Visits every scene of a plan and, after each, its later frames, with one frame at a time in memory.
 pub(super) fn visit_frames<E>(
     plan: &RunPlan,
     gpu: Option<&Gpu>,
@@ -18,7 +18,7 @@ pub(super) fn visit_frames<E>(
     for scene in plan.all_scenes() {
         visit(&SceneContext::new(plan, gpu, program, scene))?;
         for frame in 1..plan.frames.count {
-            // What an engine drew has one frame; plans with more are refused.
+            // An engine's scene has one frame; plans with more are refused.
             if let RunScene::Traced(scene) = scene {
                 let later = scene.at_frame(frame);
                 let later = RunScene::Traced(&later);

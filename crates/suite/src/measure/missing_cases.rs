@@ -1,4 +1,4 @@
-//! Measurement of the cases of one scene that no earlier run left, against one truth after another.
+//! Measurement of the cases of one scene that no earlier run left, one truth at a time.
 
 use std::collections::BTreeMap;
 
@@ -23,7 +23,7 @@ use crate::run::failure::Failure;
 use crate::stats::intervals::truths_without_pairs;
 
 impl SceneContext<'_> {
-    /// Measures some cases, and writes the record of each as soon as it is whole.
+    /// Measures some cases, and writes each record as soon as it is complete.
     pub(super) fn measure(
         &self,
         missing: &[&PlannedCase],
@@ -39,7 +39,7 @@ impl SceneContext<'_> {
         let depth_of_field = self.prepare_passes(&inputs, frame)?;
         let common_alignment = self.plan.common_alignment();
         let has_others = (missing.iter()).any(|case| case.id.alignment != common_alignment);
-        // Truths take turns in memory. The common one comes first, since its colours stay.
+        // One truth at a time is in memory. The common one comes first, since its colours stay.
         let mut alignments = self.scene.alignments(self.plan.alignments());
         alignments.sort_by_key(|alignment| *alignment != common_alignment);
         let mut common: Option<ColorReference> = None;
@@ -85,7 +85,7 @@ impl SceneContext<'_> {
         Ok(cases.into_values().collect())
     }
 
-    /// Prepares a truth for measuring. All pictures of a scene are seen at the exposures of its frame.
+    /// Prepares a truth for measuring. All pictures of a scene are viewed at its frame's exposures.
     fn references<'t>(
         &self,
         frame: &Frame,
@@ -99,7 +99,7 @@ impl SceneContext<'_> {
         TruthReferences::new(frame, truth, read_sharp, rungs, without_pairs, &viewing)
     }
 
-    /// Prepares the pass of depth of field behind filters; none where all of them come last.
+    /// Prepares the pass of depth of field after filters; none if every filter comes last.
     fn prepare_passes(
         &self,
         inputs: &[InputFormat],
@@ -113,7 +113,7 @@ impl SceneContext<'_> {
         }
     }
 
-    /// Measures a case and writes its record; a failure where it concerns this case alone.
+    /// Measures a case and writes its record; returns a failure if the error concerns this case alone.
     fn measure_case(
         &self,
         context: &CaseContext,
@@ -129,7 +129,7 @@ impl SceneContext<'_> {
         Ok(Ok(case))
     }
 
-    /// Turns an error that concerns one case into its failure. Any other error ends the run and comes back.
+    /// Turns an error of one case into its failure. Returns any other error, which ends the run.
     fn failure(&self, error: Error, planned: &PlannedCase) -> Result<Failure, Error> {
         match &error {
             Error::Filter(FilterError::Gpu { .. } | FilterError::Command { .. })
@@ -143,7 +143,7 @@ impl SceneContext<'_> {
         }
     }
 
-    /// Reads a truth, or renders it; copies that which an engine drew.
+    /// Reads a truth, or renders it; copies an engine's.
     pub(super) fn read_truth(&self, alignment: Alignment) -> Result<Truth, Error> {
         match self.scene {
             RunScene::Traced(scene) => self.plan.rendering(scene).truth(alignment),
@@ -151,7 +151,7 @@ impl SceneContext<'_> {
         }
     }
 
-    /// Renders those rungs of the ladder of a truth that the plan needs and are missing; an engine's are copied with its truth.
+    /// Renders the missing rungs of a truth's ladder that the plan needs; an engine's are copied with its truth.
     pub(super) fn ensure_ladder(&self, truth: &Truth) -> Result<(), Error> {
         match self.scene {
             RunScene::Traced(scene) => {
@@ -162,7 +162,7 @@ impl SceneContext<'_> {
         }
     }
 
-    /// Reads a rung of the ladder of a truth, or renders it.
+    /// Reads a rung of a truth's ladder, or renders it.
     fn read_rung(&self, truth: &Truth, subframes: u32) -> Result<Ladder, Error> {
         match self.scene {
             RunScene::Traced(scene) => {
@@ -173,8 +173,8 @@ impl SceneContext<'_> {
         }
     }
 
-    /// Makes the truths of an alignment without one pair of replicates each, where cases of filters get intervals. None of what an engine
-    /// drew: sub-frames are no random samples, and those without some of them have holes.
+    /// Makes the truths of an alignment without one pair of replicates each, if cases of filters get intervals. Makes none for an engine's
+    /// scene: sub-frames are no random samples, and a truth without some of them has holes.
     fn truths_without_pairs(
         &self,
         alignment: Alignment,
@@ -193,7 +193,7 @@ impl SceneContext<'_> {
     }
 }
 
-/// Notes how many cases are measured; ends the work where the caller interrupts it.
+/// Reports how many cases are measured; ends the work if the caller interrupts it.
 fn check_watch(watch: Watch, done: usize, total: usize) -> Result<(), TraceError> {
     let progress = Progress {
         done: done as u64,

@@ -1,4 +1,4 @@
-//! The main job: renders every scene, runs every filter on it, measures how far each picture is from the truth.
+//! The main job: renders every scene, runs every filter on it, and measures each picture's distance from the truth.
 
 pub mod case;
 mod check_plan;

@@ -1,4 +1,4 @@
-//! Part of a run that one process measures, so that others can measure the rest.
+//! Part of a run for one process, so that others can measure the rest.
 
 use crate::named;
 
@@ -15,7 +15,7 @@ named! {
 }
 
 impl Part {
-    /// Tells whether a reference, or a filter's case, belongs to it.
+    /// Returns whether the part includes a reference or a filter's case.
     pub fn holds(self, is_reference: bool) -> bool {
         match self {
             Self::Whole => true,

@@ -30,14 +30,14 @@ pub(crate) fn truth_files(alignment: Alignment) -> [String; 2] {
     [file.picture(), file.to_string()]
 }
 
-/// Writes a frame's PNGs beside its EXR file; returns the names of all.
+/// Writes a frame's PNGs next to its EXR file; returns the names of all.
 pub fn write_frame(folder: &Path, frame: &Frame) -> Result<Vec<String>, FileError> {
     write_display_png(&folder.join("frame.png"), &frame.color, frame.display)?;
     write_png(&folder.join("velocity.png"), &velocity_wheel(frame))?;
     Ok(FRAME_FILES.map(str::to_owned).into())
 }
 
-/// Writes a truth's PNG beside its EXR file and those of its ladder, if it has one; returns the names of all.
+/// Writes a truth's PNG next to its EXR file and its ladder's, if any; returns the names of all.
 pub fn write_truth(
     folder: &Path,
     truth: &Truth,
@@ -52,8 +52,7 @@ pub fn write_truth(
     Ok(files)
 }
 
-/// Writes a case: the output, with the dilated velocity of filters that have one, and the error maps; returns the names of the
-/// files.
+/// Writes a case: the output, the dilated velocity if the filter has one, and the error maps; returns the files' names.
 pub fn write_case(
     folder: &Path,
     frame: &Frame,

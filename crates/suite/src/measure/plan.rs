@@ -16,45 +16,43 @@ use crate::run::sequence::Frames;
 use crate::run::{FORMAT, Run};
 use crate::{Monitor, PROGRAM};
 
-/// Everything that a run is told to do.
+/// All settings of a run.
 pub struct RunPlan {
     /// Loaded scenes.
     pub scenes: Vec<Scene>,
-    /// Scenes that engines drew, of the size of the plan's pictures.
+    /// Scenes that engines drew, in the plan's picture size.
     pub engine_scenes: Vec<EngineScene>,
     /// Loaded filters.
     pub filters: Vec<FilterChoice>,
-    /// Forms in which every filter gets the frame.
+    /// Forms of the frame that every filter gets.
     pub inputs: Vec<InputFormat>,
-    /// Frames of noise that a noisy filter is tried with; fewer than 2 leave its noise alone.
+    /// Frames of noise for each noisy filter; fewer than 2 leave its noise unmeasured.
     pub jitter_frames: u32,
-    /// Consecutive frames that every scene is rendered at.
+    /// Consecutive frames of every scene.
     pub frames: Frames,
     /// Settings of frames and truths.
     pub render: RenderSettings,
     /// Folder for all files.
     pub out: PathBuf,
-    /// True if the scores of filters get intervals, by which bounds are judged. Takes a few more measurements of every picture.
+    /// True if filters' scores get intervals, which bounds are judged by. Needs a few more measurements of every picture.
     pub intervals: bool,
-    /// True if the ladder of every truth is rendered: for equivalent sub-frames, and for the accumulations among the references. It
-    /// takes about as long as half of its truth. What an engine drew has its ladder without that, and every trailing or leading truth
-    /// the one rung that is the sharp picture of its shutter's middle.
+    /// True if the ladder of every truth is rendered, for equivalent sub-frames and for the accumulations among the references. Costs about
+    /// half the time of the truth. Without it, an engine's scene has its ladder, and every trailing or leading truth has the one rung that
+    /// is the sharp picture of its shutter's middle.
     pub ladders: bool,
-    /// True if frames, truths and cases that lie in `out` are removed and made anew.
+    /// True if frames, truths and cases in `out` are removed and made anew.
     pub no_cache: bool,
-    /// Shutter alignment that every case is compared with; none for that of
-    /// [`Run::common_alignment`](crate::Run::common_alignment).
+    /// Shutter alignment that every case is compared with; none for [`Run::common_alignment`](crate::Run::common_alignment).
     pub common: Option<Alignment>,
-    /// Cases that are measured; alignments and truths are those of the whole.
+    /// Cases to measure; alignments and truths are those of the whole run.
     pub part: Part,
-    /// Folder with frames, truths and ladders of earlier renders, by the names of `out`; those of the same inputs are taken from
-    /// there.
+    /// Folder with frames, truths and ladders of earlier renders, laid out like `out`; those with the same inputs are reused.
     pub truths: Option<PathBuf>,
-    /// Listener to the progress, which may end the work.
+    /// Listener to progress, which may end the work.
     pub monitor: Monitor,
 }
 
-/// Nothing to measure: single frames in their full form, with ladders and without intervals, shown to nobody.
+/// Nothing to measure: single frames in their full form, with ladders, without intervals and without progress.
 impl Default for RunPlan {
     fn default() -> Self {
         Self {
@@ -78,7 +76,7 @@ impl Default for RunPlan {
 }
 
 impl RunPlan {
-    /// Returns the run of this plan before anything is measured: what all of its cases share.
+    /// Returns this plan's run before anything is measured: what all of its cases share.
     pub(crate) fn facts(&self, adapter: Option<&AdapterDescription>) -> Run {
         Run {
             format: FORMAT,
@@ -96,7 +94,7 @@ impl RunPlan {
         }
     }
 
-    /// Returns how a scene of the plan is rendered.
+    /// Returns the rendering of a scene of the plan.
     pub(crate) fn rendering<'a>(&'a self, scene: &'a Scene) -> Rendering<'a> {
         Rendering {
             scene,
@@ -104,6 +102,12 @@ impl RunPlan {
             out: &self.out,
             monitor: self.monitor,
         }
+    }
+
+    /// Tells whether a filter reads velocities that few filters read.
+    pub(crate) fn reads_further_velocities(&self) -> bool {
+        let mut filters = self.filters.iter();
+        filters.any(|choice| !choice.filter.further_inputs().is_empty())
     }
 
     /// Lists the scenes that are rendered, then those that engines drew.
@@ -114,7 +118,7 @@ impl RunPlan {
             .collect()
     }
 
-    /// Lists the alignments that filters declare and that of all cases, each once.
+    /// Lists the filters' declared alignments and the common one, each once.
     pub fn alignments(&self) -> Vec<Alignment> {
         let takes_part = |alignment: &Alignment| {
             Some(*alignment) == self.common
@@ -123,8 +127,8 @@ impl RunPlan {
         Alignment::ALL.into_iter().filter(takes_part).collect()
     }
 
-    /// Chooses the alignment that all cases are compared with: the plan's own, or one that filters declare, so that no truth is
-    /// rendered for it alone.
+    /// Chooses the alignment that all cases are compared with: the plan's own, or one that filters declare, so that no truth is rendered
+    /// just for it.
     pub fn common_alignment(&self) -> Alignment {
         if let Some(common) = self.common {
             return common;

@@ -12,10 +12,10 @@ use crate::identity::CaseId;
 use crate::inputs::input_format::InputFormat;
 use crate::run::case::{ACCUMULATE, IDENTITY, SCATTER_ORACLE};
 
-/// Sub-frame counts of the accumulations that filters are compared with, rungs of the ladder.
+/// Numbers of sub-frames in the accumulations that filters are compared with, rungs of the ladder.
 const SUBFRAMES: [u32; 4] = [4, 8, 16, 64];
 
-/// A picture to be made of a scene, and the truth that it is measured against.
+/// A picture to make of a scene, and the truth to measure it against.
 pub(crate) struct PlannedCase<'a> {
     /// Identity.
     pub id: CaseId,
@@ -23,7 +23,7 @@ pub(crate) struct PlannedCase<'a> {
     pub source: PictureSource<'a>,
 }
 
-/// A maker of pictures: a filter, or one of the references that filters are compared with.
+/// A maker of pictures: a filter, or a reference to compare filters with.
 pub(crate) enum PictureSource<'a> {
     /// The frame as it is.
     Identity,
@@ -31,15 +31,15 @@ pub(crate) enum PictureSource<'a> {
     ScatterOracle,
     /// The mean of a number of sub-frames.
     Accumulation(u32),
-    /// A filter, for pictures of the width in which it gets the frame, and the form of the frame.
+    /// A filter, for the picture width at which it gets the frame, and the form of the frame.
     Filter(Box<FilterChoice>, InputFormat),
     /// The engine that drew the frame.
     Engine(&'a EngineScene),
 }
 
 impl<'a> PlannedCase<'a> {
-    /// Lists the reference pictures of each alignment, the picture of the scene's engine, then one case per filter preset and form
-    /// of its input. Filters of another alignment than all of a scene's truths are left out.
+    /// Lists each alignment's reference pictures, the picture of the scene's engine, then one case per filter preset and input form. Leaves
+    /// out filters of an alignment that no truth of the scene has.
     pub fn all(plan: &RunPlan, scene: RunScene<'a>) -> Vec<Self> {
         debug_assert!(SUBFRAMES.iter().all(|count| LADDER.contains(count)));
         let alignments = scene.alignments(plan.alignments());
@@ -60,7 +60,10 @@ impl<'a> PlannedCase<'a> {
         };
         let is_measured = |choice: &&FilterChoice| {
             alignments.contains(&choice.filter.alignment)
-                && !(scene.drawn().is_some() && choice.filter.reads_camera())
+                && match scene {
+                    RunScene::Traced(_) => true,
+                    RunScene::Drawn(scene) => scene.find_lacking(&choice.filter).is_none(),
+                }
         };
         let picture = [plan.render.width, plan.render.height];
         let filters = plan.filters.iter().filter(is_measured).flat_map(|choice| {
@@ -100,8 +103,8 @@ impl<'a> PlannedCase<'a> {
         Self { id, source }
     }
 
-    /// Writes out all that determines the scores, beside the program, the scene, its frame and its truths; none for a filter that
-    /// is a program, because nothing records what that does.
+    /// Writes out all that determines the scores, apart from the program, the scene, its frame and its truths; none for a filter that is a
+    /// program, since nothing records what it does.
     pub fn inputs(&self, plan: &RunPlan, adapter: Option<&AdapterDescription>) -> Option<String> {
         // The hash of an engine's frame covers the engine's picture.
         let PictureSource::Filter(choice, input) = &self.source else {
@@ -113,7 +116,7 @@ impl<'a> PlannedCase<'a> {
             settings,
             ..
         } = &**choice;
-        // A filter holds the text of its kernels.
+        // A filter contains the text of its kernels.
         filter.command.is_none().then(|| {
             format!(
                 "{:?}",

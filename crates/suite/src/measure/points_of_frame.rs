@@ -1,10 +1,10 @@
-//! Points that a rasteriser writes of one frame of a sequence.
+//! Points of one frame of a sequence, as a rasteriser writes them.
 
 use frame::{FrameOptions, Truth, VelocityKind};
 use metrics::Instant;
 use tracer::{PointLayers, PointMotion, RenderSettings, Scene, TraceError, trace_motion};
 
-/// Samples depth and objects of a scene at one of its frames, with the motion since the frame before, whatever velocity filters get.
+/// Samples depth and objects of a scene at one of its frames, with the motion since the previous frame, whatever velocity filters get.
 pub(crate) fn trace_points(
     scene: &Scene,
     render: &RenderSettings,

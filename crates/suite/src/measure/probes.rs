@@ -1,4 +1,4 @@
-//! Runs of a filter on a frame: on its colour and, with the same weights, on probes whose truth is exact.
+//! Runs of a filter on a frame: on its colour and, with the same weights, on probes with exact truths.
 
 use filters::{FilterError, Input};
 use frame::{Frame, Image, Picture, Plane, Raster};
@@ -9,21 +9,21 @@ use crate::runner::Runner;
 
 /// The output of a filter, without the frame's guard band.
 pub(crate) struct FilterOutput {
-    /// The colour, and the share of each pixel that the filter gives to each object.
+    /// The colour, and each object's share of each pixel in the filter's output.
     pub picture: Picture,
     /// Blurs of ones and of coordinates.
     pub probes: Probes,
-    /// Difference between the blur of a mixture and the mixture of the blurs, relative to what the blur changes (root mean
-    /// square): 0 for a filter whose weights do not depend on colour.
+    /// Difference between the blur of a mixture and the mixture of the blurs, relative to the blur's change (root mean square): 0 for a
+    /// filter with weights independent of colour.
     pub nonlinearity: f64,
     /// True if the probes came out as 16-bit floats.
     pub is_rounded: bool,
 }
 
-/// Runs the filter on the frame's colour and, each in the colour's place, on the instant's coverage of each object, on the
-/// probes, and on a mixture of colour and probe, with the noise of one frame. All but the picture comes from `wide`, the filter with
-/// colours of 32 bits, if there is one. `before` is the frame before, for filters with history; each of
-/// its pictures takes the place of that of the frame. The output is upscaled to `picture` where the frame shows it smaller.
+/// Runs the filter on the frame's colour and, each in the colour's place, on the instant's coverage of each object, on the probes, and on a
+/// mixture of colour and probe, with the noise of one frame. All but the picture comes from `wide`, the filter with 32-bit colours, if
+/// there is one. `before` is the previous frame, for filters with history; its pictures are replaced like the frame's. The output is
+/// upscaled to `picture` if the frame shows it smaller.
 pub(crate) fn blur_with_probes(
     runner: &mut Runner,
     wide: Option<&mut Runner>,
@@ -79,22 +79,22 @@ pub(crate) fn blur_with_probes(
     })
 }
 
-/// Returns true if 16-bit floats hold all values.
+/// Returns true if 16-bit floats represent all values exactly.
 fn has_half_floats(image: &Image) -> bool {
     // The last 13 of the 23 bits of a mantissa.
     let is_half = |value: &f32| value.to_bits() & 0x1fff == 0;
     image.pixels.iter().flatten().all(is_half)
 }
 
-/// Mixes half of one and a hundredth of the other, whose values are some hundred times as large.
+/// Mixes half of one and a hundredth of the other, which has values some hundred times as large.
 fn mix(color: &Image, probe: &Image) -> Image {
     color.zip(probe, |color, probe| {
         std::array::from_fn(|c| 0.5 * color[c] + 0.01 * probe[c])
     })
 }
 
-/// Compares the blur of a mixture with the mixture of the blurs. The change that a blur makes counts as a thousandth of the picture
-/// at least, so that rounding is not taken for a dependence on colour.
+/// Compares the blur of a mixture with the mixture of the blurs. The blur's change counts as at least a thousandth of the picture, so that
+/// rounding does not count as a dependence on colour.
 fn nonlinearity(mixture: &Image, blurred: &Image, expected: &Image) -> f64 {
     const LEAST_CHANGE: f64 = 1e-3;
     let length = |a: &Image, b: &Image| {
@@ -108,8 +108,8 @@ fn nonlinearity(mixture: &Image, blurred: &Image, expected: &Image) -> f64 {
     length(blurred, expected) / change.max(f64::MIN_POSITIVE)
 }
 
-/// Runs the filter on the frame's colour with a number of frames of its noise; none where it has no noise. Outputs are upscaled to
-/// `picture` as those of [`blur_with_probes`].
+/// Runs the filter on the frame's colour with a number of frames of its noise; none if it has no noise. Outputs are upscaled to `picture`
+/// as in [`blur_with_probes`].
 pub(crate) fn blur_noise_frames(
     runner: &mut Runner,
     frame: &Frame,
@@ -120,7 +120,7 @@ pub(crate) fn blur_noise_frames(
     Ok(outputs.map(|outputs| upscale_all(crop_all(outputs, frame.guard_band), picture)))
 }
 
-/// Upscales outputs of a smaller size.
+/// Upscales smaller outputs.
 fn upscale_all(outputs: Vec<Image>, picture: [u32; 2]) -> Vec<Image> {
     let is_whole = |output: &Image| [output.width, output.height] == picture;
     match outputs.iter().all(is_whole) {
@@ -140,13 +140,15 @@ fn crop_all(outputs: Vec<Image>, guard_band: u32) -> Vec<Image> {
     }
 }
 
-/// Makes the input of a filter from a frame, with colours in place of the frame's own.
+/// Makes a filter's input from a frame, with colours in place of the frame's own.
 pub fn filter_input<'a>(frame: &'a Frame, color: &'a [&'a Image]) -> Input<'a> {
     Input {
         color,
         velocity: &frame.velocity,
+        velocity_next: frame.velocity_next.as_ref(),
+        velocity_z: frame.velocity_z.as_ref(),
         depth: &frame.depth,
-        // No engine tells how its camera moved.
+        // Engines do not record how their camera moved.
         reprojection: (frame.provenance.engine.is_none())
             .then(|| frame.reprojection.moved(f64::from(frame.guard_band))),
         camera: frame.camera,
@@ -156,7 +158,7 @@ pub fn filter_input<'a>(frame: &'a Frame, color: &'a [&'a Image]) -> Input<'a> {
     }
 }
 
-/// Packs three planes to an image; the last image is filled up with zeros.
+/// Packs three planes per image; the last image is padded with zeros.
 pub fn pack_planes(planes: &[Plane]) -> Vec<Image> {
     let pack = |chunk: &[Plane]| {
         Raster::from_fn(chunk[0].width, chunk[0].height, |x, y| {
@@ -166,7 +168,7 @@ pub fn pack_planes(planes: &[Plane]) -> Vec<Image> {
     planes.chunks(3).map(pack).collect()
 }
 
-/// Takes planes out of images again.
+/// Unpacks planes from images.
 pub fn unpack_planes(images: &[Image], count: usize) -> Vec<Plane> {
     (0..count)
         .map(|plane| images[plane / 3].map(|pixel| pixel[plane % 3]))

@@ -1,4 +1,4 @@
-//! Truths, prepared for measuring many pictures against them.
+//! Truths, prepared for measuring many pictures.
 
 use frame::{Accumulation, Frame, Ladder, Picture, Truth};
 use metrics::{Reference, Viewing};
@@ -7,7 +7,7 @@ use crate::Error;
 use crate::render::ladders::sharp_picture;
 use metrics::make_oracle;
 
-/// The truth of one shutter, with everything that pictures are measured against.
+/// The truth of one shutter, with everything needed to measure pictures.
 pub(crate) struct TruthReferences<'a> {
     /// The truth itself.
     pub truth: &'a Truth,
@@ -15,13 +15,13 @@ pub(crate) struct TruthReferences<'a> {
     pub oracle: Picture,
     /// All that pictures are compared with.
     pub reference: Reference<'a>,
-    /// References to the truths without one pair of replicates each; empty where scores get no intervals.
+    /// References to the truths without one pair of replicates each; empty if scores get no intervals.
     pub without_pairs: Vec<Reference<'a>>,
 }
 
 impl<'a> TruthReferences<'a> {
-    /// Prepares the truth, and the same truth without each pair of its replicates. The rungs of the ladder come one after another,
-    /// since all of them take more memory than all else; `read_sharp` reads the one that is the sharp picture of the shutter's middle.
+    /// Prepares the truth, and the same truth without each pair of its replicates. The ladder's rungs are read one at a time, since
+    /// together they need more memory than all else; `read_sharp` reads the rung that is the sharp picture of the shutter's middle.
     pub fn new(
         frame: &Frame,
         truth: &'a Truth,

@@ -29,7 +29,7 @@ impl<'a> RunScene<'a> {
         }
     }
 
-    /// Returns the scene that frame and truth are rendered of; none where an engine drew them.
+    /// Returns the scene that frame and truth are rendered from; none if an engine drew them.
     pub fn traced(self) -> Option<&'a Scene> {
         match self {
             Self::Traced(scene) => Some(scene),
@@ -37,7 +37,7 @@ impl<'a> RunScene<'a> {
         }
     }
 
-    /// Returns the family, none of an engine's scene, and what the scene exposes.
+    /// Returns the family (none for an engine's scene), and what the scene exposes.
     pub fn describe(self) -> (Option<Family>, String) {
         match self {
             Self::Traced(scene) => (Some(scene.family), scene.exposes.clone()),
@@ -45,7 +45,7 @@ impl<'a> RunScene<'a> {
         }
     }
 
-    /// Says who drew the frame and the truth; none where both are rendered.
+    /// Names the engine that drew the frame and the truth; none if both are rendered.
     pub fn drawn(self) -> Option<Drawn> {
         match self {
             Self::Traced(_) => None,
@@ -58,7 +58,7 @@ impl<'a> RunScene<'a> {
         }
     }
 
-    /// Lists the shutter alignments that there are truths of, among those of a plan.
+    /// Lists the alignments of a plan that the scene has truths of.
     pub fn alignments(self, planned: Vec<Alignment>) -> Vec<Alignment> {
         match self {
             Self::Traced(_) => planned,
@@ -66,7 +66,7 @@ impl<'a> RunScene<'a> {
         }
     }
 
-    /// Lists the numbers of sub-frames of its ladder, as far as a plan asks for ladders that are rendered.
+    /// Lists the numbers of sub-frames in its ladder; a rendered ladder is complete only if the plan asks for it.
     pub fn rungs(self, ladders: bool) -> &'a [u32] {
         match self {
             Self::Traced(_) if ladders => &LADDER,
@@ -75,8 +75,8 @@ impl<'a> RunScene<'a> {
         }
     }
 
-    /// Lists the accumulations that the truth of an alignment can be compared with: the sharp picture of the shutter's middle,
-    /// unless the frame is that, then those of a plan that asks for rendered ladders or not.
+    /// Lists the accumulations that a truth of an alignment can be compared with: the sharp picture of the shutter's middle, unless that is
+    /// the frame itself, then those of the plan, which may ask for rendered ladders.
     pub fn accumulations(self, planned: &[u32], alignment: Alignment, ladders: bool) -> Vec<u32> {
         let rungs = self.rungs(ladders);
         let sharp = needed_rungs(alignment, false).iter();
@@ -92,7 +92,7 @@ impl<'a> RunScene<'a> {
         }
     }
 
-    /// Refuses settings with which the scene cannot be measured, and too little memory for this many truths.
+    /// Refuses settings that the scene cannot be measured with, and too little memory for this many truths.
     pub fn check(
         self,
         settings: &RenderSettings,
@@ -108,8 +108,8 @@ impl<'a> RunScene<'a> {
         }
     }
 
-    /// Bounds the bytes of memory that measuring takes against this many truths, with this many forms of the frame; nothing for a
-    /// scene that is not rendered.
+    /// Bounds the memory needed to measure against this many truths with this many forms of the frame, in bytes; 0 for a scene that is not
+    /// rendered.
     pub fn memory(self, settings: &RenderSettings, truths: usize, forms: usize) -> u64 {
         match self {
             Self::Traced(scene) => {

@@ -1,4 +1,4 @@
-//! Cases of one scene: read back where their inputs are the same, measured where not.
+//! Cases of one scene: read back if their inputs are the same, otherwise measured.
 
 use std::path::{Path, PathBuf};
 
@@ -23,12 +23,12 @@ pub(crate) struct SceneContext<'a> {
     pub plan: &'a RunPlan,
     pub gpu: Option<&'a Gpu>,
     pub scene: RunScene<'a>,
-    /// Hashes that records are known by; none where the program cannot be hashed, and nothing is read back.
+    /// Hashes that identify records; none if the program cannot be hashed, and then nothing is read back.
     pub keys: Option<SceneKeys>,
 }
 
 impl<'a> SceneContext<'a> {
-    /// Prepares a scene of a plan for measuring. `program` is the hash of this program; none where it cannot be hashed.
+    /// Prepares a scene of a plan for measuring. `program` is the hash of this program; none if it cannot be hashed.
     pub fn new(
         plan: &'a RunPlan,
         gpu: Option<&'a Gpu>,
@@ -46,9 +46,8 @@ impl<'a> SceneContext<'a> {
 }
 
 impl SceneContext<'_> {
-    /// Returns the reference pictures of each alignment, then one case per filter preset and form of the input; a failure where a
-    /// filter made no picture that can be measured. Counts the cases that were read back as well. `advance` gets the number of
-    /// steps that are done.
+    /// Returns each alignment's reference pictures, then one case per filter preset and input form; a failure if a filter made no
+    /// measurable picture. Also counts the cases that were read back. `advance` gets the number of finished steps.
     pub fn measure_cases(
         &self,
         advance: &dyn Fn(u64),
@@ -85,8 +84,8 @@ impl SceneContext<'_> {
         Ok((cases, read_back))
     }
 
-    /// Renders the scene's frame and one truth per alignment that a filter of the plan declares, or copies what an engine drew, and
-    /// writes their pictures.
+    /// Renders the scene's frame and one truth per alignment that a filter of the plan declares, or copies an engine's, and writes their
+    /// pictures.
     fn render(&self, advance: &dyn Fn(u64)) -> Result<Frame, Error> {
         for (record, key) in self.render_records() {
             remove_altered_files(&record, &key);
@@ -108,7 +107,7 @@ impl SceneContext<'_> {
         Ok(frame)
     }
 
-    /// Takes what the plan's folder of truths holds.
+    /// Copies what it can from the plan's folder of truths.
     fn take_renders(&self) -> Result<(), Error> {
         let plan = self.plan;
         if let (Some(truths), RunScene::Traced(scene)) = (&plan.truths, self.scene) {
@@ -121,7 +120,7 @@ impl SceneContext<'_> {
         Ok(())
     }
 
-    /// Renders the frame, and what its truths have in common; copies the frame that an engine drew.
+    /// Renders the frame, and what its truths share; copies an engine's frame.
     fn render_first(&self, advance: &dyn Fn(u64)) -> Result<Frame, Error> {
         let rendering = match self.scene {
             RunScene::Traced(scene) => self.plan.rendering(scene),
@@ -138,7 +137,7 @@ impl SceneContext<'_> {
         self.plan.out.join(self.scene.id().folder())
     }
 
-    /// Counts the steps of the whole scene, as progress shows them: those of rendering, and the measuring.
+    /// Counts the steps of the whole scene, as progress shows them: rendering and measuring.
     pub fn steps(&self) -> u64 {
         self.render_steps() + 1
     }
@@ -153,8 +152,8 @@ impl SceneContext<'_> {
         u64::from(self.plan.render.replicates) + 1
     }
 
-    /// Reads a case that was measured before, without its intervals where the plan asks for none. A plan that asks for intervals or ladders
-    /// takes no case without them. `look_up` may look at its pictures as well.
+    /// Reads a case that was measured before, without its intervals if the plan asks for none. A plan that asks for intervals or ladders
+    /// accepts no case without them. `look_up` may check its pictures as well.
     pub fn read_case(
         &self,
         planned: &PlannedCase,
@@ -171,7 +170,7 @@ impl SceneContext<'_> {
         (has_intervals || case.is_reference || case.drawn.is_some()).then_some(case)
     }
 
-    /// Lists the frame and the truths that are to be rendered, by the headers of files. What an engine drew is copied in no time.
+    /// Lists the frame and the truths that must be rendered, by the headers of files. Copying an engine's counts as no time.
     pub fn find_missing(&self) -> Vec<RenderFile> {
         let plan = self.plan;
         let folders = plan
@@ -186,8 +185,8 @@ impl SceneContext<'_> {
         })
     }
 
-    /// Lists the keys of cases that the plan may take, at first the one that it records by: where it asks for no ladder, it takes those
-    /// that have one as well. None where nothing is read back.
+    /// Lists the keys of cases that the plan accepts, first the one for its own records: a plan without ladders also accepts cases with
+    /// them. None if nothing is read back.
     pub(super) fn case_keys(&self, planned: &PlannedCase) -> Vec<String> {
         let adapter = self.gpu.map(|gpu| &gpu.adapter);
         let (Some(own), Some(keys)) = (planned.inputs(self.plan, adapter), &self.keys) else {
@@ -207,13 +206,13 @@ impl SceneContext<'_> {
         folder.join(CASE_RECORD)
     }
 
-    /// Tells whether frame, truths and their pictures are there and unaltered.
+    /// Returns whether frame, truths and their pictures are there and unaltered.
     fn has_its_files(&self) -> bool {
         let mut records = self.render_records().into_iter();
         self.keys.is_some() && records.all(|(record, key)| look_up::<()>(&record, &key).is_some())
     }
 
-    /// Lists the records of the frame and of every truth, in this order, with their keys; none where nothing is read back.
+    /// Lists the records of the frame and of every truth, in this order, with their keys; none if nothing is read back.
     fn render_records(&self) -> Vec<(PathBuf, String)> {
         let Some(keys) = &self.keys else {
             return Vec::new();

@@ -1,4 +1,4 @@
-//! Runs: scene after scene, measured by one plan.
+//! Runs: every scene of a plan, measured in turn.
 
 use filters::Gpu;
 use tracer::{Progress, Watch};
@@ -11,14 +11,14 @@ use crate::run::Run;
 use crate::run::case::Case;
 use crate::stats::overall::overall;
 
-/// Renders, filters, measures and writes every case below `plan.out`, but not `run.json` itself. Reads back what an earlier run
-/// measured of the same inputs and left there. `gpu` is what [`open_gpu`](crate::open_gpu) opened for the plan's filters.
+/// Renders, filters, measures and writes every case below `plan.out`, but not `run.json` itself. Reads back an earlier run's measurements
+/// of the same inputs there. `gpu` is what [`open_gpu`](crate::open_gpu) opened for the plan's filters.
 pub fn measure_scenes(
     plan: &RunPlan,
     gpu: Option<&Gpu>,
     command: Vec<String>,
 ) -> Result<Run, Error> {
-    // The steps of a single scene show all of the progress.
+    // With a single scene, its steps show all of the progress.
     let count = count_frames(plan);
     let monitor = match count {
         1 => plan.monitor.without_progress(),
@@ -35,7 +35,7 @@ pub fn measure_scenes(
     Ok(run)
 }
 
-/// Measures scene after scene, and of each frame after frame, into a run.
+/// Measures every scene in turn, and each frame of it, into a run.
 fn measure_all(
     plan: &RunPlan,
     gpu: Option<&Gpu>,
@@ -47,7 +47,7 @@ fn measure_all(
     visit_frames(plan, gpu, |scene| {
         let steps = scene.steps();
         let advance = |done: u64| {
-            // A scene that is interrupted returns the error itself.
+            // An interrupted scene returns the error itself.
             let _ = watch(Progress {
                 done: number * steps + done.min(steps),
                 total: count_frames(plan) as u64 * steps,

@@ -1,4 +1,4 @@
-//! Scores of sequences, from the pictures that the frames' cases left.
+//! Scores of sequences, from the pictures of the frames' cases.
 
 use frame::{
     Alignment, Image, Truth, read_exr, read_png, tile_pictures, write_animated_png, write_png,
@@ -15,12 +15,12 @@ use crate::run::case::{Case, Intervals};
 use crate::run::sequence::{Sequence, SequenceFrame, worst_frames};
 use crate::stats::intervals::{count_pairs, sequence_intervals, truth_without_pair};
 
-/// Picture of the error of the change since the frame before, beside a case's other pictures.
+/// Picture of the error of the change since the previous frame, next to a case's other pictures.
 pub const CHANGE_PICTURE: &str = "change.png";
-/// Animation of a sequence, beside the pictures of its first frame.
+/// Animation of a sequence, next to the pictures of its first frame.
 pub const SEQUENCE_PICTURE: &str = "sequence.png";
 
-/// Measures the sequences of a scene, one per case that every frame has. `frames` lists the cases of each frame.
+/// Measures a scene's sequences, one per case that every frame has. `frames` lists the cases of each frame.
 pub(super) fn measure_sequences(
     plan: &RunPlan,
     frames: &[Vec<Case>],
@@ -46,21 +46,21 @@ pub(super) fn measure_sequences(
             alignment,
             layers: &layers,
         };
-        // Those that failed in a frame, which the run says, have no sequence.
+        // A case that failed in a frame, which the run reports, has no sequence.
         let all: Vec<Vec<&Case>> = first.filter_map(|case| find_in_all(frames, case)).collect();
         sequences.extend(truths.measure(&all)?);
     }
     Ok(sequences)
 }
 
-/// Lists the cases of all frames that are like one of the first; none where a frame lacks it.
+/// Lists all frames' cases that match one of the first frame; none if a frame lacks it.
 fn find_in_all<'a>(frames: &'a [Vec<Case>], first: &Case) -> Option<Vec<&'a Case>> {
     let is_like = |case: &&Case| case.filter_id() == first.filter_id();
     let found = frames.iter().map(|cases| cases.iter().find(is_like));
     found.collect()
 }
 
-/// The truths of one scene and shutter, frame after frame.
+/// The truths of one scene and shutter, in order of frames.
 struct SequenceTruths<'a> {
     plan: &'a RunPlan,
     scene: &'a Scene,
@@ -69,7 +69,7 @@ struct SequenceTruths<'a> {
 }
 
 impl SequenceTruths<'_> {
-    /// Measures the sequences of cases, of which each entry lists those of all frames.
+    /// Measures the sequences of cases; each entry lists all frames' cases.
     fn measure(&self, all: &[Vec<&Case>]) -> Result<Vec<Sequence>, Error> {
         let reference = self.whole()?;
         let mut sequences: Vec<Sequence> = (all.iter())
@@ -83,8 +83,7 @@ impl SequenceTruths<'_> {
         Ok(sequences)
     }
 
-    /// Computes the intervals of the scores of filters; empty for references, and where none are asked for. One truth at a time is in
-    /// memory.
+    /// Computes the intervals of filters' scores; empty for references, and if not requested. One truth at a time is in memory.
     fn intervals(
         &self,
         sequences: &[Sequence],
@@ -144,7 +143,7 @@ impl SequenceTruths<'_> {
 }
 
 impl RunPlan {
-    /// Reads the colours of the pictures that the cases of a sequence left, frame after frame.
+    /// Reads the colours of a sequence's pictures, in order of frames.
     fn read_outputs(&self, cases: &[&Case]) -> Result<Vec<Image>, Error> {
         let paths = cases
             .iter()

@@ -1,4 +1,4 @@
-//! The frame in the forms in which filters get it, and the frame before, for filters that read it.
+//! The frame in the forms that filters get, and the previous frame for filters that read it.
 
 use frame::Frame;
 use tracer::Scene;
@@ -8,21 +8,23 @@ use super::run_scene::RunScene;
 use crate::Error;
 use crate::inputs::input_format::InputFormat;
 
-/// A frame in one of the forms in which filters get it.
+/// A frame in one of the forms that filters get.
 pub(crate) struct StoredFrame {
     pub format: InputFormat,
     pub frame: Frame,
-    /// The frame before; none for the first frame, and where no filter reads it.
+    /// The previous frame; none for the first frame, and if no filter reads it.
     pub before: Option<Frame>,
 }
 
-/// Stores the frame of a scene in every form, and for filters with history the frame before it.
+/// Stores a scene's frame in every form, and the previous frame for filters with history.
 pub(super) fn store_frames(
     plan: &RunPlan,
     scene: RunScene,
     formats: &[InputFormat],
     frame: &Frame,
 ) -> Result<Vec<StoredFrame>, Error> {
+    let whole = read_further_velocities(plan, scene)?;
+    let frame = whole.as_ref().unwrap_or(frame);
     let before = read_frame_before(plan, scene)?;
     let store = |format: &InputFormat, frame: &Frame, scene: Option<&Scene>| {
         format.apply(frame, scene, plan.monitor)
@@ -40,7 +42,14 @@ pub(super) fn store_frames(
         .collect()
 }
 
-/// Reads the frame before that of a later frame, with its scene.
+/// Reads the frame with the velocities that few filters read; none if no filter of the plan does, and of an engine's scene.
+fn read_further_velocities(plan: &RunPlan, scene: RunScene) -> Result<Option<Frame>, Error> {
+    let scene = (scene.traced()).filter(|_| plan.reads_further_velocities());
+    let read = |scene| plan.rendering(scene).frame_with_further_velocities();
+    scene.map(read).transpose()
+}
+
+/// Reads the frame before a later frame, with its scene.
 fn read_frame_before(plan: &RunPlan, scene: RunScene) -> Result<Option<(Scene, Frame)>, Error> {
     let mut filters = plan.filters.iter();
     let has_history = filters.any(|choice| !choice.filter.history.is_empty());
@@ -53,6 +62,9 @@ fn read_frame_before(plan: &RunPlan, scene: RunScene) -> Result<Option<(Scene, F
     let is_own = |scene: &&Scene| scene.id == later.id.at_frame(0);
     let first = plan.scenes.iter().find(is_own).expect("it is in the plan");
     let before = first.at_frame(later.id.frame - 1);
-    let frame = plan.rendering(&before).frame()?;
+    let frame = match read_further_velocities(plan, RunScene::Traced(&before))? {
+        Some(whole) => whole,
+        None => plan.rendering(&before).frame()?,
+    };
     Ok(Some((before, frame)))
 }

@@ -1,4 +1,4 @@
-//! Cases of an earlier run in the same folder, which a narrower run keeps.
+//! Cases of an earlier run in the same folder that a narrower run keeps.
 
 use std::collections::HashSet;
 use std::fs;
@@ -16,19 +16,19 @@ use crate::run::Run;
 use crate::run::case::Case;
 use crate::run::stored::StoredRun;
 
-/// The cases of an earlier run whose identities a plan does not name.
+/// Cases of an earlier run that a plan does not include.
 pub struct EarlierCases {
     kept: StoredRun,
-    /// Cases of the earlier run that are out of date: their scene has changed since.
+    /// Outdated cases of the earlier run: their scene has changed since.
     pub outdated: usize,
 }
 
 impl EarlierCases {
-    /// Finds the cases of `run.json` in the plan's folder that the plan leaves out, and lets the plan compare its own cases with
-    /// the same common shutter. None where there is nothing to keep: no run, or one whose cases are all measured again.
+    /// Finds the cases of `run.json` in the plan's folder that the plan leaves out, and lets the plan use the same common shutter. None if
+    /// there is nothing to keep: no run, or one whose cases are all measured again.
     ///
     /// # Errors
-    /// The earlier run cannot be read, or has other settings, so that its cases cannot be kept beside those of the plan.
+    /// The earlier run cannot be read, or has other settings, so that its cases cannot be kept with the plan's.
     pub fn find(
         plan: &mut RunPlan,
         adapter: Option<&AdapterDescription>,
@@ -58,7 +58,7 @@ impl EarlierCases {
                 path.display()
             )));
         }
-        // The common shutter has references of its own.
+        // The common shutter has its own references.
         let planned = Planned::new(plan);
         run.cases.retain(|case| !planned.names(case));
         let is_outdated = |case: &mut Case| is_outdated(plan, case);
@@ -84,7 +84,7 @@ impl EarlierCases {
     /// Folds the kept cases into a finished run.
     ///
     /// # Errors
-    /// The kept cases are those of other settings than the run's.
+    /// The kept cases have other settings than the run.
     pub fn add_to(self, run: &Run) -> Result<Run, Error> {
         let own = StoredRun {
             path: self.kept.path.clone(),
@@ -105,19 +105,19 @@ impl Planned {
         Self(both.map(|id| (id.scene.clone(), id.filter_id())).collect())
     }
 
-    /// Tells whether the plan measures a filter on a scene, at whichever frame.
+    /// Returns whether the plan measures a filter on a scene, at any frame.
     fn has(&self, scene: &SceneId, filter: &FilterId) -> bool {
         self.0.contains(&(scene.at_frame(0), filter.clone()))
     }
 
-    /// Tells whether the plan measures a case, whatever its overrides.
+    /// Returns whether the plan measures a case, with any overrides.
     fn names(&self, case: &Case) -> bool {
         self.has(&case.scene, &case.of_preset().filter_id())
     }
 }
 
-/// Names the folder for a run with pictures of one size: `out` itself, or `160x90` below it where `out` holds a run of another
-/// size, whose pictures have the same names.
+/// Names the folder for a run of one picture size: `out` itself, or `160x90` below it if `out` holds a run of another size, whose pictures
+/// have the same names.
 ///
 /// # Errors
 /// The run in `out` cannot be read.
@@ -149,7 +149,7 @@ pub fn find_newer_sizes(out: &Path) -> Vec<PathBuf> {
     newer
 }
 
-/// Reads the run that a new one would replace; none where there is no such file.
+/// Reads the run that a new one would replace; none without such a file.
 fn read_earlier_run(path: &Path) -> Result<Option<Run>, Error> {
     if !path.exists() {
         return Ok(None);
@@ -161,7 +161,7 @@ fn read_earlier_run(path: &Path) -> Result<Option<Run>, Error> {
     })
 }
 
-/// Tells whether a scene of the plan has changed since the case was measured.
+/// Returns whether a scene of the plan has changed since the case was measured.
 fn is_outdated(plan: &RunPlan, case: &Case) -> bool {
     let mut scenes = plan.all_scenes().into_iter();
     let scene = scenes.find(|scene| *scene.id() == case.scene);

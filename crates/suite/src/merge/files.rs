@@ -1,4 +1,4 @@
-//! The pictures of runs that are folded.
+//! Pictures of folded runs.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -11,7 +11,7 @@ use crate::measure::pictures::{CASE_FILES, FRAME_FILES, truth_files};
 use crate::run::Run;
 use crate::run::stored::StoredRun;
 
-/// Pictures that a run names: those of a case, or of one frame of a sequence.
+/// Pictures that a run names, of a case or of one frame of a sequence.
 struct Pictures<'a> {
     /// Folder of the scene.
     scene: PathBuf,
@@ -21,8 +21,8 @@ struct Pictures<'a> {
     truth_hash: &'a str,
 }
 
-/// Gathers the files of all cases and their scenes. A file that two parts hold must be the same in both, and no picture may be missing
-/// from all. Follows no links.
+/// Gathers the files of all cases and their scenes. A file in two parts must be the same in both, and every picture must be in some part.
+/// Follows no links.
 pub(super) fn gather_files(parts: &[StoredRun]) -> Result<Files, Error> {
     let lists = parts.iter().map(|part| {
         let own = list_pictures(&part.run).flat_map(|own| [own.scene, own.case.to_owned()]);
@@ -61,7 +61,7 @@ fn list_pictures(run: &Run) -> impl Iterator<Item = Pictures<'_>> {
     cases.chain(frames)
 }
 
-/// Refuses a case whose pictures, or those of its scene, no part holds, and one that was measured against another truth.
+/// Refuses a case if no part has its pictures or its scene's, or if it was measured against another truth.
 fn check_pictures(part: &StoredRun, own: &Pictures, files: &Files) -> Result<(), Error> {
     let of_case = CASE_FILES.iter().map(|name| own.case.join(name));
     let of_frame = FRAME_FILES.iter().map(|name| own.scene.join(name));

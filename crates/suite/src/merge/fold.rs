@@ -1,4 +1,4 @@
-//! Fold of runs: each of their cases, sequences and failures once, in the order in which one process measures them.
+//! Fold of runs: each case, sequence and failure once, in the order of a single process.
 
 use std::collections::HashMap;
 
@@ -15,10 +15,10 @@ use crate::run::sequence::Sequence;
 use crate::run::stored::StoredRun;
 use crate::stats::overall::overall;
 
-/// Folds at least one run; the command is that of the first.
+/// Folds at least one run; keeps the first one's command.
 ///
 /// # Errors
-/// Two runs differ in their settings or adapters, or hold one case with other scores.
+/// Two runs differ in their settings or adapters, or have different scores for one case.
 pub(super) fn fold_runs(parts: &[StoredRun]) -> Result<Run, Error> {
     let first = &parts[0];
     let mut with_adapter = parts.iter().filter(|part| part.run.adapter.is_some());
@@ -69,7 +69,7 @@ fn check_settings(one: &StoredRun, other: &StoredRun) -> Result<(), Error> {
     }
 }
 
-/// Lists things of all parts, each once. Two of one scene and filter must be equal.
+/// Lists each item of all parts once. Two items of one scene and filter must be equal.
 fn list_once<T: Clone + Serialize>(
     parts: &[StoredRun],
     list: fn(&Run) -> &Vec<T>,

@@ -1,4 +1,4 @@
-//! Runs folded into one: those of which each measured some of the cases, and an earlier one that a narrower one keeps.
+//! Runs folded into one: partial runs, or an earlier run and a narrower one that keeps its cases.
 
 pub mod earlier;
 mod files;
@@ -19,17 +19,17 @@ use crate::identity::FilterId;
 use crate::run::Run;
 use crate::run::stored::StoredRun;
 
-/// Tells whether a path names a finished run: its `run.json`, or its folder.
+/// Returns whether a path names a finished run: its `run.json`, or its folder.
 pub fn holds_run(path: &Path) -> bool {
     path.is_file() || path.join("run.json").is_file()
 }
 
-/// Joins the runs of all `parts`, each a `run.json` or its folder, and takes their pictures into `out`. The run is the one that a
-/// single process measures: its cases in the same order, the same means, and `command` as the words of its command line. Scenes
-/// and filters are ordered as the parts name them first. Its `run.json` is not written yet, and the folder is locked until it is.
+/// Joins the runs of all `parts`, each a `run.json` or its folder, and copies their pictures into `out`. The result equals a single
+/// process's run: its cases in the same order, the same means, and `command` as the words of its command line. Scenes and filters keep
+/// the order in which the parts first name them. Its `run.json` is not written yet, and the folder is locked until it is.
 ///
 /// # Errors
-/// Nothing is written if the parts differ in their settings, adapters or truths, if two hold one case with other scores, or if
+/// Nothing is written if the parts differ in their settings, adapters or truths, if two have different scores for one case, or if
 /// cases are missing.
 pub fn merge_runs(
     parts: &[PathBuf],
@@ -52,7 +52,7 @@ pub fn merge_runs(
 
 /// Refuses cases that no process could have measured together: scenes with different filters, and shutters without references.
 fn check_complete(run: &Run) -> Result<(), Error> {
-    // What an engine drew has one shutter, and leaves out filters of others.
+    // An engine's scene has one shutter, and leaves out filters of others.
     let rendered = || run.cases.iter().filter(|case| case.drawn.is_none());
     let scenes: BTreeSet<&SceneId> = rendered().map(|case| &case.scene).collect();
     let filters: BTreeSet<FilterId> = rendered().map(|case| case.filter_id()).collect();

@@ -1,4 +1,4 @@
-//! The order in which one process measures scenes and filters.
+//! The order of scenes and filters in one process's run.
 
 use frame::Alignment;
 use tracer::SceneId;
@@ -14,7 +14,7 @@ pub(super) struct Order {
 }
 
 impl Order {
-    /// Orders scenes and filters as the runs name them first.
+    /// Orders scenes and filters by their first mention in the runs.
     pub fn new<'a>(runs: impl Iterator<Item = &'a Run> + Clone) -> Self {
         let cases = runs.clone().map(|run| &run.cases);
         let all_scenes = cases.clone().map(|cases| {
@@ -35,14 +35,14 @@ impl Order {
         }
     }
 
-    /// Returns the place of a frame: scene after scene, and of each frame after frame.
+    /// Returns the position of a frame: scenes in order, and each scene's frames in order.
     pub fn scene(&self, scene: &SceneId) -> (usize, u32) {
         let first = scene.at_frame(0);
         let place = self.scenes.iter().position(|(_, own)| *own == first);
         (place.unwrap_or(self.scenes.len()), scene.frame)
     }
 
-    /// Returns the place of a filter in its scene: references of one shutter after the other, then filters.
+    /// Returns the position of a filter in its scene: references, grouped by shutter, then filters.
     pub fn filter(&self, filter: &FilterId) -> (bool, Option<Alignment>, Option<usize>) {
         let shutter = filter.is_reference.then_some(filter.alignment);
         let place = self.filters.iter().position(|own| own == filter);
@@ -50,8 +50,8 @@ impl Order {
     }
 }
 
-/// Orders all names of some lists. Names of one list keep their order: a name that is new comes after the name before it, or before the
-/// one after it; one with neither comes last.
+/// Merges lists of names. Names of one list keep their order: a new name comes after its predecessor, or before its successor; one with
+/// neither comes last.
 fn merge_order<T: PartialEq + Clone>(lists: impl IntoIterator<Item = Vec<T>>) -> Vec<T> {
     let mut order: Vec<T> = Vec::new();
     for list in lists {

@@ -1,4 +1,4 @@
-//! The files of a run's folder that a pack holds: all that a run renders and reads, and none that filters made.
+//! Files of a run's folder in a pack: all that a run renders and reads, and nothing that filters made.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -12,20 +12,20 @@ use crate::render::files::truth_files;
 use crate::run::Run;
 use crate::run::case::{ACCUMULATE, Case};
 
-/// What the cases of a run say of a truth.
+/// What the cases of a run say about a truth.
 #[derive(Default)]
 struct CasesOfTruth<'a> {
-    /// The `truth_hash` that they were measured against; none if no case was.
+    /// `truth_hash` of the cases' truth; none without cases.
     hash: Option<&'a str>,
     /// True if the run compares with accumulations of several sub-frames: the whole ladder was rendered.
     has_ladder: bool,
 }
 
-/// The truths of each scene, by their alignments.
+/// The truths of each scene, by alignment.
 type Truths<'a> = BTreeMap<&'a SceneId, BTreeMap<Alignment, CasesOfTruth<'a>>>;
 
-/// Lists frames, truths, replicates and ladders of a finished run, in the order of their paths. A check has the sharp rungs of ladders
-/// alone. Sizes and hashes of bytes are not known yet.
+/// Lists a finished run's frames, truths, replicates and ladders by path. A check's ladders have only the sharp rungs. Sizes and byte
+/// hashes are not known yet.
 pub(super) fn list_contents(
     run: &Run,
     folder: &Path,
@@ -43,7 +43,7 @@ pub(super) fn list_contents(
                 let own = truth_files(alignment, run.render.replicates, cases.has_ladder)
                     .map(|file| Ok((file, read_header(folder, &path(file))?)))
                     .collect::<Result<Vec<_>, Error>>()?;
-                // Cases of later frames are not in run.json.
+                // run.json has no cases of later frames.
                 let measured = cases.hash.filter(|_| frame == 0);
                 check_truth(run, folder, &own, measured)?;
                 files.extend(own.into_iter().map(|(_, file)| file));
@@ -54,7 +54,7 @@ pub(super) fn list_contents(
     Ok(files)
 }
 
-/// Lists the truths of the chosen scenes; leaves out those that engines drew, which have their truths elsewhere.
+/// Lists the truths of the chosen scenes; leaves out engines' scenes, which have their truths elsewhere.
 fn list_truths<'a>(run: &'a Run, chosen: &[String]) -> Result<Truths<'a>, Error> {
     let mut truths = Truths::new();
     let is_chosen = |case: &&Case| case.drawn.is_none() && chosen.contains(&case.scene.to_string());
@@ -117,7 +117,7 @@ fn check_truth(
     Ok(())
 }
 
-/// Describes a rendered file by its header.
+/// Describes a rendered file from its header.
 fn read_header(root: &Path, file: &RenderPath) -> Result<PackedFile, Error> {
     let path = root.join(file.path());
     if !path.symlink_metadata().is_ok_and(|found| found.is_file()) {

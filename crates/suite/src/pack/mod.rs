@@ -1,4 +1,4 @@
-//! Packs: the frames, truths and ladders of a run in one archive, which says what it holds and is checked before it is used.
+//! Packs: a run's frames, truths and ladders in one archive, with a list of contents that is checked before use.
 
 mod contents;
 pub mod unpacked;
@@ -11,8 +11,8 @@ use self::contents::list_contents;
 use crate::run::Run;
 use crate::{Error, Monitor, PROGRAM};
 
-/// Packs the frames, truths and ladders of the chosen scenes of a finished run in `folder` into the archive `pack`. The same files
-/// give the same bytes.
+/// Packs the frames, truths and ladders of the chosen scenes of a finished run in `folder` into the archive `pack`. The same files give the
+/// same bytes.
 pub fn write_pack(
     run: &Run,
     folder: &Path,

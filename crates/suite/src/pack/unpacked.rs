@@ -1,4 +1,4 @@
-//! Files of a pack that a run takes into its folder.
+//! Files of a pack that a run copies into its folder.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -13,25 +13,25 @@ use crate::verify::scene::{Verified, verify_scene};
 use crate::verify::scene_renders::list_scene_renders;
 use crate::verify::tiles::Verification;
 
-/// Folder in that of a run where files of a pack lie until they are verified.
+/// Folder inside a run's for files of a pack until they are verified.
 const UNPACKED: &str = ".shuttertruth.unpacked";
 
-/// What a run took of a pack.
+/// What a run took from a pack.
 #[derive(Clone, Debug, Default)]
 pub struct Unpacked {
     /// Number of files that were taken.
     pub files: usize,
-    /// What was verified of them.
+    /// Verification of these files.
     pub verified: Verified,
-    /// What is still to be rendered: `frame of fan`, `trailing truth of fan`.
+    /// What must still be rendered: `frame of fan`, `trailing truth of fan`.
     pub missing: Vec<String>,
 }
 
-/// Checks all of a pack, and takes from it into the plan's folder what the plan needs and the folder lacks, after random tiles were
-/// traced again. Truths of other scenes, settings or tracers stay in the pack.
+/// Checks all of a pack, and copies from it what the plan needs and the plan's folder lacks, after tracing random tiles again. Truths of
+/// other scenes, settings or tracers stay in the pack.
 ///
 /// # Errors
-/// The pack is not what its manifest says, a tile is not equal, or a file cannot be written. Nothing is taken then.
+/// The pack does not match its manifest, a tile differs, or a file cannot be written. Nothing is copied then.
 pub fn take_pack(
     plan: &RunPlan,
     pack: &Pack,
@@ -61,7 +61,7 @@ pub fn take_pack(
     Ok(taken)
 }
 
-/// Unpacks files into the folder of unpacked files, verifies them, and places those that the plan's folder lacks; counts these.
+/// Unpacks files into the folder of unpacked files, verifies them, and places those that the plan's folder lacks; counts the latter.
 fn take_verified(
     plan: &RunPlan,
     pack: &Pack,
@@ -82,7 +82,7 @@ fn take_verified(
     Ok((take(files(), &unpacked, &plan.out)?, verified))
 }
 
-/// Lists those scenes of the plan whose files the pack has and the plan's folder lacks, with these files.
+/// Lists the scenes of the plan with files that the pack has and the plan's folder lacks, and these files.
 fn find_wanted(
     plan: &RunPlan,
     pack: &Pack,
@@ -103,7 +103,7 @@ fn find_wanted(
     Ok(wanted)
 }
 
-/// Verifies the files of a scene before they are taken.
+/// Verifies the files of a scene before they are used.
 fn verify_unpacked(
     plan: &RunPlan,
     pack: &Pack,
@@ -112,7 +112,7 @@ fn verify_unpacked(
     verification: &Verification,
 ) -> Result<Verified, Error> {
     let unpacked = plan.out.join(UNPACKED);
-    // Whoever wrote the manifest may have named another hash than the file has.
+    // The manifest may name another hash than the file has.
     if let Some(file) = files.iter().find(|file| !file.is_in(&unpacked)) {
         return Err(Error::Usage(format!(
             "{}: the header of {} has another content_hash than manifest.json says; the pack was altered: make or fetch it again",
@@ -122,13 +122,13 @@ fn verify_unpacked(
     }
     let folder = scene_folder(&unpacked, scene);
     let mut renders = list_scene_renders(&unpacked, &pack.path)?.into_iter();
-    // All that was unpacked is verified, whether or not a truth came along: a run makes truths of replicates.
+    // All that was unpacked is verified, with or without a truth: a run makes truths from replicates.
     let own = renders.find(|own| own.folder == folder);
     let own = own.expect("a file of it was unpacked");
     verify_scene(scene, &own, verification, plan.monitor)
 }
 
-/// Lists the scenes of a plan, and behind each its later frames.
+/// Lists the scenes of a plan and, after each, its later frames.
 fn list_scenes(plan: &RunPlan) -> Vec<Scene> {
     let frames = 0..plan.frames.count;
     (plan.scenes.iter())
@@ -136,7 +136,7 @@ fn list_scenes(plan: &RunPlan) -> Vec<Scene> {
         .collect()
 }
 
-/// Removes the folder of unpacked files; a link in its place is removed, and not followed.
+/// Removes the folder of unpacked files; a link in its place is removed, not followed.
 fn remove_folder(folder: &Path) -> Result<(), Error> {
     let removed = match std::fs::symlink_metadata(folder) {
         Err(_) => Ok(()),

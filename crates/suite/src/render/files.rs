@@ -1,4 +1,4 @@
-//! Files that are rendered of a scene, by which a folder or a pack is searched for what need not be rendered again.
+//! Rendered files of a scene, for finding those that need not be rendered again.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use super::ladders::{ladder_hash, needed_rungs};
 use super::rendering::Rendering;
 use super::settings::frame_settings;
 
-/// Lists a truth, its replicates, and the rungs of its ladder that measuring needs: all if ladders are asked for.
+/// Lists a truth, its replicates, and the rungs of its ladder that measuring needs: all if ladders are requested.
 pub(crate) fn truth_files(
     alignment: Alignment,
     replicates: u32,
@@ -24,7 +24,7 @@ pub(crate) fn truth_files(
 }
 
 impl Rendering<'_> {
-    /// Lists the frame of the scene, and of each alignment the [`truth_files`], with the hashes of their inputs.
+    /// Lists the scene's frame, and each alignment's [`truth_files`], with the hashes of their inputs.
     pub(crate) fn list_wanted(&self, alignments: &[Alignment], ladders: bool) -> Vec<Wanted> {
         let (scene, settings) = (self.scene, &self.settings);
         let wanted = |file, hash: &str| Wanted {
@@ -50,8 +50,8 @@ impl Rendering<'_> {
         files
     }
 
-    /// Lists the frame and the truths that all of some folders lack, by the headers of files: of each truth its own and the last of its
-    /// replicates and rungs.
+    /// Lists the frame and the truths that all given folders lack, by the headers of files: for each truth its own and its last replicate's
+    /// and rung's.
     pub(crate) fn find_missing(
         &self,
         alignments: &[Alignment],

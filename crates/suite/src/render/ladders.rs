@@ -10,11 +10,11 @@ use tracer::{LadderTracer, RenderSettings, Scene};
 use super::rendering::Rendering;
 use crate::Error;
 
-/// The rung that is the sharp picture of a shutter's middle.
+/// Rung that is the sharp picture of a shutter's middle.
 pub const SHARP: u32 = LADDER[0];
 
-/// Lists the rungs that measuring against a truth needs: all if ladders are asked for. Otherwise the sharp picture of the shutter's
-/// middle, which skill is counted from, unless the frame is that.
+/// Lists the rungs that measuring against a truth needs: all if ladders are requested. Otherwise only the sharp picture of the shutter's
+/// middle, the zero of skill, unless that is the frame itself.
 pub(crate) fn needed_rungs(alignment: Alignment, ladders: bool) -> &'static [u32] {
     match (ladders, alignment) {
         (true, _) => &LADDER,
@@ -23,8 +23,8 @@ pub(crate) fn needed_rungs(alignment: Alignment, ladders: bool) -> &'static [u32
     }
 }
 
-/// Returns the sharp picture of the middle of a truth's shutter: the frame if its instant lies there, or else the rung [`SHARP`],
-/// which `read` reads. `frame` has no guard band.
+/// Returns the sharp picture of the middle of a truth's shutter: the frame if that is its instant, or else the rung [`SHARP`] from `read`.
+/// `frame` has no guard band.
 pub fn sharp_picture<E>(
     frame: &Frame,
     truth: &Truth,
@@ -36,19 +36,18 @@ pub fn sharp_picture<E>(
     }
 }
 
-/// The ladder of one truth, with a file for each rung: all of them together would take more memory than all else that measuring
-/// holds.
+/// The ladder of one truth, with a file for each rung: together the rungs would need more memory than all else in measuring.
 pub struct LadderFiles<'a> {
     rendering: Rendering<'a>,
     truth: &'a Truth,
     /// Hash of the inputs.
     hash: String,
-    /// Made for the first rung that is rendered.
+    /// Made for the first rendered rung.
     tracer: OnceCell<LadderTracer<'a>>,
 }
 
 impl<'a> Rendering<'a> {
-    /// Names the ladder that goes with a truth, which was rendered with these settings.
+    /// Names a truth's ladder; the truth was rendered with these settings.
     pub fn ladder(&self, truth: &'a Truth) -> LadderFiles<'a> {
         LadderFiles {
             rendering: *self,
@@ -60,7 +59,7 @@ impl<'a> Rendering<'a> {
 }
 
 impl<'a> LadderFiles<'a> {
-    /// Renders some of the rungs and writes them, but for those whose files of the same inputs are there.
+    /// Renders some of the rungs and writes them, except those with files of the same inputs.
     pub fn ensure(&self, rungs: &[u32]) -> Result<(), Error> {
         for subframes in rungs {
             let found = read_attribute(&self.path(*subframes), "content_hash");
@@ -114,7 +113,7 @@ impl<'a> LadderFiles<'a> {
     }
 }
 
-/// Hashes the inputs of the ladder that goes with the truth of these settings.
+/// Hashes the inputs of a truth's ladder with these settings.
 pub(crate) fn ladder_hash(
     scene: &Scene,
     settings: &RenderSettings,

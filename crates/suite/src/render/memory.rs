@@ -1,4 +1,4 @@
-//! Upper bound on the memory that a render takes, before it begins.
+//! Upper bound on a render's memory before it begins.
 
 use std::fs;
 
@@ -15,17 +15,16 @@ const PER_COVERAGE: u64 = 4 + 1;
 /// Bytes per triangle of a scene while its trees are built.
 const PER_TRIANGLE: u64 = 600;
 
-/// Pictures that a truth takes beside its replicates. This number and the next ones bound the largest resident sizes of `render` and
-/// `run` that were measured, from 512x512 to 1024x1024 pixels and from 6 to 11 coverages: its mean, its halves, and what is written of
-/// it to a file.
+/// Pictures of a truth in addition to its replicates: its mean, its halves, and the contents of its file. This number and the next ones
+/// bound the largest resident sizes of `render` and `run`, measured from 512x512 to 1024x1024 pixels and from 6 to 11 coverages.
 const PICTURES_OF_TRUTH: u64 = 7;
-/// Pictures of a frame, of the truth that filters are measured by, and of the case that is measured, for any number of replicates.
+/// Pictures of a frame, of the truth that filters are measured by, and of the measured case, for any number of replicates.
 const PICTURES_MEASURED: u64 = 14;
-/// Pictures that a further truth takes.
+/// Pictures of each further truth.
 const PICTURES_OF_FURTHER_TRUTH: u64 = 6;
 
-/// Refuses to render a frame, and a truth of a number of replicates, if that needs more bytes than are free. Refuses nothing if the system
-/// does not say what is free.
+/// Refuses to render a frame and a truth of a number of replicates if that needs more bytes than are free. Refuses nothing if the system
+/// does not report free memory.
 pub(crate) fn check_memory(
     scene: &Scene,
     settings: &RenderSettings,
@@ -39,8 +38,8 @@ fn count_rendered(replicates: u32) -> u64 {
     PICTURES_OF_TRUTH + u64::from(replicates)
 }
 
-/// Counts the pictures that are in memory together while a scene is rendered and filters are measured against a number of its truths, each
-/// on a number of forms of the frame.
+/// Counts the pictures in memory at once while a scene is rendered and filters are measured against a number of its truths, each on a
+/// number of forms of the frame.
 pub(crate) fn count_measured(settings: &RenderSettings, truths: usize, forms: usize) -> u64 {
     let further_truths = truths.saturating_sub(1) as u64;
     let further_forms = forms.saturating_sub(1) as u64;
@@ -48,7 +47,7 @@ pub(crate) fn count_measured(settings: &RenderSettings, truths: usize, forms: us
         .max(count_rendered(settings.replicates))
 }
 
-/// Bounds the bytes that a number of pictures of a scene take, with all else.
+/// Bounds the memory of a number of pictures of a scene and of all else, in bytes.
 pub(crate) fn bound_memory(scene: &Scene, settings: &RenderSettings, pictures: u64) -> u64 {
     let side = |side: u32| u64::from(side) + 2 * u64::from(settings.guard_band);
     let picture = side(settings.width)
@@ -90,7 +89,7 @@ fn gibibytes(bytes: u64) -> String {
     format!("{:.1} GiB", bytes as f64 / f64::from(1 << 30))
 }
 
-/// Returns the bytes that this process may still take: the least that the system, its control group and its own limit allow.
+/// Returns the bytes that this process may still use: the least that the system, its control group and its own limit allow.
 fn free() -> Option<u64> {
     if !cfg!(target_os = "linux") {
         return None;
@@ -101,14 +100,13 @@ fn free() -> Option<u64> {
         .min()
 }
 
-/// Reads the memory that the system has left.
+/// Reads the system's free memory.
 fn free_in_system() -> Option<u64> {
     let text = fs::read_to_string("/proc/meminfo").ok()?;
     Some(entry(&text, "MemAvailable:")? << 10)
 }
 
-/// Reads what the control group of the process leaves (cgroup v2); where a container hides the path to it, what the topmost visible
-/// group leaves.
+/// Reads the free memory of the process's control group (cgroup v2), or of the topmost visible group if a container hides the path to it.
 fn free_in_group() -> Option<u64> {
     let groups = fs::read_to_string("/proc/self/cgroup").unwrap_or_default();
     let own = groups.lines().find_map(|line| line.strip_prefix("0::/"));
@@ -127,7 +125,7 @@ fn free_in_group() -> Option<u64> {
     left.min()
 }
 
-/// Reads what `ulimit -v` leaves.
+/// Reads the memory that `ulimit -v` leaves.
 fn free_in_process() -> Option<u64> {
     let limits = fs::read_to_string("/proc/self/limits").ok()?;
     let most = entry(&limits, "Max address space")?;
@@ -135,7 +133,7 @@ fn free_in_process() -> Option<u64> {
     Some(most.saturating_sub(used))
 }
 
-/// Reads the first number after a name at the beginning of a line; none where there is another word.
+/// Reads the first number after a name at the beginning of a line; none if another word follows.
 fn entry(text: &str, name: &str) -> Option<u64> {
     let rest = text.lines().find_map(|line| line.strip_prefix(name))?;
     rest.split_whitespace().next()?.parse().ok()

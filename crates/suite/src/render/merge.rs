@@ -10,7 +10,7 @@ use store::{
 
 use crate::Error;
 
-/// A truth that was merged.
+/// A merged truth.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Merged {
     /// The truth's file.
@@ -19,12 +19,12 @@ pub struct Merged {
     pub replicates: usize,
 }
 
-/// Takes frames and replicates of all `parts` into `out` and makes their truths. The same file may stand in several
-/// parts if its bytes are equal. Nothing is written unless every truth is whole.
+/// Copies frames and replicates of all `parts` into `out` and makes their truths. Several parts may contain the same file if its bytes
+/// are equal. Nothing is written unless every truth is complete.
 pub fn merge(parts: &[PathBuf], out: &Path) -> Result<Vec<Merged>, Error> {
     let files = gather_renders(parts)?;
     let truths = replicates_by_truth(&files);
-    // One truth at a time is in memory, at first to see that all are whole.
+    // One truth at a time is in memory, first to check that all are complete.
     for (truth, files) in &truths {
         merge_replicates(truth, files)?;
     }
@@ -66,7 +66,7 @@ fn gather_renders(parts: &[PathBuf]) -> Result<Files, Error> {
     Ok(gather(lists)?)
 }
 
-/// The files of the replicates of each truth, by their indices.
+/// The files of each truth's replicates, by index.
 type Replicates<'a> = BTreeMap<RenderPath, BTreeMap<u32, &'a Path>>;
 
 /// Groups replicates by their truths.
@@ -86,7 +86,7 @@ fn replicates_by_truth(files: &Files) -> Replicates<'_> {
     truths
 }
 
-/// Makes a truth of its replicates; refuses those that leave a gap, or are odd in number.
+/// Makes a truth from its replicates; refuses those that leave a gap, or are odd in number.
 fn merge_replicates(truth: &RenderPath, files: &BTreeMap<u32, &Path>) -> Result<Truth, Error> {
     let folder = truth.path().with_extension("");
     let last = files.last_key_value().map_or(0, |(index, _)| *index);

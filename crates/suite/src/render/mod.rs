@@ -1,4 +1,4 @@
-//! Frames, truths and ladders of scenes, each rendered once and read back from its file.
+//! Frames, truths and ladders of scenes, each rendered once and then read back from its file.
 
 pub mod files;
 pub mod ladders;
@@ -8,3 +8,4 @@ pub mod rendering;
 pub mod replicates;
 pub mod settings;
 pub mod truths;
+pub mod velocities;

@@ -1,16 +1,17 @@
-//! The rendering of one scene: each of its files is rendered once, and read back from then on.
+//! The rendering of one scene: each file is rendered once, and later read back.
 
 use std::path::{Path, PathBuf};
 
 use frame::{Alignment, Frame};
 use store::{RenderFile, refuse_scene, scene_folder};
-use tracer::{RenderSettings, Scene};
+use tracer::{PixelGrid, RenderSettings, Scene};
 
 use super::memory::check_memory;
 use super::settings::frame_settings;
+use super::velocities::add_further_velocities;
 use crate::{Error, Monitor};
 
-/// A scene, the settings that it is rendered with, and the folder of the run that its files are written to.
+/// A scene, its render settings, and the run's folder for its files.
 #[derive(Clone, Copy)]
 pub struct Rendering<'a> {
     /// The scene.
@@ -24,7 +25,7 @@ pub struct Rendering<'a> {
 }
 
 impl Rendering<'_> {
-    /// Renders the frame; reads it from its file if its inputs are the same.
+    /// Renders the frame, or reads it from its file if its inputs are the same.
     pub fn frame(&self) -> Result<Frame, Error> {
         refuse_scene(&scene_folder(self.out, self.scene))?;
         let own = frame_settings(&self.settings);
@@ -48,12 +49,25 @@ impl Rendering<'_> {
         Ok(frame)
     }
 
+    /// Renders the frame as [`Rendering::frame`] does, with the velocities that few filters read, which its file need not have.
+    pub fn frame_with_further_velocities(&self) -> Result<Frame, Error> {
+        let settings = frame_settings(&self.settings);
+        let grid = PixelGrid::of_picture(settings.width, settings.height);
+        add_further_velocities(self.frame()?, self.scene, &settings, &grid)
+    }
+
+    /// Renders that frame and writes all of it to its file.
+    pub fn write_further_velocities(&self) -> Result<(), Error> {
+        let frame = self.frame_with_further_velocities()?;
+        Ok(frame.write(&self.path(RenderFile::Frame))?)
+    }
+
     /// Names a file of the scene.
     pub(super) fn path(&self, file: RenderFile) -> PathBuf {
         scene_folder(self.out, self.scene).join(file.path())
     }
 
-    /// Refuses a truth of the settings that the scene cannot have.
+    /// Refuses a truth that the scene cannot have with these settings.
     pub(super) fn check_truth(&self, alignment: Alignment) -> Result<(), Error> {
         Ok(self.settings.check_truth(self.scene, alignment).map(drop)?)
     }

@@ -27,11 +27,10 @@ impl<'a> Rendering<'a> {
         }
     }
 
-    /// Renders those replicates that a trailing and a centred truth both lack, and writes them; does nothing unless `alignments` holds
-    /// both.
+    /// Renders and writes the replicates that a trailing and a centred truth both lack; does nothing unless `alignments` contains both.
     ///
-    /// Where the two shutters overlap their samples are traced once. Both truths together take three quarters of the time of one
-    /// after the other, and have the same bytes.
+    /// Samples are traced once where the two shutters overlap. Both truths together need three quarters of the time of rendering one after
+    /// the other, and have the same bytes.
     pub fn shared(&self, alignments: &[Alignment], indices: Range<u32>) -> Result<(), Error> {
         const SHARED: [Alignment; 2] = [Alignment::Trailing, Alignment::Centred];
         if !SHARED.iter().all(|shared| alignments.contains(shared)) {
@@ -57,7 +56,7 @@ impl<'a> Rendering<'a> {
 }
 
 impl<'a> TruthFiles<'a> {
-    /// Reads the truth; none where the file is missing, broken or made from other inputs.
+    /// Reads the truth; none if the file is missing, broken or made from other inputs.
     pub fn read_truth(&self) -> Option<Truth> {
         let count = self.rendering.settings.replicates;
         let path = self.rendering.path(RenderFile::Truth(self.alignment));
@@ -66,7 +65,7 @@ impl<'a> TruthFiles<'a> {
         (found.ok()).filter(|found| found.provenance.is_rendered_of(&hash))
     }
 
-    /// Averages the replicates, and renders those that are missing.
+    /// Averages the replicates, and renders missing ones.
     pub fn average(&self) -> Result<Truth, Error> {
         let count = self.rendering.settings.replicates;
         self.rendering.check_memory(count)?;
@@ -78,8 +77,8 @@ impl<'a> TruthFiles<'a> {
         Ok(truth.write(&self.rendering.path(RenderFile::Truth(self.alignment)))?)
     }
 
-    /// Returns replicates by their indices. Reads those that are there; renders the others and writes each as soon as it is
-    /// whole. Replaces a file that is broken or was made from other inputs.
+    /// Returns replicates by their indices. Reads existing ones; renders the others and writes each as soon as it is complete. Replaces a
+    /// file that is broken or was made from other inputs.
     pub fn replicates(&self, indices: Range<u32>) -> Result<Vec<Replicate>, Error> {
         self.rendering.check_truth(self.alignment)?;
         let mut tracer = None;
@@ -91,13 +90,13 @@ impl<'a> TruthFiles<'a> {
         each.collect()
     }
 
-    /// Tells whether the header of the truth's file names this many of these replicates.
+    /// Returns whether the header of the truth's file names this many of these replicates.
     fn has_truth(&self, replicates: u32) -> bool {
         let path = self.rendering.path(RenderFile::Truth(self.alignment));
         read_attribute(&path, "content_hash") == Some(truth_hash(&self.hash, replicates))
     }
 
-    /// Reads a replicate; none where it is missing, broken or made from other inputs.
+    /// Reads a replicate; none if it is missing, broken or made from other inputs.
     fn read(&self, index: u32) -> Option<Replicate> {
         let file = RenderFile::Replicate(self.alignment, index);
         let found = Replicate::read(&self.rendering.path(file)).ok()?;
@@ -106,7 +105,7 @@ impl<'a> TruthFiles<'a> {
     }
 }
 
-/// Traces a replicate of each of several truths of one scene together, and writes each to its file. `tracer` is made for the first
+/// Traces one replicate of each of several truths of a scene together, and writes each to its file. `tracer` is made for the first
 /// replicate.
 fn render_replicate<'a>(
     files: &[TruthFiles<'a>],

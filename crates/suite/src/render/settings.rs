@@ -1,17 +1,17 @@
-//! Allowed settings of renders, their list, and the settings of a frame beside truths.
+//! Allowed render settings, their list, and the settings of a truth's frame.
 
 use std::ops::RangeInclusive;
 
 use frame::Frame;
 use tracer::RenderSettings;
 
-/// Columns and rows that a picture may have.
+/// Allowed numbers of columns and rows of a picture.
 pub const SIDES: RangeInclusive<u32> = 16..=16384;
 
-/// Replicates of a truth that have as many samples as a frame, whatever number the truth has.
+/// Replicates of a truth with as many samples as a frame, for truths of any size.
 const FRAME_REPLICATES: u32 = 4;
 
-/// Lists name and value of every setting that all cases of a run share.
+/// Lists name and value of every setting that a run's cases share.
 pub fn list_settings(settings: &RenderSettings) -> [(&'static str, String); 8] {
     [
         (
@@ -31,8 +31,8 @@ pub fn list_settings(settings: &RenderSettings) -> [(&'static str, String); 8] {
     ]
 }
 
-/// Selects the settings of the frame that goes with truths: half as many samples as a truth of eight replicates has. The pilot
-/// shares them out, so that they leave about the noise that twice as many would leave without it.
+/// Selects the settings of the frame that goes with truths: half as many samples as a truth of eight replicates. The pilot distributes
+/// them, so that their noise is about that of twice as many without it.
 pub(crate) fn frame_settings(settings: &RenderSettings) -> RenderSettings {
     RenderSettings {
         samples_per_pixel: FRAME_REPLICATES * settings.samples_per_pixel / settings.replicates,

@@ -9,8 +9,8 @@ use super::rendering::Rendering;
 use crate::Error;
 
 impl Rendering<'_> {
-    /// Renders the truth over the shutter of an alignment and writes it. Reads the truth if its inputs are the same, or else those of its
-    /// replicates that are.
+    /// Renders and writes the truth over the shutter of an alignment. Reads the truth, or some of its replicates, if their inputs are the
+    /// same.
     pub fn truth(&self, alignment: Alignment) -> Result<Truth, Error> {
         let files = self.files(alignment);
         if let Some(found) = files.read_truth() {
@@ -21,12 +21,12 @@ impl Rendering<'_> {
         Ok(truth)
     }
 
-    /// Renders replicates of each truth until its noise floor reaches `target` where anything moves (everywhere if nothing does), or
-    /// there are `most`. Writes each truth when it ends, and hands it to `ended`, with true if it reached the target: truths of large
-    /// pictures are too large to be held together.
+    /// Renders replicates of each truth until its noise floor reaches `target` where anything moves (everywhere if nothing does), or there
+    /// are `most`. Writes each truth when it ends, and hands it to `ended`, with true if it reached the target: truths of large pictures
+    /// are too large to hold together.
     ///
-    /// The floor that ends the render is measured on the same halves that the truth keeps: where the render ends early because
-    /// they happened to agree, the floor reads a little low.
+    /// The floor that ends the render is measured on the same halves that the truth keeps: if the render ends early because they happened
+    /// to agree, the floor reads a little low.
     pub fn truths_until(
         mut self,
         alignments: &[Alignment],
@@ -67,16 +67,14 @@ impl Rendering<'_> {
     }
 }
 
-/// Predicts the even number of replicates that have a noise lower by `factor` than this many: noise falls with the root of their
-/// number.
+/// Predicts the even number of replicates that lowers the noise by `factor`: noise falls with the root of their number.
 fn predict_replicates(replicates: u32, factor: f64) -> u32 {
     let pairs = 0.5 * f64::from(replicates) * factor.powi(2);
-    // No more than there may ever be.
+    // No more than are ever allowed.
     2 * pairs.ceil().min(f64::from(MAX_REPLICATES / 2)) as u32
 }
 
-/// Returns the noise floor that a target is compared with: that of the moving region, or of the whole picture where nothing
-/// moves.
+/// Returns the noise floor to compare with a target: the moving region's, or the whole picture's if nothing moves.
 pub fn deciding_floor(truth: &Truth) -> (Region, f64) {
     let floors = truth.noise_floors();
     *floors

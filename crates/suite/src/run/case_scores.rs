@@ -1,4 +1,4 @@
-//! Scores of a case, as tables, means over scenes and pages show them.
+//! Scores of a case for tables, means over scenes and pages.
 
 use metrics::{Interval, Measured, Metric};
 
@@ -13,7 +13,7 @@ impl Case {
         }
     }
 
-    /// Finds the noise floor of a score; none where the score does not apply.
+    /// Finds the noise floor of a score; none if the score does not apply.
     pub fn floor(&self, metric: Metric) -> Option<f64> {
         match self.measured(metric) {
             Measured::Score(score) => Some(score.floor),
@@ -21,26 +21,26 @@ impl Case {
         }
     }
 
-    /// Finds the interval of a score; none where the run has no intervals.
+    /// Finds the interval of a score; none if the run has no intervals.
     pub fn interval(&self, metric: Metric) -> Option<&Interval> {
         self.intervals.get(&self.scores.behind(metric))
     }
 
-    /// Estimates a score against a truth without noise, which takes an interval; without one, returns the measured score. None where
-    /// the score does not apply.
+    /// Estimates a score against a truth without noise, which needs an interval; without one, returns the measured score. None if the score
+    /// does not apply.
     pub fn estimate(&self, metric: Metric) -> Option<f64> {
         let measured = self.measured(metric).value()?;
         let interval = self.interval(metric);
         Some(interval.map_or(measured, |interval| interval.center))
     }
 
-    /// Writes an estimated score: `0.063`, `4.80>`, `<1`, `n/a`.
+    /// Formats an estimated score: `0.063`, `4.80>`, `<1`, `n/a`.
     pub fn score_text(&self, metric: Metric) -> String {
         self.scores.text(metric, self.estimate(metric))
     }
 
-    /// Returns the weight of the case's scene in a mean over scenes: for a skill what the one-frame oracle takes away from the
-    /// error of no blur, and 1 for any other score. None where `cases`, those of its run, lack the reference pictures.
+    /// Returns the weight of the case's scene in a mean over scenes: for a skill, how much the one-frame oracle reduces the error of no
+    /// blur; for any other score, 1. None if `cases`, all cases of its run, lack the reference pictures.
     pub fn weight(&self, metric: Metric, cases: &[Case]) -> Option<f64> {
         let Metric::Skill(skill) = metric else {
             return Some(1.0);

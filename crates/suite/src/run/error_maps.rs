@@ -1,4 +1,4 @@
-//! Error maps of a finished case: those that errors.exr holds, and others, which are measured again.
+//! Error maps of a finished case: those in errors.exr, and others, which are measured again.
 
 use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ use metrics::{ErrorMap, Measurement, Reference};
 use super::case::Case;
 use crate::Error;
 
-/// Maps that errors.exr holds: those that people look at, and those of probes, which only the filter itself could make again.
+/// Maps in errors.exr: those that people look at, and the probes' maps, which only the filter itself could make again.
 pub const KEPT_MAPS: [ErrorMap; 6] = [
     ErrorMap::Flip,
     ErrorMap::LabelTotalVariation,
@@ -26,12 +26,12 @@ pub struct ErrorMaps<'a> {
     folder: PathBuf,
     /// errors.exr.
     file: ExrFile,
-    /// Measurement of maps that the file does not hold, made once for all of them.
+    /// Measurement of maps that the file lacks, made once for all of them.
     again: OnceCell<Measurement>,
 }
 
 impl<'a> ErrorMaps<'a> {
-    /// Reads the maps that a run left of a case below `folder`, that of run.json.
+    /// Reads the maps of a case below `folder`, which is run.json's.
     pub fn read(case: &'a Case, folder: &Path) -> Result<Self, Error> {
         Ok(Self {
             file: read_exr(&folder.join(&case.folder).join("errors.exr"))?,
@@ -46,7 +46,7 @@ impl<'a> ErrorMaps<'a> {
         (self.file.width, self.file.height)
     }
 
-    /// Takes a map by its name. One that errors.exr does not hold is measured again, from output.exr, the frame and the truth.
+    /// Returns a map by its name. A map that errors.exr lacks is measured again, from output.exr, the frame and the truth.
     pub fn map(&self, name: &str) -> Result<Plane, Error> {
         let map = ErrorMap::ALL.into_iter().find(|map| map.name() == name);
         let is_held = (self.file.channels.iter()).any(|channel| channel.name == name);

@@ -1,4 +1,4 @@
-//! Cases without scores, because their filter made no picture that can be measured.
+//! Cases without scores: their filter made no measurable picture.
 
 use frame::Alignment;
 use serde::{Deserialize, Serialize};
@@ -12,9 +12,9 @@ use crate::identity::FilterId;
 pub struct Failure {
     /// Scene.
     pub scene: SceneId,
-    /// `filter:preset`, and behind that the form of its input where that is not the default.
+    /// `filter:preset`, followed by the form of its input if not the default.
     pub filter: String,
-    /// The shutter alignment that the filter declares.
+    /// Shutter alignment that the filter declares.
     pub alignment: Alignment,
     /// The error, and its place.
     pub reason: String,
@@ -31,7 +31,7 @@ impl Failure {
     }
 }
 
-/// Returns the error that ends a command whose run has failures.
+/// Returns the error that ends the command of a run with failures.
 pub fn refuse_failures(failures: &[Failure]) -> Result<(), Error> {
     let cases = match failures.len() {
         0 => return Ok(()),

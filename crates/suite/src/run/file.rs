@@ -1,4 +1,4 @@
-//! The file run.json: its text, and its reader, which checks it, whoever wrote it, before anything of it is used.
+//! The file run.json: its text, and its reader, which checks any author's file before using it.
 
 use std::collections::HashSet;
 use std::path::Path;
@@ -15,7 +15,7 @@ use crate::render::settings::SIDES;
 pub const MAX_CASES: usize = 50_000;
 
 impl Run {
-    /// Writes the text of its `run.json`, with a line per case.
+    /// Formats the text of its `run.json`, with a line per case.
     pub fn text(&self) -> String {
         to_lines(self)
     }
@@ -37,7 +37,7 @@ impl Run {
     }
 }
 
-/// Parses a run.json; the error says what is wrong with it, and what is allowed.
+/// Parses a run.json; the error names what is wrong and what is allowed.
 fn parse(text: &str) -> Result<Run, String> {
     let broken = |error: serde_json::Error| format!("no run of this program: {error}");
     let run: Run = serde_json::from_str(text).map_err(broken)?;

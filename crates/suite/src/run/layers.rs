@@ -1,4 +1,4 @@
-//! A case as one multi-layer OpenEXR file, for programs that group channels by their layers.
+//! A case as one multi-layer OpenEXR file, for programs that group channels by layer.
 
 use std::path::{Path, PathBuf};
 
@@ -17,8 +17,8 @@ const MAPS: [ErrorMap; 3] = [
     ErrorMap::Bleed,
 ];
 
-/// Writes one file per case below `out`, named as the case's folder below `folder`, that of run.json; returns their paths.
-/// Tells `watch` of every case.
+/// Writes one file per case below `out`, named like the case's folder below `folder`, which is run.json's; returns their paths. Reports
+/// every case to `watch`.
 pub fn write_layers(
     run: &Run,
     folder: &Path,
@@ -87,8 +87,7 @@ fn collect_layers(
     for map in MAPS {
         file.push_plane(map.name(), &errors.plane(map.name())?);
     }
-    file.push_plane("velocity.X", &frame.velocity.map(|velocity| velocity[0]));
-    file.push_plane("velocity.Y", &frame.velocity.map(|velocity| velocity[1]));
+    file.push_vectors("velocity", &frame.velocity);
     file.push_plane("depth.Z", &frame.depth);
     for (object, plane) in truth.objects.iter().zip(&mean.coverage) {
         file.push_plane(&format!("coverage.{object}"), plane);

@@ -1,4 +1,4 @@
-//! A finished run: its data, and the files that hold it.
+//! A finished run: its data and its files.
 
 pub mod case;
 mod case_scores;
@@ -22,7 +22,7 @@ use self::overall::Overall;
 use self::sequence::{Frames, Sequence};
 use crate::render::settings::list_settings;
 
-/// Version of the layout of `run.json`; it rises when a reader of the old one would misread the new one.
+/// Version of the layout of `run.json`; it rises if a reader of the old one would misread the new one.
 pub const FORMAT: u32 = 6;
 
 /// A finished run: `run.json`.
@@ -34,21 +34,21 @@ pub struct Run {
     pub program: String,
     /// Words of the command line.
     pub command: Vec<String>,
-    /// Adapter that the kernels ran on; none where every filter is a command.
+    /// Adapter that the kernels ran on; none if every filter is a command.
     pub adapter: Option<AdapterDescription>,
     /// Settings of frames and truths.
     #[serde(flatten)]
     pub render: RenderSettings,
-    /// The shutter alignment that every case is compared with beside its own, so that filters of several alignments have one
-    /// score in common: centred where a filter declares that, or else trailing, or else leading.
+    /// Shutter alignment that every case is compared with in addition to its own, so that filters of several alignments have one score in
+    /// common: centred if a filter declares that, or else trailing, or else leading.
     pub common_alignment: Alignment,
-    /// Frames of each scene; left out where there is one.
+    /// Frames of each scene; left out if there is one.
     #[serde(default, skip_serializing_if = "Frames::is_one")]
     pub frames: Frames,
-    /// Per scene the reference pictures, then one case per filter preset and form of the input, in the order they ran. Of a
-    /// sequence the first frame.
+    /// Per scene the reference pictures, then one case per filter preset and input form, in the order of their runs. For a sequence, cases
+    /// of the first frame.
     pub cases: Vec<Case>,
-    /// Scores over all frames, one entry per case that no frame lacks.
+    /// Scores over all frames, one entry per case that every frame has.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub sequences: Vec<Sequence>,
     /// Cases that failed, with their reasons; they have no scores.
@@ -63,11 +63,11 @@ pub struct Run {
 }
 
 impl Run {
-    /// Finds the first setting that all cases of a run share and two runs do not, with both values.
+    /// Finds the first shared setting of a run's cases that differs between two runs, with both values.
     pub(crate) fn find_difference(&self, other: &Self) -> Option<(&'static str, String, String)> {
         let both = std::iter::zip(self.list_settings(), other.list_settings());
         let settings = both.map(|((setting, own), (_, its))| (setting, own, its));
-        // A run of programs alone has no adapter, and goes with any.
+        // A run of programs only has no adapter, and matches any.
         let adapters = self.adapter.as_ref().zip(other.adapter.as_ref());
         let adapters = adapters.map(|(own, its)| {
             let text = |it: &AdapterDescription| format!("{} ({})", it.name, it.driver);
@@ -77,7 +77,7 @@ impl Run {
     }
 
     fn list_settings(&self) -> Vec<(&'static str, String)> {
-        // A single frame is shown at no rate; run.json leaves it out.
+        // A single frame has no frame rate; run.json leaves it out.
         let Frames { count, per_second } = match self.frames.is_one() {
             true => Frames::default(),
             false => self.frames,

@@ -1,4 +1,4 @@
-//! Runs in which some filters are scaled to the picture and others are not.
+//! Runs with some filters scaled to the picture and others not.
 
 use filters::Filter;
 
@@ -6,15 +6,15 @@ use super::Run;
 use super::case::Case;
 
 impl Run {
-    /// Says which filters are scaled to the pictures' width and which of a person's own are not; none for a run that does not mix
-    /// both.
+    /// Names the filters that are scaled to the pictures' width, and the user's own that are not; none for a run that does not mix both.
     pub fn scaling_note(&self) -> Option<String> {
         let builtin = Filter::builtin_names();
         let filters = || self.cases.iter().filter(|case| !case.is_reference);
         let is_scaled =
             |case: &&Case| (case.reference_width).is_some_and(|width| width != self.render.width);
         let scaled = list_names(filters().filter(is_scaled));
-        let is_own = |case: &&Case| !builtin.contains(&case.filter);
+        // A picture that an engine drew has no preset, and no filter.toml that could name a width.
+        let is_own = |case: &&Case| !builtin.contains(&case.filter) && !case.preset.is_empty();
         let written = filters().filter(|case| is_own(case) && case.reference_width.is_none());
         let written = list_names(written);
         if scaled.is_empty() || written.is_empty() {

@@ -24,10 +24,10 @@ pub struct Sequence {
     pub filter: FilterId,
     /// Scores over time.
     pub scores: SequenceScores,
-    /// 95 % confidence intervals of the scores; empty where none were asked for.
+    /// 95 % confidence intervals of the scores; empty if none were requested.
     #[serde(default, skip_serializing_if = "Intervals::is_empty")]
     pub intervals: Intervals,
-    /// Frame that is worst in a score, from 0, by the metrics that frames have a share in.
+    /// Worst frame of a score, from 0, for metrics that frames have a share in.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub worst_frames: BTreeMap<Metric, u32>,
     /// Frames, from the first on.
@@ -35,7 +35,7 @@ pub struct Sequence {
 }
 
 impl Sequence {
-    /// Tells whether it starts with a case.
+    /// Returns whether it starts with a case.
     pub fn is_of(&self, case: &CaseId) -> bool {
         self.scene == case.scene && self.filter == case.filter_id()
     }
@@ -50,7 +50,7 @@ impl Deref for Sequence {
     }
 }
 
-/// Lists the frame that is worst in a score, from 0, by the metrics that frames have a share in.
+/// Lists the worst frame of each score, from 0, for metrics that frames have a share in.
 pub fn worst_frames(measured: &SequenceMeasurement) -> BTreeMap<Metric, u32> {
     let worst = measured.worst_frames.iter();
     worst
@@ -67,19 +67,19 @@ pub struct SequenceFrame {
     pub folder: PathBuf,
     /// Hash of the truth's inputs.
     pub truth_hash: String,
-    /// Squared error over what moves; none where nothing does.
+    /// Squared error over what moves; none if nothing does.
     pub error: Option<f64>,
-    /// Squared error of the change since the frame before, along the motion; none for the first frame.
+    /// Squared error of the change since the previous frame, along the motion; none for the first frame.
     pub flicker: Option<f64>,
 }
 
-/// Frames of a run, and how fast they are shown.
+/// Frames of a run, and their display rate.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Frames {
     /// Number of consecutive frames of each scene.
     pub count: u32,
-    /// Frames per second at which scenes as their files say are shown. It changes no picture, and no score but JOD: times are in
-    /// frames. Scenes at another frame rate are shown at that.
+    /// Frames per second at which scenes are shown if at their files' rate. It changes no picture, and no score but JOD, since times are in
+    /// frames. Scenes at another frame rate are shown at that rate.
     pub per_second: f64,
 }
 
@@ -93,7 +93,7 @@ impl Default for Frames {
 }
 
 impl Frames {
-    /// Returns the frames per second at which a scene is shown: those of its frame rate, or the run's for a scene as its file says.
+    /// Returns the frames per second at which a scene is shown: its own frame rate, or the run's for a scene at its file's rate.
     pub fn shown(&self, scene: &SceneId) -> f64 {
         let rate = scene.rate.unwrap_or_default();
         match rate.per_second == tracer::FrameRate::WRITTEN.per_second {
@@ -102,7 +102,7 @@ impl Frames {
         }
     }
 
-    /// Tells whether there is one frame, as in a run without a sequence.
+    /// Returns whether there is one frame, as in a run without a sequence.
     pub fn is_one(&self) -> bool {
         self.count == 1
     }

@@ -1,4 +1,4 @@
-//! Finished pictures that were made elsewhere, and their reader.
+//! Finished pictures from elsewhere, and their reader.
 
 use std::path::Path;
 
@@ -7,22 +7,22 @@ use frame::{ExrFile, Frame, Image, Plane, Truth, read_exr, read_png, scene_linea
 
 use crate::Error;
 
-/// A picture of a file, brought to the truth's size and to scene-linear radiance.
+/// A picture from a file, converted to the truth's size and to scene-linear radiance.
 pub struct FinishedPicture {
     /// Scene-linear radiance.
     pub color: Image,
-    /// Mattes: per object of the truth, the share of the pixel that the picture gives to it; none where the file has none.
+    /// Mattes: each object's share of every pixel of the picture; none if the file has none.
     pub mattes: Option<Vec<Plane>>,
-    /// True for a picture of displayed colours, as a PNG has: nothing in it is brighter than display white.
+    /// True for a picture of displayed colours, such as a PNG: nothing in it is brighter than display white.
     pub display_referred: bool,
     /// Changes that were made to the picture, each a sentence.
     pub notes: Vec<String>,
 }
 
-/// Reads a picture that was made from `frame`, to be scored against `truth`: OpenEXR or PNG, by the ending of its name.
+/// Reads a picture that was made from `frame`, to score it against `truth`: OpenEXR or PNG, by its name's ending.
 ///
-/// Takes an OpenEXR's colours as the convention has them. Decodes a PNG from sRGB and undoes the frame's display exposure. Crops a picture
-/// that has the frame's guard band. Refuses a file that says that it was made for another shutter.
+/// Reads an OpenEXR's colours by the convention. Decodes a PNG from sRGB and undoes the frame's display exposure. Crops a picture with the
+/// frame's guard band. Refuses a file that says it was made for another shutter.
 pub fn read_finished_picture(
     path: &Path,
     convention: &Convention,
@@ -114,8 +114,8 @@ fn read_display_referred(path: &Path, stops: f32, truth: &Truth) -> Result<Finis
     })
 }
 
-/// Refuses a file of `shuttertruth engine blur` that names another shutter than the truth's. In files of other programs these attributes
-/// may mean something else.
+/// Refuses a file of `shuttertruth engine blur` that names another shutter than the truth's. In other programs' files these attributes may
+/// mean something else.
 fn check_shutter(file: &ExrFile, truth: &Truth) -> Result<(), Error> {
     if !file.attributes.contains_key("kind") {
         return Ok(());
@@ -137,7 +137,7 @@ fn check_shutter(file: &ExrFile, truth: &Truth) -> Result<(), Error> {
     }
     if file.attributes.contains_key("exposure") {
         let found: f64 = file.get("exposure")?;
-        // Files keep the truth's interval by its ends, whose difference may round.
+        // Files keep the ends of the truth's interval, and their difference may round.
         if (found - exposure).abs() > 1e-9 * exposure {
             return other("an exposure of", found.to_string(), exposure.to_string());
         }

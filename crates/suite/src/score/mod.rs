@@ -1,4 +1,4 @@
-//! Scores of pictures that were made elsewhere.
+//! Scores of pictures from elsewhere.
 
 pub mod finished_picture;
 pub mod numbered;

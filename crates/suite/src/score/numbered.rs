@@ -17,7 +17,7 @@ pub fn numbered_file(folder: &Path, frame: u32) -> PathBuf {
 /// Finds the picture of each frame in a folder of numbered pictures, from `0000.exr` or `0000.png` on.
 ///
 /// # Errors
-/// A picture is missing, or there are two of one frame.
+/// A picture is missing, or one frame has two.
 pub fn find_numbered(folder: &Path, frames: u32) -> Result<Vec<PathBuf>, Error> {
     if !folder.is_dir() {
         return Err(Error::Usage(format!(

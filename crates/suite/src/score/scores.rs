@@ -21,7 +21,7 @@ pub struct Scored {
     pub notes: Vec<String>,
 }
 
-/// Scores a finished picture against the truth, at the exposures that the frame names.
+/// Scores a finished picture against the truth, at the frame's exposures.
 pub fn score(
     finished: &FinishedPicture,
     frame: &Frame,
@@ -41,7 +41,7 @@ pub fn score(
     if let Ok(sharp) = sharp_picture(&frame, truth, sharp) {
         reference = reference.with_ends(&sharp, &oracle)?;
     }
-    // No colour's score looks at mattes, and those of mattes are taken out below.
+    // Colour scores ignore mattes, and matte scores are removed below.
     let mattes = finished.mattes.as_ref().unwrap_or(&frame.coverage);
     let measure = |color: Image| {
         let coverage = mattes.clone();
@@ -75,14 +75,14 @@ pub fn score(
     Ok(Scored { scores, notes })
 }
 
-/// Rounds the image as a PNG of 8 bits does.
+/// Rounds the image as an 8-bit PNG does.
 fn round_to_8_bits(image: &Image, stops: f32) -> Image {
     let displayed = display_srgb(image, stops);
     let steps = displayed.map(|pixel| pixel.map(|value| (value * 255.0).round() / 255.0));
     scene_linear(&steps, stops)
 }
 
-/// Lists the scores that do not apply, by their reasons, each in the order of a report.
+/// Lists the scores that do not apply by reason, each list in the order of a report.
 pub fn missing_scores(scores: &Scores) -> Vec<(String, Vec<Metric>)> {
     let mut missing: Vec<(String, Vec<Metric>)> = Vec::new();
     for metric in Metric::all() {
@@ -97,7 +97,7 @@ pub fn missing_scores(scores: &Scores) -> Vec<(String, Vec<Metric>)> {
     missing
 }
 
-/// Takes out HDR-FLIP, which looks at exposures at which display white is dark.
+/// Removes HDR-FLIP, which uses exposures where display white is dark.
 fn take_out_flip_hdr(scores: &mut ImageScores) {
     scores.flip_hdr = Measured::not_applicable(DISPLAY_REFERRED);
 }

@@ -1,4 +1,4 @@
-//! Scores of finished sequences: pictures of consecutive frames that were made elsewhere.
+//! Scores of finished sequences: pictures of consecutive frames from elsewhere.
 
 use std::path::{Path, PathBuf};
 
@@ -9,7 +9,7 @@ use tracer::{RenderSettings, Scene, truth_hash};
 use crate::Error;
 use crate::measure::points_of_frame::{make_instant, trace_points};
 
-/// Frame and truth of one frame of a sequence, and the file of the truth, for messages.
+/// Frame and truth of one frame of a sequence, and the truth's file, for messages.
 pub struct SequenceTruth {
     /// What the filter got.
     pub frame: Frame,
@@ -19,7 +19,7 @@ pub struct SequenceTruth {
     pub path: PathBuf,
 }
 
-/// Names the file of a later frame beside that of the first one, as `run` and `render` lay them out: `out/fan/frame.exr` is followed by
+/// Names a later frame's file from the first one's, as `run` and `render` lay them out: `out/fan/frame.exr` is followed by
 /// `out/fan/0001/frame.exr`.
 pub fn file_at_frame(first: &Path, frame: u32) -> PathBuf {
     match (frame, first.file_name()) {
@@ -28,10 +28,10 @@ pub fn file_at_frame(first: &Path, frame: u32) -> PathBuf {
     }
 }
 
-/// Scores one picture per frame, from the first on, against the truths of a scene's frames, as `run` scores the sequences of filters.
+/// Scores one picture per frame, from the first on, against the truths of a scene's frames, as `run` scores filters' sequences.
 ///
 /// # Errors
-/// A truth is not that of the scene at its frame, or a picture has another size.
+/// A truth belongs to another scene or frame, or a picture has another size.
 pub fn score_sequence(
     pictures: &[Image],
     scene: &Scene,
@@ -49,7 +49,7 @@ pub fn score_sequence(
     Ok(reference.measure(pictures)?)
 }
 
-/// Returns the settings that a truth was rendered with, as its files state them.
+/// Returns a truth's render settings, as stated in its files.
 fn settings_of(own: &SequenceTruth) -> RenderSettings {
     let (width, height) = own.truth.size();
     let provenance = &own.truth.provenance;

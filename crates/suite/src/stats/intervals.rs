@@ -8,14 +8,14 @@ use metrics::{
 
 use crate::run::case::Intervals;
 
-/// Replicates that are left out together: one of either half, so that the halves stay equally large.
+/// Replicates that are left out together: one of each half, so that the halves stay equally large.
 const GROUP: usize = 2;
 
-/// Least number of replicates that give an interval: two groups.
+/// Smallest number of replicates for an interval: two groups.
 pub const MIN_REPLICATES: u32 = 4;
 
-/// Makes one truth per pair of `replicates`, of all the others. Replicates share one support, so that the pixels that scores are
-/// pooled over stay the same.
+/// Makes one truth per pair of `replicates`, from all the others. Replicates share one support, so that scores keep pooling over the same
+/// pixels.
 pub fn truths_without_pairs(replicates: &[Replicate]) -> Result<Vec<Truth>, TruthError> {
     (0..count_pairs(replicates.len()))
         .map(|pair| truth_without_pair(replicates, pair))
@@ -27,7 +27,7 @@ pub(crate) fn count_pairs(replicates: usize) -> usize {
     replicates / GROUP
 }
 
-/// Makes the truth of all replicates but those of one pair.
+/// Makes the truth of all replicates except one pair.
 pub(crate) fn truth_without_pair(
     replicates: &[Replicate],
     pair: usize,
@@ -58,7 +58,7 @@ pub fn intervals(
         .collect()
 }
 
-/// Computes the intervals of a sequence's scores as [`intervals`] does those of a picture.
+/// Computes the intervals of a sequence's scores like [`intervals`] for a picture.
 pub(crate) fn sequence_intervals(whole: &SequenceScores, without: &[SequenceScores]) -> Intervals {
     (SequenceMetric::ALL.into_iter())
         .filter_map(|metric| {
@@ -70,7 +70,7 @@ pub(crate) fn sequence_intervals(whole: &SequenceScores, without: &[SequenceScor
         .collect()
 }
 
-/// Computes the interval of one score; none where it does not apply to every truth.
+/// Computes the interval of one score; none if it does not apply to every truth.
 fn interval(
     whole: &Measured,
     without: impl Iterator<Item = Measured>,

@@ -24,8 +24,8 @@ pub fn overall(cases: &[Case]) -> Vec<Overall> {
     subjects.into_iter().flat_map(of_subject).collect()
 }
 
-/// Sorts the means of one score, the best first, in one group per frame rate and shutter alignment, reference pictures among the
-/// filters. A score that compares across alignments has one group for all of a rate.
+/// Sorts the means of one score, best first, in one group per frame rate and shutter alignment, with reference pictures among the filters.
+/// A score that compares across alignments has one group per rate.
 pub fn rank_filters(overall: &[Overall], metric: Metric) -> Vec<Vec<&Overall>> {
     let mut groups: Vec<Vec<&Overall>> = Vec::new();
     for mean in overall.iter().filter(|mean| mean.metric == metric) {
@@ -46,7 +46,7 @@ pub fn rank_filters(overall: &[Overall], metric: Metric) -> Vec<Vec<&Overall>> {
     groups
 }
 
-/// Tells whether both are of the same filter preset or reference picture, at the same frame rate.
+/// Returns whether both belong to the same filter preset or reference picture, at the same frame rate.
 fn are_of_one(a: &Case, b: &Case) -> bool {
     a.filter_id() == b.filter_id() && a.rate == b.rate
 }

@@ -1,14 +1,14 @@
-//! Mean of a score over scenes, with a confidence interval over all scenes like them.
+//! Mean of a score over scenes, with a confidence interval over all similar scenes.
 
 use std::cmp::Ordering;
 
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-/// The mean over all such scenes lies below, and lies above, a two-sided 95 % interval with this probability.
+/// Probability that the mean over all such scenes is below a two-sided 95 % interval, and that it is above it.
 pub const TWO_SIDED: f64 = 0.025;
-/// The mean over all such scenes lies beyond either one-sided 95 % limit with this probability.
+/// Probability that the mean over all such scenes is beyond either one-sided 95 % limit.
 pub const ONE_SIDED: f64 = 0.05;
-/// Fewer scenes than this decide nothing: four differences all have one sign by chance once in eight times.
+/// Smallest number of scenes that decides anything: four differences all have one sign by chance once in eight times.
 pub const MIN_SCENES: usize = 5;
 
 /// A score on one scene.
@@ -16,12 +16,12 @@ pub const MIN_SCENES: usize = 5;
 pub struct Weighted {
     /// Score in the metric's unit.
     pub value: f64,
-    /// Weight of the scene, above 0: 1, or for a ratio of means what its ratio is divided by.
+    /// Weight of the scene, above 0: 1, or for a ratio of means the ratio's denominator.
     pub weight: f64,
 }
 
 impl Weighted {
-    /// Makes a score that counts as much as any other.
+    /// Makes a score of weight 1.
     pub fn plain(value: f64) -> Self {
         Self { value, weight: 1.0 }
     }
@@ -39,7 +39,7 @@ pub struct SceneMean {
 }
 
 impl SceneMean {
-    /// Returns the side of 0 that the whole interval lies on; none if it holds 0, or the scenes are too few to decide.
+    /// Returns the side of 0 that contains the whole interval; none if the interval contains 0, or the scenes are too few to decide.
     pub fn side_of_zero(&self) -> Option<Ordering> {
         match self.interval {
             _ if self.scenes < MIN_SCENES => None,
@@ -50,13 +50,12 @@ impl SceneMean {
     }
 }
 
-/// Averages at least one scene. The mean over all such scenes lies beyond either end of the interval with a probability of
-/// `tail`: Student's t of the scenes' weighted deviations. For equal weights that is the textbook's interval of a mean. For others
-/// it is that of a ratio of means, linearised (Cochran, "Sampling Techniques", 1977, section 6.4). The interval of one scene has
-/// no width.
+/// Averages at least one scene. The mean over all such scenes is beyond either end of the interval with a probability of `tail`, by
+/// Student's t of the scenes' weighted deviations. For equal weights this is the textbook interval of a mean; otherwise it is the
+/// linearised interval of a ratio of means (Cochran, "Sampling Techniques", 1977, section 6.4). The interval of one scene has no width.
 ///
-/// The interval contains the truths' noise, which makes the scenes' scores deviate as the scenes themselves do. A standard error
-/// of each score, added to that, would count it twice.
+/// The interval includes the truths' noise, which makes scores deviate just as scenes do. Adding each score's standard error would count
+/// the noise twice.
 pub fn scene_mean(scores: &[Weighted], tail: f64) -> SceneMean {
     assert!(!scores.is_empty(), "a mean is of at least one value");
     let count = scores.len() as f64;
@@ -133,7 +132,7 @@ mod tests {
         assert!((found.interval[1] - ratio - half).abs() < 1e-3, "{found:?}");
     }
 
-    /// FLIP of three filters on the 23 shipped scenes at 160x90, by 32 samples per pixel: skewed, and one of them far off.
+    /// FLIP of three filters on the 23 shipped scenes at 160x90, by 32 samples per pixel: skewed, with one far outlier.
     const FLIP: [[f64; 23]; 3] = [
         // mcguire:paper
         [
@@ -151,7 +150,7 @@ mod tests {
             0.066, 0.112, 0.066, 0.071, 0.051, 0.169, 0.084, 0.084, 0.070, 0.050, 0.052,
         ],
     ];
-    /// FLIP that doing nothing has more than jump_flood:paper, and more than the one-frame oracle.
+    /// Excess FLIP of doing nothing over jump_flood:paper, and over the one-frame oracle.
     const GAINED: [[f64; 2]; 18] = [
         [0.035, 0.042],
         [0.041, 0.060],
@@ -173,7 +172,7 @@ mod tests {
         [0.022, 0.066],
     ];
 
-    /// Returns the share of 10,000 intervals over `scenes` sampled from a population that hold the population's mean.
+    /// Returns the share of 10,000 intervals over `scenes` samples of a population that contain the population's mean.
     fn coverage(population: &[Weighted], scenes: usize) -> f64 {
         let mut random = Random(1);
         let expected = scene_mean(population, 0.025).mean;
@@ -191,7 +190,7 @@ mod tests {
     fn of_100_intervals_over_5_skewed_scenes_90_hold_the_mean_and_over_23_scenes_92() {
         for (scenes, least) in [(5, 0.90), (23, 0.92)] {
             let all = FLIP.map(|scores| coverage(&scores.map(Weighted::plain), scenes));
-            // Measured 0.92 and 0.93. A standard error of the three is 0.002.
+            // Measured 0.92 and 0.93. The standard error of the three is 0.002.
             let found = all.iter().sum::<f64>() / 3.0;
             assert!(found > least, "{scenes} scenes: {found}");
         }

@@ -1,13 +1,13 @@
-//! The first difference between what a file holds and what this program makes.
+//! The first difference between a file and what this program makes.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use frame::{ExrFile, Samples, Tile};
 
-/// Values of the attribute `traversal`, as `tracer::Stage` has them: how rays were traced, and not what the file holds.
+/// Values of the attribute `traversal`, as in `tracer::Stage`: how rays were traced, which leaves the file's contents alone.
 pub const TRAVERSALS: [&str; 2] = ["avx2", "portable"];
 
-/// Compares a tile of a file with what was made for it, bit by bit, and all attributes; describes the first difference.
+/// Compares a tile of a file with a newly made one, bit by bit, and all attributes; describes the first difference.
 pub(super) fn find_difference(found: &ExrFile, tile: Tile, made: &ExrFile) -> Option<String> {
     let fits = tile.x + tile.width <= found.width && tile.y + tile.height <= found.height;
     if !fits || (tile.width, tile.height) != (made.width, made.height) {
@@ -19,7 +19,7 @@ pub(super) fn find_difference(found: &ExrFile, tile: Tile, made: &ExrFile) -> Op
     find_attribute(found, made).or_else(|| find_sample(found, tile, made))
 }
 
-/// Compares the attributes of a file with those that were made for it; describes the first difference.
+/// Compares a file's attributes with newly made ones; describes the first difference.
 pub(super) fn find_attribute(found: &ExrFile, made: &ExrFile) -> Option<String> {
     let names = found.attributes.keys().chain(made.attributes.keys());
     names.collect::<BTreeSet<_>>().into_iter().find_map(|name| {
@@ -77,7 +77,7 @@ fn find_sample(found: &ExrFile, tile: Tile, made: &ExrFile) -> Option<String> {
     })
 }
 
-/// Returns the bits of a sample, and true if they are those of a float.
+/// Returns the bits of a sample, and true for a float's.
 fn bits(samples: &Samples, index: usize) -> (u32, bool) {
     match samples {
         Samples::F32(samples) => (samples[index].to_bits(), true),

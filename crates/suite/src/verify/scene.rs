@@ -7,7 +7,10 @@ use frame::{
     Alignment, Frame, Provenance, Replicate, Shutter, Tile, Truth, read_attribute, read_exr,
 };
 use store::{LADDER, RenderFile};
-use tracer::{LadderTracer, PixelGrid, RenderSettings, Scene, TruthTracer, trace_frame_part};
+use tracer::{
+    LadderTracer, PixelGrid, RenderSettings, Scene, TruthTracer, trace_frame_part,
+    trace_further_velocities,
+};
 
 use super::difference::find_difference;
 use super::scene_renders::SceneRenders;
@@ -21,15 +24,15 @@ use crate::{Error, Monitor};
 pub struct Verified {
     /// Tiles that were traced again and are equal, with their files.
     pub tiles: Vec<(PathBuf, Tile)>,
-    /// Truths that are the mean of their replicates.
+    /// Number of truths that are the mean of their replicates.
     pub truths: usize,
-    /// Files that hold something else than this program makes, and what to do.
+    /// Files that differ from what this program makes, and what to do.
     pub differences: Vec<String>,
 }
 
-/// Traces tiles of a scene's frame, of a replicate of each truth and of a rung of its ladder again, and compares them with the files byte
-/// for byte. Compares every truth with the mean of its replicates, and verifies replicates without a truth as well. `scene` is that of the
-/// frame that `renders` names: nothing that a file says saves it from being traced.
+/// Traces again some tiles of a scene's frame, of a replicate of each truth and of a rung of its ladder, and compares them with the files
+/// byte for byte. Compares every truth with the mean of its replicates, and verifies replicates without a truth as well. `scene` belongs
+/// to the frame that `renders` names: nothing that a file says exempts it.
 ///
 /// # Errors
 /// The scene cannot be rendered, or the caller interrupts. Differences are no error.
@@ -61,14 +64,14 @@ pub fn verify_scene(
 }
 
 impl Verified {
-    /// Adds what was verified of other scenes.
+    /// Adds the verification of other scenes.
     pub fn add(&mut self, other: Self) {
         self.tiles.extend(other.tiles);
         self.truths += other.truths;
         self.differences.extend(other.differences);
     }
 
-    /// Notes the tiles of a file, or the difference in their place; returns true if there is none.
+    /// Records the tiles of a file, or its difference; returns true without a difference.
     fn note(&mut self, found: Result<Vec<(PathBuf, Tile)>, Error>) -> Result<bool, Error> {
         let difference = match found {
             Ok(tiles) => {
@@ -92,8 +95,14 @@ fn verify_frame(work: &Work) -> Result<Vec<(PathBuf, Tile)>, Error> {
     let own = tracer::frame_hash(work.scene, &settings);
     work.expect_hash(RenderFile::Frame, &frame.provenance.content_hash, &own)?;
     let grid = PixelGrid::of_picture(settings.width, settings.height);
+    let has_further = frame.velocity_next.is_some() || frame.velocity_z.is_some();
+    let further = has_further.then(|| trace_further_velocities(work.scene, &settings, &grid));
+    let further = further.transpose()?;
     work.trace_tiles(&[RenderFile::Frame], frame.size(), |_, tile, watch| {
-        Ok(trace_frame_part(work.scene, &settings, &grid, Some(tile), watch)?.to_exr())
+        let mut made = trace_frame_part(work.scene, &settings, &grid, Some(tile), watch)?;
+        made.velocity_next = further.as_ref().map(|(next, _)| next.part(tile));
+        made.velocity_z = further.as_ref().map(|(_, z)| z.part(tile));
+        Ok(made.to_exr())
     })
 }
 
@@ -118,7 +127,7 @@ fn verify_truth(work: &Work, alignment: Alignment) -> Result<Vec<(PathBuf, Tile)
     Ok(tiles)
 }
 
-/// Traces tiles of replicates again: those of a truth, and those beyond them, which a run that asks for more replicates takes as well.
+/// Traces tiles of replicates again: a truth's, and further ones, which a run with more replicates uses as well.
 fn trace_replicates(
     work: &Work,
     settings: &RenderSettings,
@@ -142,7 +151,7 @@ fn trace_replicates(
     })
 }
 
-/// Verifies replicates that have no truth beside them, as a part of a render has. A ladder goes with a truth.
+/// Verifies replicates without a truth, as in a part of a render. A ladder needs a truth.
 fn verify_part(work: &Work, alignment: Alignment) -> Result<Vec<(PathBuf, Tile)>, Error> {
     let (replicates, rungs) = work.renders.of_truth(alignment);
     if let Some(rung) = rungs.first() {
@@ -160,7 +169,7 @@ fn verify_part(work: &Work, alignment: Alignment) -> Result<Vec<(PathBuf, Tile)>
     let (color, provenance) = (&replicate.picture.color, &replicate.provenance);
     let size = (color.width, color.height);
     let settings = RenderSettings {
-        // Those of the smallest truth that it can be a part of.
+        // The smallest truth that it can be a part of.
         samples_per_pixel: provenance.samples_per_pixel.saturating_mul(2),
         replicates: 2,
         ..truth_settings(provenance, size, replicate.shutter)
@@ -182,13 +191,13 @@ fn truth_settings(
         samples_per_pixel: provenance.samples_per_pixel,
         replicates: provenance.replicates,
         seed: provenance.seed,
-        // That of the shutter, bit for bit: an interval has it whole or in halves.
+        // The shutter's, bit for bit: an interval has it whole or in halves.
         exposure: Some(shutter.close - shutter.open),
         ..RenderSettings::default()
     }
 }
 
-/// Refuses settings that a truth of the scene cannot have, a file of another hash than `own`, and too little memory.
+/// Refuses settings that a truth of the scene cannot have, a file with another hash than `own`, and too little memory.
 fn check_truth(
     work: &Work,
     file: RenderFile,

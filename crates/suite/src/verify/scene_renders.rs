@@ -1,4 +1,4 @@
-//! The rendered files of a folder, scene by scene.
+//! The rendered files of a folder, by scene.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -9,20 +9,20 @@ use tracer::SceneId;
 
 use crate::Error;
 
-/// The frame, truths, replicates and ladders of one scene, or of a later frame of it.
+/// The frame, truths, replicates and ladders of one scene, or of one of its later frames.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SceneRenders {
-    /// Scene, of which the frame may be a later one.
+    /// Scene, possibly at a later frame.
     pub scene: SceneId,
     /// Folder of its files.
     pub folder: PathBuf,
-    /// Name of this folder in messages: that in a pack, for files that were unpacked somewhere.
+    /// Name of this folder in messages: the one in the pack, for unpacked files.
     pub shown: PathBuf,
     /// The files.
     pub files: BTreeSet<RenderFile>,
 }
 
-/// Lists the rendered files below a folder, which has the layout of a run's. Messages name files below `shown`.
+/// Lists the rendered files below a folder with the layout of a run's. Messages name files below `shown`.
 pub fn list_scene_renders(root: &Path, shown: &Path) -> Result<Vec<SceneRenders>, Error> {
     let mut scenes: BTreeMap<SceneId, BTreeSet<RenderFile>> = BTreeMap::new();
     for RenderPath { scene, file } in list_renders(root)? {
@@ -44,7 +44,7 @@ pub fn list_scene_renders(root: &Path, shown: &Path) -> Result<Vec<SceneRenders>
 }
 
 impl SceneRenders {
-    /// Lists the shutters of which a truth, replicates or a ladder are there.
+    /// Lists the shutters with a truth, replicates or a ladder.
     pub fn alignments(&self) -> BTreeSet<Alignment> {
         let files = self.files.iter();
         files.filter_map(|file| file.alignment()).collect()

@@ -10,7 +10,7 @@ use super::difference::{find_attribute, find_difference};
 use super::scene_renders::SceneRenders;
 use crate::{Error, Monitor, Random};
 
-/// Side of a tile that is traced again, in pixels.
+/// Side of a retraced tile, in pixels.
 pub const TILE_SIDE: u32 = 16;
 
 /// Extent of a verification.
@@ -18,7 +18,7 @@ pub const TILE_SIDE: u32 = 16;
 pub struct Verification {
     /// Seed of the choice of replicates, rungs and tiles.
     pub seed: u64,
-    /// Tiles of every truth, of its frame and of its ladder.
+    /// Tiles per truth, frame and ladder.
     pub tiles: u32,
 }
 
@@ -31,8 +31,8 @@ pub(super) struct Work<'a> {
 }
 
 impl Work<'_> {
-    /// Traces tiles of random ones among some files again, and compares the attributes of all of them. The files hold pictures of one size
-    /// and differ in their numbers alone: replicates of one truth, or rungs of one ladder.
+    /// Traces random tiles of randomly chosen files again, and compares the attributes of all files. The files are pictures of one size and
+    /// differ only in their numbers: replicates of one truth, or rungs of one ladder.
     pub fn trace_tiles(
         &self,
         files: &[RenderFile],
@@ -73,7 +73,7 @@ impl Work<'_> {
         Ok(tiles)
     }
 
-    /// Reads a file of the kind that was made, whose checksum is right.
+    /// Reads a file of the same kind as `made`, with a correct checksum.
     fn read_like(&self, file: RenderFile, made: &ExrFile) -> Result<ExrFile, FileError> {
         let file = read_exr(&self.path(file))?;
         file.expect_kind(&made.get::<String>("kind")?)?;
@@ -92,7 +92,7 @@ impl Work<'_> {
         }
     }
 
-    /// Words the difference of a file, why it may be there, and what to do.
+    /// Describes a file's difference, its possible cause, and what to do.
     pub fn altered(&self, file: RenderFile, difference: &str) -> Error {
         Error::Broken(format!(
             "{}: {difference}; it was altered, or this processor computes otherwise than the one that rendered it; use none of these files, \
@@ -108,20 +108,20 @@ impl Work<'_> {
         self.renders.folder.join(file.path())
     }
 
-    /// Names a file of the scene as messages do.
+    /// Names a file of the scene for messages.
     pub fn shown(&self, file: RenderFile) -> PathBuf {
         self.renders.shown.join(file.path())
     }
 }
 
-/// Starts the random numbers that a seed and a name give, the same everywhere.
+/// Seeds random numbers from a seed and a name, the same everywhere.
 fn seeded(seed: u64, name: &str) -> Random {
     let hash = blake3::hash(format!("verification {seed} of {name}").as_bytes());
     let [a, b, c, d, e, f, g, h, ..] = *hash.as_bytes();
     Random(u64::from_le_bytes([a, b, c, d, e, f, g, h]))
 }
 
-/// Chooses a tile of a picture; all of it where it is smaller.
+/// Chooses a tile of a picture; all of it if the picture is smaller.
 fn choose_tile(random: &mut Random, width: u32, height: u32) -> Tile {
     let [columns, rows] = [width, height].map(|side| side.min(TILE_SIDE));
     let mut below = |count: u32| random.below(count as usize) as u32;

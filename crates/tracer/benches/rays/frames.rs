@@ -13,7 +13,7 @@ const SCENES: [&str; 5] = ["fan", "railing", "walker", "foliage", "neon"];
 const TARGET: f64 = 0.005;
 const SAMPLES: u32 = 128;
 
-/// Renders the frame and both truths of each scene on all processors and prints what they cost.
+/// Renders the frame and both truths of each scene on all processors and prints their CPU time.
 pub fn report() {
     let settings = RenderSettings {
         width: 160,
@@ -73,8 +73,8 @@ fn unwatched(_: Progress) -> ControlFlow<()> {
     ControlFlow::Continue(())
 }
 
-/// Runs some work; returns the CPU seconds of the process that it took, on all threads, and its result. Where the system does
-/// not tell CPU time, wall time.
+/// Runs some work; returns its CPU seconds on all threads (wall time if the system does not report CPU time), and its
+/// result.
 fn measure_time<T>(work: impl FnOnce() -> T) -> (f64, T) {
     let start = Instant::now();
     let cpu = cpu_time();
@@ -86,7 +86,7 @@ fn measure_time<T>(work: impl FnOnce() -> T) -> (f64, T) {
     (taken.as_secs_f64(), result)
 }
 
-/// CPU time of the process so far; none where `/proc/self/schedstat` is missing.
+/// CPU time of the process so far; none if `/proc/self/schedstat` is missing.
 fn cpu_time() -> Option<Duration> {
     let tasks = std::fs::read_dir("/proc/self/task").ok()?;
     let mut sum = 0;

@@ -1,5 +1,5 @@
 //! Rays per second. The variants take turns, part by part, and the best of several turns of every part counts, so that
-//! rates hold on a busy machine.
+//! a busy machine does not change the rates.
 
 mod frames;
 mod made_scene;
@@ -62,7 +62,7 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// Traces a part of the rays of a kind; returns the number that met something.
+    /// Traces a part of the rays of a kind; returns the number that hit something.
     fn trace(&self, kind: Kind, part: usize) -> usize {
         let mut poses = self.stage.poses();
         let rays = &self.rays[kind as usize];

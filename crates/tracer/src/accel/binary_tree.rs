@@ -262,7 +262,7 @@ pub(in crate::accel) mod tests {
         // Optimisation makes a chain of them, in which rays enter fewest boxes. It ends beyond MAX_DEPTH; its last pass may
         // have added as much again.
         assert_depth(nested.collect(), 2 * MAX_DEPTH);
-        // Each twice as large as the one before: the smallest and the largest that 32 bits allow an area of.
+        // Each twice as large as the one before, from the smallest to the largest with an area in 32 bits.
         let growing = (0..100).map(|size| cube(0.0, 2_f32.powi(size - 50)));
         assert_depth(growing.collect(), 100);
     }

@@ -59,9 +59,9 @@ impl TreeBuilder {
         }
     }
 
-    /// Adds nodes over `boxes`, of which there is at least one; returns the topmost node.
+    /// Adds nodes over at least one box; returns the topmost node.
     ///
-    /// `child` makes the child for boxes that share a leaf. Where leaves have one box, that may also be a node that was built
+    /// `child` makes the child for boxes that share a leaf. If leaves have one box, it may also be a node that was built
     /// before; a traversal of such a node needs up to `stack_size` entries.
     pub fn add_tree(
         &mut self,
@@ -115,7 +115,7 @@ impl TreeBuilder {
             .collect()
     }
 
-    /// Adds the nodes of a collapsed binary tree. The stack already holds `stack_size` entries above its root.
+    /// Adds the nodes of a collapsed binary tree. The stack already has `stack_size` entries above its root.
     fn add_nodes(
         &mut self,
         binary: &[Bvh2Node],

@@ -18,7 +18,7 @@ pub(crate) struct Tree {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Child(pub u32);
 
-/// Bit that is set in a child which is a leaf. The rest is the leaf's number.
+/// Bit that is set in a child that is a leaf. The rest is the leaf's number.
 const IS_LEAF: u32 = 1 << 31;
 
 /// The items of a tree's leaves. Leaves are numbered from 0.
@@ -83,10 +83,10 @@ impl Leaves {
 
 impl Tree {
     /// Visits the leaves below a node that the ray may enter before the limit, in units of its direction: roughly from near
-    /// to far where `SORTED`, else in any order.
+    /// to far if `SORTED`, else in any order.
     ///
-    /// `visit` takes the free part of the stack and returns the new limit; one below 0 ends the traversal. `prefetch` is
-    /// told of leaves that are pushed on the stack.
+    /// `visit` takes the free part of the stack and returns the new limit; one below 0 ends the traversal. `prefetch`
+    /// gets the leaves that are pushed on the stack.
     #[inline(always)]
     pub fn traverse<L: Lanes, const SORTED: bool>(
         &self,

@@ -1,8 +1,8 @@
 //! The collapse of a binary tree into wide nodes and leaves that rays are expected to visit least.
 //!
 //! A ray that enters a box enters a box inside it with a probability in proportion to their areas (Wald, Benthin and Boulos
-//! 2008). Of all ways to collapse the binary tree into leaves and nodes of at most sixteen children, the cheapest by that
-//! measure is found from the leaves upwards (Ylitie, Karras and Laine 2017, section 4).
+//! 2008). The cheapest collapse by that measure into leaves and nodes of at most sixteen children is found from the leaves
+//! upwards (Ylitie, Karras and Laine 2017, section 4).
 
 use obvhs::bvh2::Bvh2;
 
@@ -30,7 +30,7 @@ pub(crate) struct Collapse<'a> {
 #[derive(Clone, Copy, Default)]
 struct Costs {
     items: u32,
-    /// Cost as a leaf; infinite where it has too many items.
+    /// Cost as a leaf; infinite if it has too many items.
     leaf: f32,
     /// Cost if at most 1, 2, ... children of a wide node cover it.
     children: [f32; WIDTH],
@@ -50,7 +50,7 @@ impl<'a> Collapse<'a> {
         collapse
     }
 
-    /// The nodes of the binary tree that become the children of the wide node for `top`; `top` itself where it is a leaf.
+    /// The nodes of the binary tree that become the children of the wide node for `top`; `top` itself if it is a leaf.
     pub fn children(&self, top: usize) -> Vec<usize> {
         let mut children = Vec::with_capacity(WIDTH);
         if self.is_leaf(top) {
@@ -61,7 +61,7 @@ impl<'a> Collapse<'a> {
         children
     }
 
-    /// Returns true if a node of the binary tree becomes a leaf where a single child covers it.
+    /// Returns true if a node of the binary tree becomes a leaf when a single child covers it.
     pub fn is_leaf(&self, node: usize) -> bool {
         self.costs[node].leaf <= self.costs[node].children[0]
     }
@@ -119,7 +119,7 @@ impl<'a> Collapse<'a> {
         (1..count)
             .map(|given| (left[given - 1] + right[count - given - 1], given))
             .min_by(|a, b| a.0.total_cmp(&b.0))
-            .expect("halves share two children at least")
+            .expect("halves share at least two children")
     }
 
     /// Adds `count` children that cover the two halves of a node.
@@ -184,7 +184,7 @@ mod tests {
         cost
     }
 
-    /// The cost of a node as a leaf; infinite where it has too many items.
+    /// The cost of a node as a leaf; infinite if it has too many items.
     fn leaf_cost(binary: &Bvh2, rules: LeafRules, node: usize) -> f32 {
         let items = Collapse::new(binary, rules).items(node).len();
         if items > rules.max_items as usize {

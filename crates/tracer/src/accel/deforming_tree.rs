@@ -121,7 +121,7 @@ impl Slice {
     }
 }
 
-/// The number of slices with which no vertex travels farther than the mean edge within one, so that boxes stay small.
+/// The number of slices within which no vertex travels farther than the mean edge, so that boxes stay small.
 fn needed_slices(mesh: &Mesh, from: f64, to: f64) -> f64 {
     let shape = mesh.at(0.5 * (from + to));
     let edges: f64 = (0..mesh.triangles.len() as u32)

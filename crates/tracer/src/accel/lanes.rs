@@ -62,7 +62,7 @@ const PAD: f64 = 2e-6;
 const EDGE_PAD: f64 = 1e-6;
 /// Coordinate, in metres, beyond which squares overflow 32 bits and nothing is rejected.
 const GREATEST_SQUARED: f64 = 1e18;
-/// Least component of a direction: the inverse of a smaller one is not finite, and over a scene it leads nowhere.
+/// Least component of a direction: a smaller one has no finite inverse, and over a scene it leads nowhere.
 const LEAST_DIRECTION: f32 = 1e-18;
 
 /// Instructions that test several boxes or triangles at once.

@@ -23,12 +23,12 @@ impl<'a> MeshTree<'a> {
         }
     }
 
-    /// The tree of a rigid mesh, whose leaves may lie in the world tree.
+    /// The tree of a rigid mesh, whose leaves may be in the world tree.
     #[inline(always)]
     pub fn rigid(&self) -> &RigidTree {
         match self {
             MeshTree::Rigid(tree) => tree,
-            MeshTree::Deforming(_) => panic!("only leaves of rigid meshes lie in the world tree"),
+            MeshTree::Deforming(_) => panic!("only leaves of rigid meshes are in the world tree"),
         }
     }
 

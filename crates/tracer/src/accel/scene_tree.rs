@@ -22,11 +22,11 @@ const FEW_MOVERS: usize = 8;
 
 /// The meshes of a scene, and the world tree above them.
 ///
-/// Still objects lie in the world tree, leaf by leaf. Per slice of the shutter interval a small tree holds the topmost nodes
+/// Still objects are in the world tree, leaf by leaf. Per slice of the shutter interval, a small tree has the topmost nodes
 /// of that tree and the boxes that moving objects sweep.
 pub(crate) struct SceneTree<'a> {
     scene: &'a Scene,
-    /// Trees per mesh of the scene; none where no object shows it.
+    /// Trees per mesh of the scene; none if no object shows it.
     meshes: Vec<Option<MeshTree<'a>>>,
     world: WorldTree,
     /// Objects that move or deform.
@@ -44,7 +44,7 @@ struct LastLeafRay {
 }
 
 impl LastLeafRay {
-    /// The ray for the leaves of an object; none where it misses them all.
+    /// The ray for the leaves of an object; none if it misses them all.
     #[inline(always)]
     fn get(
         &mut self,
@@ -109,7 +109,7 @@ impl<'a> SceneTree<'a> {
         })
     }
 
-    /// Finds the nearest surface at `t > 0`; among equally near ones that of the lowest object, then triangle.
+    /// Finds the nearest surface at `t > 0`; among equally near ones, that of the lowest object, then triangle.
     #[inline(always)]
     pub fn closest<L: Lanes>(
         &self,
@@ -168,7 +168,7 @@ impl<'a> SceneTree<'a> {
         best
     }
 
-    /// Returns true if anything opaque lies at `0 < t < limit`.
+    /// Returns true if anything opaque is at `0 < t < limit`.
     #[inline(always)]
     pub fn is_blocked<L: Lanes>(&self, lanes: L, poses: &mut Poses, ray: &Ray, limit: f64) -> bool {
         let mut blocked = false;
@@ -186,7 +186,7 @@ impl<'a> SceneTree<'a> {
         blocked
     }
 
-    /// Returns true if anything opaque that moves lies at `0 < t < limit`.
+    /// Returns true if anything opaque that moves is at `0 < t < limit`.
     #[inline(always)]
     pub fn is_blocked_by_mover<L: Lanes>(
         &self,
@@ -226,7 +226,7 @@ impl<'a> SceneTree<'a> {
         self.movers.len() <= FEW_MOVERS
     }
 
-    /// Visits the crossings at `0 < t <= limit`: roughly from near to far where `SORTED`, else in any order. `visit` takes
+    /// Visits the crossings at `0 < t <= limit`: roughly from near to far if `SORTED`, else in any order. `visit` takes
     /// the object and the triangle and returns the new limit; one below 0 ends the traversal.
     #[inline(always)]
     fn traverse<L: Lanes, const SORTED: bool>(
@@ -309,7 +309,7 @@ impl<'a> SceneTree<'a> {
         self.solid[object] || is_seen(sight, self.scene, (object, triangle), weights)
     }
 
-    /// Replaces the best hit by a crossing that is nearer, unless the ray does not see the surface there.
+    /// Replaces the best hit by a nearer crossing, if the ray sees the surface there.
     #[inline(always)]
     fn keep_nearer(
         &self,

@@ -1,4 +1,4 @@
-//! The choice of objects whose leaves lie in the world tree.
+//! The choice of objects with leaves in the world tree.
 
 use crate::accel::mesh_tree::MeshTree;
 use crate::accel::world_tree::Numbers;
@@ -12,7 +12,7 @@ const MAX_COPIES: usize = 1 << 18;
 /// that coordinate, so by a fifth of a leaf at most.
 const MIN_LEAF_SIZE: f64 = 2e-5;
 
-/// Collects per object the boxes of its leaves in the world, where they are to lie in the world tree.
+/// Collects, per object with leaves in the world tree, their boxes in the world.
 ///
 /// Rays then need no tree of the object's own, and enter its space only at a leaf. Only still objects qualify. Objects that
 /// share a mesh share its triangles; only the nodes above them are copied.
@@ -56,7 +56,7 @@ mod tests {
     use crate::scene::{Key, Mesh, Motion, Object, Parent, Turn};
     use crate::test_scene::load_test_scene;
 
-    /// A fan of so many triangles, two metres wide.
+    /// A fan of this many triangles, two metres wide.
     fn fan(triangles: u32) -> Mesh {
         let rim = (0..=triangles).map(|step| {
             let (sine, cosine) = (6.0 * step as f32 / triangles as f32).sin_cos();
@@ -95,7 +95,7 @@ mod tests {
         object
     }
 
-    /// Finds per object whether its leaves lie in the world tree.
+    /// Finds per object whether its leaves are in the world tree.
     fn in_world_tree(
         meshes: Vec<Mesh>,
         objects: Vec<Object>,
@@ -134,7 +134,7 @@ mod tests {
 
     #[test]
     fn a_mesh_in_too_many_places_stays_out() {
-        // 8000 triangles take from 1000 leaves on.
+        // 8000 triangles take 1000 leaves or more.
         let objects = |count: usize| {
             let mut objects = vec![still(0); count];
             objects.push(still(1));

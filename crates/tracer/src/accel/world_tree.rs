@@ -15,8 +15,8 @@ const LEAF_RULES: LeafRules = LeafRules {
     item_cost: 0.0,
 };
 
-/// A tree over the leaves of still objects. Per slice of the shutter interval, a small tree lies above it, over its topmost
-/// nodes and the boxes that all other objects sweep.
+/// A tree over the leaves of still objects. Per slice of the shutter interval, there is a small tree above it, over its
+/// topmost nodes and the boxes that all other objects sweep.
 pub(crate) struct WorldTree {
     pub tree: Tree,
     slices: Slices,
@@ -80,8 +80,8 @@ impl Numbers {
 }
 
 impl WorldTree {
-    /// Builds the tree. `leaves` holds the boxes of each object's leaves where they lie in the world tree. `swept`
-    /// holds the boxes that the objects sweep in each slice.
+    /// Builds the tree. `leaves` has the boxes of each object's leaves if they are in the world tree. `swept`
+    /// has the boxes that the objects sweep in each slice.
     pub fn build(leaves: &[Option<Vec<Aabb>>], slices: Slices, swept: &[Vec<Aabb>]) -> Self {
         let numbers = Numbers::new(leaves.len());
         let mut boxes = Vec::new();
@@ -182,7 +182,7 @@ mod tests {
         .grown(0.45)
     }
 
-    /// The parts that a ray along x comes to at a time, in order.
+    /// The parts that a ray along x meets at a time, in order.
     fn met(tree: &WorldTree, time: f64) -> Vec<Part> {
         let ray = Ray {
             origin: DVec3::new(-1000.0, 0.1, 0.2),

@@ -1,4 +1,4 @@
-//! The view of the frame's instant on points that are seen at other times.
+//! The instant's view of points that are seen at other times.
 
 use glam::{DVec2, DVec3, Vec3};
 
@@ -20,9 +20,9 @@ const ROUNDING: f64 = 1e-9;
 pub(crate) struct InstantView {
     view: View,
     canvas: Canvas,
-    /// True if the camera stands still. A still point that it sees at one time is then hidden at another only by what moves.
+    /// True if the camera stands still. A still point that it sees at one time is then hidden at another only by a mover.
     camera_stands_still: bool,
-    /// True where nothing changes in the world and all surfaces are diffuse: shading is then the same at all times.
+    /// True if nothing changes in the world and all surfaces are diffuse: shading is then the same at all times.
     unchanging: bool,
 }
 
@@ -70,10 +70,10 @@ impl InstantView {
         }
     }
 
-    /// The view of the lens' centre on points that other points of the lens see.
+    /// The view from the lens' centre of points that other points of the lens see.
     pub fn of_pinhole(stage: &Stage, canvas: Canvas) -> Self {
         Self {
-            // What stands still may hide from the centre what the rim sees.
+            // Still objects may hide from the centre what the rim sees.
             camera_stands_still: false,
             ..Self::new(stage, canvas)
         }
@@ -81,8 +81,8 @@ impl InstantView {
 
     /// Looks back at the point that `ray` meets at the time of `poses`; `then` are the poses of the instant.
     ///
-    /// The camera of the instant looks from the same point of its lens: places, hidden points and shading then tell of motion alone,
-    /// and where nothing moves, nothing differs.
+    /// The camera of the instant looks from the same point of its lens: places, hidden points and shading then show motion
+    /// alone, and nothing differs if nothing moves.
     pub fn look_back(
         &self,
         stage: &Stage,
@@ -105,7 +105,7 @@ impl InstantView {
         let way = point - eye;
         let seen = side(poses, hit.time, ray.direction);
         let same_side = side(then, 0.0, way) == seen;
-        // Where the camera saw the other side then, this ray meets the side that is seen now, in the same direction as now
+        // If the camera saw the other side then, this ray meets the side that is seen now, in the same direction as now
         // in the object's own space.
         let direction = if same_side {
             way.normalize()
@@ -156,8 +156,8 @@ impl InstantView {
         }
     }
 
-    /// Shades a sample's point at the instant; returns the radiance then minus that of the sample's own path from `stop`, which
-    /// scattered `bounces` times. `then` are the poses of the instant.
+    /// Shades a sample's point at the instant; returns the radiance then minus the radiance of the sample's own path from
+    /// `stop`, which scattered `bounces` times. `then` are the poses of the instant.
     pub fn shift(
         &self,
         integrator: &Integrator,
@@ -175,13 +175,13 @@ impl InstantView {
         }
     }
 
-    /// Returns true if a place lies inside the picture.
+    /// Returns true if a place is inside the picture.
     fn contains(&self, place: DVec2) -> bool {
         let size = DVec2::new(f64::from(self.canvas.width), f64::from(self.canvas.height));
         place.cmpge(DVec2::splat(-ROUNDING)).all() && place.cmplt(size + ROUNDING).all()
     }
 
-    /// Returns true if anything lies between the eye and the point. The ray leaves the surface as shadow rays do.
+    /// Returns true if anything is between the eye and the point. The ray leaves the surface as shadow rays do.
     fn is_hidden(
         &self,
         stage: &Stage,
@@ -202,7 +202,7 @@ impl InstantView {
         self.is_blocked(stage, then, &back, way.length(), stands_still)
     }
 
-    /// Returns true if anything lies between the eye and a point that some sample saw; `stands_still` tells that the point
+    /// Returns true if anything is between the eye and a point that some sample saw; `stands_still` says that the point
     /// does not move.
     fn is_blocked(
         &self,
@@ -249,7 +249,7 @@ impl InstantSums {
     /// The means over `samples`.
     ///
     /// Frozen shading is the live shading of all samples plus the mean shift of those that were shaded again. Most samples
-    /// shift little or not at all, so that a part of them suffices. Where few shift much the estimate may fall below 0; it
+    /// shift little or not at all, so that a part of them suffices. If few shift much, the estimate may fall below 0; it
     /// must not be clamped, or its mean would be too high.
     pub fn means(&self, samples: u32) -> InstantMeans {
         let samples = f64::from(samples);

@@ -60,7 +60,7 @@ impl Canvas {
         (0..self.columns() * self.rows()).collect()
     }
 
-    /// Returns true if a pixel lies in the picture, not in the band around it.
+    /// Returns true if a pixel is in the picture, not in the band around it.
     pub fn is_in_picture(&self, pixel: u32) -> bool {
         let [column, row] = [pixel % self.columns(), pixel / self.columns()]
             .map(|index| index.wrapping_sub(self.guard_band));

@@ -58,8 +58,8 @@ impl ShutterSampler {
 
     /// The time of a sample, in frames, from a number in [0, 1).
     ///
-    /// The numbers rise along the line of time with a period of one exposure, and 0 lies where a trailing shutter opens. Two
-    /// alignments of one exposure without ramps so have equal times wherever they overlap, bit for bit, and share their
+    /// The numbers rise with time, with a period of one exposure, and are 0 where a trailing shutter opens. So two
+    /// alignments of one exposure without ramps have equal times wherever they overlap, bit for bit, and share their
     /// samples there. Every alignment has each part of its interval once, and is stratified as well as any other.
     pub fn sample_time(&self, number: f64, row: u32, height: u32) -> f64 {
         let opening = (1.0 - self.before).clamp(0.0, 1.0);

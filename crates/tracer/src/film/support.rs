@@ -11,9 +11,9 @@ use crate::path::stops::visit_layers;
 use crate::progress::Meter;
 use crate::sampler::{Sampler, Stream, pixel_seed};
 
-/// Rays per pixel, a power of two. Parts that cover less of a pixel than one ray stands for may be missed.
+/// Rays per pixel, a power of two. Parts that cover less of a pixel than one ray represents may be missed.
 const SAMPLES: u32 = 64;
-/// Rays per pixel where they and those of all eight neighbours met the same.
+/// Rays per pixel if they and those of all eight neighbours met the same.
 const FIRST_SAMPLES: u32 = 16;
 /// Factor on both for a camera with a lens, which spreads what is seen over more pixels and covers less of each.
 const LENS_FACTOR: u32 = 4;
@@ -27,12 +27,12 @@ struct PixelProbe {
     seen: Vec<bool>,
     /// True if anything was seen that the frame of the instant does not show.
     unknowable: bool,
-    /// True if two rays saw other objects. A ray sees several through translucent surfaces.
+    /// True if two rays saw different objects. A ray sees several through translucent surfaces.
     is_mixed: bool,
 }
 
 /// Probes the scene over the canvas and each of the times of `film`, which must have a view of the instant; nothing else of
-/// it is used. `moving` holds per time and object id whether the object moves on screen.
+/// it is used. `moving` says per time and object id whether the object moves on screen.
 pub(crate) fn trace_supports(
     film: &Film,
     moving: &[&[bool]],
@@ -66,7 +66,7 @@ pub(crate) fn trace_supports(
         .collect())
 }
 
-/// Adds samples to what earlier ones found, in each pixel at those of the film's times that `is_probed` names.
+/// Adds samples to earlier ones, in each pixel at those of the film's times that `is_probed` names.
 fn probe_pixels(
     film: &Film,
     before: &[Vec<PixelProbe>],
@@ -75,7 +75,7 @@ fn probe_pixels(
     meter: &Meter,
 ) -> Result<Vec<Vec<PixelProbe>>, TraceError> {
     let place = (film.integrator.stage, film.canvas);
-    // This is no progress of the replicate, but a chance to cancel it.
+    // This does not count as progress of the replicate, but may be cancelled.
     let no_work = |_: &[u32]| 0;
     for_each_pixel(
         place,
@@ -99,7 +99,7 @@ fn probe_pixels(
     )
 }
 
-/// Marks the pixels whose rays all found the same, as those of all their neighbours did, all of it knowable or all of it not.
+/// Marks the pixels whose rays, and whose neighbours' rays, all found the same, either all of it knowable or none of it.
 fn find_plain(probes: &Raster<PixelProbe>) -> Raster<bool> {
     Raster::from_fn(probes.width, probes.height, |x, y| {
         let own = probes.at(x, y);
@@ -159,7 +159,7 @@ fn probe_once(
 }
 
 impl PixelProbe {
-    /// Marks the objects that one ray met, each with true if the instant hides the point that was seen of it.
+    /// Marks the objects that one ray met, each with true if the instant hides the point that the ray saw.
     fn mark(&mut self, found: &[(usize, bool)]) {
         let known = self.seen.iter().filter(|seen| **seen).count();
         for (object, is_hidden) in found {

@@ -7,7 +7,7 @@ use crate::geometry::triangle::{Crossing, cross};
 
 /// Room for rounding.
 const SLACK: f64 = 1.0 + 1e-6;
-/// Radii from the centre within which a ray keeps its origin, which is there of the mesh's own magnitude.
+/// Radii from the centre within which a ray keeps its origin, because it has the mesh's own magnitude there.
 const NEAR: f64 = 8.0;
 /// Radii from the centre beyond which the early test gives no answer. There squared distances are rounded by a hundredth of
 /// the slack.
@@ -19,7 +19,7 @@ pub(crate) struct Ball {
     radius_squared: f64,
 }
 
-/// A ray whose origin is moved up to a ball, so that it is of the ball's own magnitude.
+/// A ray with its origin moved up to a ball, so that it has the ball's own magnitude.
 pub(crate) struct Approach {
     pub ray: Ray,
     /// Distance by which the origin was moved, in units of the direction.
@@ -46,7 +46,7 @@ impl Ball {
         }
     }
 
-    /// Returns true if a ray certainly misses the ball. From very far away rounding leaves that open.
+    /// Returns true if a ray certainly misses the ball. From very far away rounding makes that uncertain.
     #[inline(always)]
     pub fn is_missed(&self, ray: &Ray) -> bool {
         let way = self.centre - ray.origin;
@@ -59,7 +59,7 @@ impl Ball {
             && (along <= 0.0 || aside_squared > self.radius_squared * squared)
     }
 
-    /// Moves a ray up to the ball; none where the ray misses it. A flat mesh may touch its ball at the border only, so the
+    /// Moves a ray up to the ball; none if the ray misses it. A flat mesh may touch its ball at the border only, so the
     /// ball is grown by rounding, never shrunk.
     #[inline(always)]
     pub fn approach(&self, ray: &Ray) -> Option<Approach> {

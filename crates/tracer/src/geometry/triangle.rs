@@ -19,10 +19,10 @@ pub(crate) struct Crossing {
 /// operations errs by 1.1e-16 of at most that.
 const ROUNDING: f64 = 1e-14;
 
-/// Part of the greatest length by which a crossing may lie behind the origin. Rounding is a thousandth of it.
+/// Part of the greatest length by which a crossing may be behind the origin. Rounding is a thousandth of it.
 const BEHIND: f64 = 1e-12;
 
-/// Crosses a triangle from either side; its border belongs to it. None where the crossing lies behind the ray by more than
+/// Crosses a triangle from either side; its border belongs to it. None if the crossing is behind the ray by more than
 /// rounding.
 ///
 /// Edge functions in `f64` (Woop, Benthin and Wald 2013 discuss the sheared form). Two triangles that share an edge

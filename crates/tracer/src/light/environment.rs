@@ -36,7 +36,7 @@ impl EnvironmentMap {
         ]
     }
 
-    /// The texel that holds a unit direction.
+    /// The texel that contains a unit direction.
     fn cell(&self, direction: DVec3) -> usize {
         let [x, y] = self.place(direction);
         let column = (x as usize).min(self.width as usize - 1);
@@ -71,7 +71,7 @@ pub(crate) struct EnvironmentSampler {
 }
 
 impl EnvironmentSampler {
-    /// Prepares a map; none where it is black.
+    /// Prepares a map; none if it is black.
     pub fn new(map: &EnvironmentMap) -> Option<Self> {
         let [width, height] = [map.width as usize, map.height as usize];
         let weights = compute_weights(map);
@@ -152,7 +152,8 @@ fn compute_weights(map: &EnvironmentMap) -> Vec<f64> {
         .collect()
 }
 
-/// Finds which of the intervals that end at these numbers holds `number`, and its place there as a part of the length.
+/// Finds which of the intervals that end at these numbers contains `number`, and its place
+/// there as a part of the length.
 fn find_interval(ends: &[f64], number: f64) -> (usize, f64) {
     let index = ends
         .partition_point(|end| *end <= number)

@@ -85,7 +85,7 @@ impl Emitters {
         }
     }
 
-    /// Draws a point on an emitter from three numbers in [0, 1), as seen from `from`; none where the sampled triangle is seen
+    /// Draws a point on an emitter from three numbers in [0, 1), as seen from `from`; none if the sampled triangle is seen
     /// edge-on, or nothing emits.
     pub fn sample(
         &self,
@@ -174,7 +174,7 @@ impl Sun {
         }
     }
 
-    /// Returns true if a ray which leaves the scene in this unit direction ends on the disc.
+    /// Returns true if a ray that leaves the scene in this unit direction ends on the disc.
     pub(crate) fn covers(&self, direction: DVec3) -> bool {
         self.angular_radius > 0.0 && 1.0 - direction.dot(self.direction) <= self.cap()
     }

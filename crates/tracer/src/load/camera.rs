@@ -142,7 +142,7 @@ fn read_look_at(
     Ok(Rotation::Quaternion(DQuat::from_mat3(&axes)))
 }
 
-/// Reads the lens; none of a pinhole.
+/// Reads the lens; none for a pinhole.
 fn read_lens(document: &Document, camera: &CameraTable) -> Result<Option<Lens>, SceneError> {
     let refuse = |number: &Spanned<f64>, reason: String| Err(document.error(number.span(), reason));
     match (&camera.aperture, &camera.focus) {

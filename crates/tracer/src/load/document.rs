@@ -15,7 +15,7 @@ const TOO_DEEP: &str = "tables and arrays are nested too deeply; allowed: up to 
 
 /// Text of a scene.toml.
 pub(super) struct Document {
-    /// File that holds the text.
+    /// File of the text.
     pub(super) path: PathBuf,
     text: String,
 }
@@ -56,7 +56,7 @@ impl Document {
         T::deserialize(ValueDeserializer::from(value)).map_err(|error| self.syntax_error(&error))
     }
 
-    /// Takes a value as a table; refuses any other.
+    /// Reads a value as a table; refuses any other.
     pub(super) fn expect_table<'a, 'i>(
         &self,
         what: &str,

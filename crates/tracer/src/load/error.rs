@@ -69,7 +69,7 @@ pub(super) fn join_names<'a>(names: impl IntoIterator<Item = &'a str>) -> String
     }
 }
 
-/// Says which numbers a file may hold, to somebody who wrote a finite one or none.
+/// Lists the allowed numbers, for a message about a finite number or about none.
 pub(super) fn allowed_numbers(is_finite: bool) -> String {
     match is_finite {
         true => format!("numbers from -{LARGEST_NUMBER:e} to {LARGEST_NUMBER:e}"),

@@ -51,7 +51,7 @@ impl Face {
         self.corners.iter().map(|corner| corner.position + 1)
     }
 
-    /// Tells whether its corners have texture coordinates, and whether they have normals.
+    /// Returns whether its corners have texture coordinates, and whether they have normals.
     pub(super) fn kinds(&self) -> [bool; 2] {
         self.corners[0].kinds()
     }

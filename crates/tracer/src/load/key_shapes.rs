@@ -13,16 +13,16 @@ use crate::{Material, Mesh, Shape};
 /// Material of a mesh.
 #[derive(Clone)]
 pub(super) struct Slot {
-    /// Material as the MTL file has it.
+    /// Material as in the MTL file.
     pub(super) material: Material,
     /// True if all its faces have texture coordinates.
     pub(super) textured: bool,
 }
 
 /// Builds the mesh of a whole file or one group, with the materials of its slots. Several files are the shapes of a deforming
-/// mesh at these times; materials and texture coordinates are those of the first.
+/// mesh at these times; materials and texture coordinates come from the first.
 ///
-/// Beside parts with normals, faces without get flat ones; beside parts with texture coordinates, faces without get (0, 0), which
+/// If some parts have normals, faces without get flat ones; if some have texture coordinates, faces without get (0, 0), which
 /// no texture reads.
 pub(super) fn build_mesh(
     files: &[(f64, &ObjFile)],
@@ -176,7 +176,7 @@ fn check_area(mesh: &Mesh) -> Result<(), SceneError> {
     Ok(())
 }
 
-/// Refuses faces with other vertices than those of the first shape.
+/// Refuses faces with other vertices than the first shape's.
 fn check_faces(first: &ObjFile, file: &ObjFile) -> Result<(), SceneError> {
     let faces = |file: &'_ ObjFile| {
         file.parts
@@ -211,7 +211,7 @@ fn check_faces(first: &ObjFile, file: &ObjFile) -> Result<(), SceneError> {
     Ok(())
 }
 
-/// Refuses groups, materials and kinds of faces that are not those of the first shape.
+/// Refuses groups, materials and kinds of faces that differ from the first shape's.
 fn check_parts(first: &ObjFile, file: &ObjFile) -> Result<(), SceneError> {
     let describe = |file: &ObjFile, part: &Part| {
         let normals = if part.has_normals() {

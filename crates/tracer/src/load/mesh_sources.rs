@@ -29,7 +29,7 @@ pub(super) fn mesh_key(sources: &[MeshSource], group: Option<&str>) -> MeshKey {
     (sources.iter().map(file).collect(), group.map(str::to_owned))
 }
 
-/// Reads where an object's mesh lies: in one file, or in one for each key shape, at rising times.
+/// Reads the sources of an object's mesh: one file, or one for each key shape, at rising times.
 pub(super) fn read_mesh_sources(
     document: &Document,
     folder: &Path,

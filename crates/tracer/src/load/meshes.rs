@@ -1,4 +1,4 @@
-//! The meshes and materials of objects, shared where they are equal.
+//! The meshes and materials of objects; equal ones are shared.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

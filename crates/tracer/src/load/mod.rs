@@ -51,8 +51,9 @@ use crate::{FrameRate, Location, Scene, SceneId, Seal};
 /// Variant that every scene has without naming it: its surfaces send out their own colours.
 const UNLIT: &str = "unlit";
 
-/// Loads the scene in `folder`, on disk or in a [`Bundle`](crate::Bundle), or one of its variants. The variants `unlit` and `seal7`, with
-/// any seed, are made of any scene. So are those at another [`FrameRate`], such as `144fps` or `unlit@24fps_1-48s`.
+/// Loads the scene in `folder`, on disk or in a [`Bundle`](crate::Bundle), or one of its variants. The variants
+/// `unlit` and `seal7`, with any seed, can be made from any scene. So can those at another [`FrameRate`], such as
+/// `144fps` or `unlit@24fps_1-48s`.
 ///
 /// Refuses whatever a render could not use, with its place and what is allowed; repairs nothing.
 pub fn load_scene(folder: impl Into<Location>, variant: Option<&str>) -> Result<Scene, SceneError> {
@@ -147,7 +148,7 @@ fn rendered_interval(
     [-longest, longest]
 }
 
-/// Checks what concerns the picture as a whole.
+/// Checks the picture as a whole.
 fn check_picture(document: &Document, table: &SceneTable) -> Result<(), SceneError> {
     if table.exposes.get_ref().trim().is_empty() {
         let reason = "exposes is empty; say in one sentence what the scene exposes";

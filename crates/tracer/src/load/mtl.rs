@@ -65,7 +65,7 @@ pub(super) fn default_material() -> Material {
 }
 
 impl Libraries {
-    /// Tells whether one of the files defines a material.
+    /// Returns whether one of the files defines a material.
     pub(super) fn defines(&self, material: &str) -> bool {
         self.materials.contains_key(material)
     }
@@ -198,7 +198,7 @@ impl Statements {
         })
     }
 
-    /// Refuses a Tr that does not say what d says.
+    /// Refuses a Tr that contradicts d.
     fn check_transparency(&self) -> Result<(), String> {
         match (self.number("Tr"), self.number("d")) {
             (None | Some(0.0), _) => Ok(()),

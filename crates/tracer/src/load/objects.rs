@@ -17,7 +17,7 @@ use crate::{Camera, Motion, Object, Parent};
 /// Names that mean something else where objects are named.
 const RESERVED: [&str; 2] = ["background", "camera"];
 
-/// Loader of objects, with all that they share.
+/// Loader of objects, with everything that they share.
 pub(super) struct ObjectLoader<'a> {
     document: &'a Document,
     /// Times that a render may ask for, in frames.

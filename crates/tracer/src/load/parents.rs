@@ -1,4 +1,4 @@
-//! The parents of objects: each stands above its children in the file.
+//! The parents of objects: each is above its children in the file.
 
 use std::collections::{HashMap, HashSet};
 

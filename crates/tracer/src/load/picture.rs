@@ -4,7 +4,7 @@ use std::io::Cursor;
 
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader};
 
-/// Picture of which only the header has been read.
+/// Picture with only its header read.
 pub(super) struct Header<'a> {
     decoder: Box<dyn ImageDecoder + 'a>,
     /// Pixels per row.

@@ -25,7 +25,7 @@ pub(super) struct SceneTable {
     pub(super) sun: Option<SunTable>,
     #[serde(default)]
     pub(super) object: BTreeMap<Spanned<String>, ObjectTable>,
-    /// Taken out before the rest is read; stands here so that messages list it among the keys.
+    /// Removed before the rest is read; listed here so that messages name it among the keys.
     #[serde(rename = "variant")]
     pub(super) _variant: Option<IgnoredAny>,
 }

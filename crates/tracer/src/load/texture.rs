@@ -78,7 +78,7 @@ impl Textures {
         }
         let image = header.decode().map_err(broken)?;
         let has_alpha = image.color().has_alpha();
-        // 16 bits hold files of 8 and 16 bits: 8-bit values times 257, exactly.
+        // 16 bits represent files of 8 and 16 bits exactly: 8-bit values times 257.
         let image = image.into_rgba16();
         let (width, height) = image.dimensions();
         self.texels = together;

@@ -1,4 +1,4 @@
-//! Upper limits on how far motions carry what they move.
+//! Upper limits on how far motions carry objects.
 
 use glam::DVec3;
 
@@ -47,7 +47,7 @@ impl TransformRange {
         range
     }
 
-    /// Combines the range with that of a parent.
+    /// Combines the range with a parent's.
     pub(super) fn within(self, parent: Self) -> Self {
         Self {
             largest_scale: parent.largest_scale * self.largest_scale,
@@ -56,7 +56,7 @@ impl TransformRange {
         }
     }
 
-    /// Refuses to carry a thing of a radius, in metres, too far for 32-bit boxes, or to shrink it to nothing.
+    /// Refuses a range that carries a thing of a radius, in metres, too far for 32-bit boxes, or shrinks it to nothing.
     pub(super) fn check(&self, what: &str, radius: f64) -> Result<(), String> {
         let farthest = self.largest_scale * radius + self.offset;
         if farthest.is_nan() || farthest > FARTHEST {

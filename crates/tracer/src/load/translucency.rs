@@ -1,4 +1,5 @@
-//! The translucency of materials: what an object's `alpha` makes of opacities, and checks of what its materials ask for.
+//! The translucency of materials: the meaning of opacities by an object's `alpha`, and
+//! checks of its materials' requests.
 
 use toml::Spanned;
 
@@ -14,9 +15,9 @@ pub(super) const GLASS: f32 = 1.5;
 /// Choices of an object about its translucent surfaces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Alpha {
-    /// True if opacity mixes a surface with what lies behind; else it cuts holes.
+    /// True if opacity mixes a surface with what is behind it; else it cuts holes.
     pub(super) is_blended: bool,
-    /// True if velocity, depth and object id are those of the translucent surfaces.
+    /// True if velocity, depth and object id come from the translucent surfaces.
     in_buffers: bool,
 }
 
@@ -66,7 +67,7 @@ impl Alpha {
     }
 }
 
-/// Changes what a material asks for by the keys that a scene.toml gives.
+/// Changes a material's translucency by the keys of a scene.toml.
 pub(super) fn change_translucency(
     document: &Document,
     table: &MaterialTable,

@@ -72,7 +72,7 @@ impl<'a> ParsedScene<'a> {
         self.document.read(whole)
     }
 
-    /// Checks the scene and all variants at once, not only what somebody chooses.
+    /// Checks the scene and all variants at once, not only the chosen one.
     pub(super) fn check_variants(&self) -> Result<(), SceneError> {
         self.read(None)?;
         let mut names = self.variant_names.iter();
@@ -99,7 +99,7 @@ impl<'a> ParsedScene<'a> {
         Ok(changes)
     }
 
-    /// Merges the change of an object with the tables that the scene has of it.
+    /// Merges the change of an object with the scene's tables of it.
     fn merge_object(
         &self,
         variant: &str,
@@ -142,7 +142,7 @@ impl<'a> ParsedScene<'a> {
     }
 }
 
-/// Changes objects key by key, and replaces all else whole.
+/// Changes objects key by key, and replaces everything else whole.
 fn apply_changes<'a>(scene: &mut DeTable<'a>, changes: DeTable<'a>) {
     for (key, change) in changes {
         let objects = scene.get_mut("object").and_then(table_mut);
@@ -177,7 +177,7 @@ fn merge_tables<'a>(base: &mut DeTable<'a>, changes: DeTable<'a>) {
     }
 }
 
-/// Puts a value in the place of another, with its own key, whose place messages name.
+/// Replaces a value together with its key: messages name the key's place.
 fn replace<'a>(table: &mut DeTable<'a>, key: Spanned<DeString<'a>>, value: Spanned<DeValue<'a>>) {
     table.remove(key.get_ref().as_ref());
     table.insert(key, value);

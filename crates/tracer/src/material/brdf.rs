@@ -14,7 +14,7 @@ pub(crate) enum Brdf<'a> {
 }
 
 impl<'a> Brdf<'a> {
-    /// The BRDF of a surface of this colour, seen from a unit direction on its facet's side; none where it scatters nothing.
+    /// The BRDF of a surface of this colour, seen from a unit direction on its facet's side; none if it scatters nothing.
     pub fn new(
         glossy: Option<&'a GlossyMaterial>,
         color: Vec3,
@@ -48,7 +48,7 @@ impl<'a> Brdf<'a> {
         }
     }
 
-    /// Draws a direction from three numbers in [0, 1); none where the light is lost.
+    /// Draws a direction from three numbers in [0, 1); none if the light is lost.
     pub fn sample(&self, choice: f64, [u, v]: [f64; 2]) -> Option<BrdfSample> {
         match self {
             Brdf::Diffuse { lobe, albedo } => {

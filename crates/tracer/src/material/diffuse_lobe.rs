@@ -15,7 +15,7 @@ pub(crate) struct DiffuseLobe {
 }
 
 impl DiffuseLobe {
-    /// The lobe of unit vectors that lie within 90 degrees of one another.
+    /// The lobe of unit vectors that are within 90 degrees of one another.
     pub fn new(facet: DVec3, normal: DVec3) -> Self {
         Self { facet, normal }
     }
@@ -46,7 +46,7 @@ impl DiffuseLobe {
 mod tests {
     use super::*;
 
-    /// Normals off the facet's by nothing, by half and nearly by a right angle.
+    /// Normals that deviate from the facet's by nothing, by half a right angle and by nearly a right angle.
     fn lobes() -> Vec<DiffuseLobe> {
         let facet = DVec3::new(0.6, 0.0, 0.8);
         [0.0, 0.8, 1.5]

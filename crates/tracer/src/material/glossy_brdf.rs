@@ -109,7 +109,7 @@ impl<'a> GlossyBrdf<'a> {
         value
     }
 
-    /// Draws a direction from three numbers in [0, 1); none where the light is lost.
+    /// Draws a direction from three numbers in [0, 1); none if the light is lost.
     pub fn sample(&self, choice: f64, [u, v]: [f64; 2]) -> Option<BrdfSample> {
         if choice >= self.facet_chance {
             let radius = u.sqrt();

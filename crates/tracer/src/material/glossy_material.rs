@@ -6,7 +6,7 @@ use crate::scene::{Finish, Material};
 
 /// Cosines at which the albedo is tabulated, 0 and 1 included, denser towards grazing angles.
 const COSINES: usize = 129;
-/// Cosine that stands for 0, at which no surface is seen.
+/// Cosine used for 0, at which no surface is seen.
 const GRAZING: f64 = 1e-6;
 
 /// A glossy material, prepared for all its points.

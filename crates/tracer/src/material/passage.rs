@@ -20,7 +20,7 @@ pub(crate) struct Passage {
 }
 
 impl Passage {
-    /// The passage at a hit of a ray; none where the surface is not translucent.
+    /// The passage at a hit of a ray; none if the surface is not translucent.
     pub fn at(scene: &Scene, poses: &mut Poses, ray: &Ray, hit: &Hit) -> Option<Self> {
         let translucency = find_material(scene, hit.object, hit.triangle).translucency?;
         let [reflected, passed] = match translucency.glass {
@@ -42,7 +42,7 @@ impl Passage {
         (1.0 - self.opacity) as f32 * self.passed
     }
 
-    /// The chance that what is not stopped is reflected: its share, by the mean of the components.
+    /// The chance that light that is not stopped is reflected: its share, by the mean of the components.
     pub fn chance_of_reflection(&self) -> f64 {
         let [reflected, passed] =
             [self.reflected, self.passed].map(|share| f64::from(share.element_sum()));

@@ -17,7 +17,7 @@ pub(crate) struct Surface {
     pub position: DVec3,
     /// Unit normal of the facet, on the ray's side.
     pub facet: DVec3,
-    /// Unit shading normal on the facet's side, interpolated where the mesh has normals.
+    /// Unit shading normal on the facet's side, interpolated if the mesh has normals.
     pub normal: DVec3,
     /// Albedo, or a metal's reflectance at normal incidence.
     pub color: Vec3,
@@ -33,13 +33,13 @@ pub(crate) struct Surface {
 pub(crate) enum Sight {
     /// All that change the light.
     Everything,
-    /// Those that velocity, depth and object id are taken of.
+    /// Those that velocity, depth and object id come from.
     Buffers,
     /// None.
     Opaque,
 }
 
-/// Tells of each object whether it is opaque everywhere, without holes cut out by opacity and without translucent parts.
+/// Finds per object whether it is opaque everywhere, without holes cut out by opacity and without translucent parts.
 pub(crate) fn find_solid_objects(scene: &Scene) -> Vec<bool> {
     let is_solid = |&material: &usize| {
         let material = &scene.materials[material];
@@ -98,7 +98,7 @@ impl Surface {
         }
     }
 
-    /// The BRDF towards the ray that met the surface; none where it scatters nothing.
+    /// The BRDF towards the ray that met the surface; none if it scatters nothing.
     pub fn brdf<'a>(&self, glossy: Option<&'a GlossyMaterial>, ray: &Ray) -> Option<Brdf<'a>> {
         Brdf::new(glossy, self.color, self.facet, self.normal, -ray.direction)
     }
@@ -184,7 +184,7 @@ fn interpolate_texcoord(mesh: &Mesh, triangle: u32, weights: [f64; 2]) -> Vec2 {
     (a + weights[0] * (b - a) + weights[1] * (c - a)).as_vec2()
 }
 
-/// The interpolated normal; none where the mesh has no normals, or where they cancel.
+/// The interpolated normal; none if the mesh has no normals, or if they cancel.
 fn shading_normal(mesh: &Mesh, pose: &Pose, hit: &Hit) -> Option<DVec3> {
     let shape = mesh.at(hit.time);
     let [a, b, c] = mesh.triangles[hit.triangle as usize];

@@ -148,7 +148,7 @@ impl View {
     /// metres, and give (x', y', 1) times a common factor, which is positive in front of the camera.
     pub(crate) fn to_picture_of(self, other: &View) -> [[f64; 4]; 3] {
         let to_other = other.to_camera * self.to_world;
-        // Half the picture and the focal length take a place to a direction, and a direction to a place.
+        // Half the picture and the focal length convert a place to a direction, and a direction to a place.
         let [half_x, half_y] = self.half;
         let direction = |place: DVec3| {
             DVec3::new(

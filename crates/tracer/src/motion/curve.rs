@@ -86,7 +86,7 @@ impl<T: Quantity + PartialEq> Cubic<T> {
 }
 
 impl Cubic<f64> {
-    /// Times at which the curve turns round, if any.
+    /// Times at which the curve changes its direction, if any.
     pub fn turning_points(self) -> impl Iterator<Item = f64> {
         let [_, c, half_b, a] = self.0;
         // 3 a t^2 + 2 half_b t + c = 0, in the form that loses no digits to cancellation.
@@ -107,7 +107,7 @@ pub(crate) struct Keyed<'a, K> {
 }
 
 impl<K> Keyed<'_, K> {
-    /// The segment that `time` lies in: 0 before the first key, `i` from key `i - 1` on.
+    /// The segment that `time` is in: 0 before the first key, `i` from key `i - 1` on.
     pub fn segment(&self, time: f64) -> usize {
         self.keys.partition_point(|key| (self.time)(key) <= time)
     }
@@ -138,8 +138,8 @@ impl<K> Keyed<'_, K> {
         Cubic::between([value(from), value(segment)], slopes, self.duration(from))
     }
 
-    /// The slope at a key. Where changes are linear it is that of the segment after the key. Otherwise it is that of the
-    /// parabola through the key and its neighbours, at an end the parabola through the three nearest keys (Overhauser
+    /// The slope at a key. If changes are linear, it is the slope of the segment after the key. Otherwise it is the
+    /// slope of the parabola through the key and its neighbours, or at an end through the three nearest keys (Overhauser
     /// 1968; Catmull and Rom 1974, for uneven times).
     pub fn slope<T: Quantity>(&self, key: usize, chord: &impl Fn(usize) -> T) -> T {
         let Some(last) = self.keys.len().checked_sub(2) else {

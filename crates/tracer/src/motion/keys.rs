@@ -32,7 +32,7 @@ impl Motion {
         self.segment(time).at(time)
     }
 
-    /// The segment that holds `time`; at a key, the one that begins there.
+    /// The segment that contains `time`; at a key, the one that begins there.
     pub(crate) fn segment(&self, time: f64) -> Segment {
         self.segment_at(self.keyed().segment(time))
     }
@@ -101,7 +101,7 @@ fn rotations(keyed: &Keyed<Key>, segment: usize) -> (Rotation, Option<[Rotation;
 }
 
 impl Rotation {
-    /// A rotation about the direction of a vector. Where the vector is zero, so must the angle be.
+    /// A rotation about the direction of a vector. If the vector is zero, so must the angle be.
     fn about(direction: DVec3, angle: Cubic<f64>) -> Self {
         let axis = direction.try_normalize().unwrap_or(Turn::NONE.axis);
         Self { axis, angle }

@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use crate::scene::Lens;
 
-/// A point of a camera's lens, in metres from its centre; +x right, +y up. A pinhole has none but the centre.
+/// A point of a camera's lens, in metres from its centre; +x right, +y up. A pinhole has only the centre.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct LensPoint(pub DVec2);
 
@@ -15,7 +15,7 @@ impl LensPoint {
 }
 
 impl Lens {
-    /// The point of the lens for two numbers in [0, 1). Even numbers give points that are even over the disc.
+    /// The point of the lens for two numbers in [0, 1). Uniform numbers give points that are uniform over the disc.
     pub(crate) fn point(&self, numbers: [f64; 2]) -> LensPoint {
         LensPoint(0.5 * self.aperture * map_to_disc(numbers))
     }

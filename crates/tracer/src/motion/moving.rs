@@ -7,7 +7,7 @@ use crate::geometry::aabb::Aabb;
 use crate::motion::keys::times_within;
 use crate::scene::Scene;
 
-/// Times examined beside the shutter's ends and the keys inside it.
+/// Times examined besides the shutter's ends and the keys inside it.
 const EXTRA_TIMES: u32 = 61;
 /// Fractional part of the golden ratio. Its multiples fall in step with no periodic motion.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;

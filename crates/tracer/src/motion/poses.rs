@@ -14,7 +14,7 @@ pub struct Poses<'a> {
     scene: &'a Scene,
     motions: Arc<PreparedMotions>,
     time: f64,
-    /// Pose of each object, valid where its stamp is the current one or [`FOR_EVER`].
+    /// Pose of each object, valid if its stamp is the current one or [`FOR_EVER`].
     poses: Vec<(Stamp, Pose)>,
     current: Stamp,
     /// Stack of the traversal. It is kept here because clearing one for every ray takes a twentieth of the ray's time.
@@ -26,7 +26,7 @@ struct PreparedMotions {
     camera: PreparedMotion,
     /// Motion of each object, relative to its parent.
     objects: Vec<PreparedMotion>,
-    /// Greatest distance of each object's vertices from its origin, metres; infinite where the mesh deforms.
+    /// Greatest distance of each object's vertices from its origin, metres; infinite if the mesh deforms.
     radii: Vec<f64>,
 }
 
@@ -162,7 +162,7 @@ impl<'a> Poses<'a> {
         &self.poses[object].1
     }
 
-    /// Returns true if an object's pose is that of the current time.
+    /// Returns true if an object's pose is of the current time.
     #[inline]
     fn is_current(&self, object: usize) -> bool {
         let stamp = self.poses[object].0;

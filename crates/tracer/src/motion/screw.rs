@@ -23,7 +23,7 @@ pub(crate) struct Screw {
 }
 
 impl Screw {
-    /// The screw of a segment; none where it swings or scales.
+    /// The screw of a segment; none if it swings or scales.
     pub fn of(segment: &Segment) -> Option<Self> {
         if segment.swings.is_some() || !segment.scale.is_constant() {
             return None;

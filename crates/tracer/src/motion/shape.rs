@@ -4,7 +4,7 @@ use glam::{DAffine3, DVec3, Vec3};
 
 use crate::scene::{Mesh, Shape};
 
-/// The vertices of a mesh at one time: those of its only shape, or between those of two.
+/// The vertices of a mesh at one time: of its only shape, or between two shapes.
 #[derive(Clone, Copy)]
 pub(crate) struct ShapeAt<'a> {
     mesh: &'a Mesh,
@@ -88,7 +88,7 @@ impl ShapeAt<'_> {
         self.positions().map(DVec3::length).fold(0.0, f64::max)
     }
 
-    /// Unit normal of a vertex; none where the mesh has none, where the face is flat, or where two shapes' cancel.
+    /// Unit normal of a vertex; none if the mesh has none, if the face is flat, or if two shapes' cancel.
     #[inline]
     pub fn normal(&self, vertex: u32) -> Option<DVec3> {
         if self.mesh.normals.is_empty() {

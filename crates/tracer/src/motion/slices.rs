@@ -36,7 +36,7 @@ impl Slices {
         (0..self.count).map(move |slice| [slice, slice + 1].map(border))
     }
 
-    /// The slice that holds a time.
+    /// The slice that contains a time.
     #[inline(always)]
     pub fn find(self, time: f64) -> usize {
         if self.count == 1 {
@@ -46,7 +46,7 @@ impl Slices {
         ((fraction * self.count as f64) as usize).min(self.count - 1)
     }
 
-    /// Returns true if a time lies in the interval.
+    /// Returns true if a time is in the interval.
     #[inline(always)]
     pub fn contains(self, time: f64) -> bool {
         self.from <= time && time <= self.to

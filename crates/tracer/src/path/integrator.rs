@@ -24,8 +24,8 @@ pub(crate) struct Integrator<'a> {
     pub emitters: Emitters,
 }
 
-/// Density with which a ray's direction was sampled; none for rays that no light could have sampled: those of the camera and of
-/// mirrors.
+/// Density with which a ray's direction was sampled; none for rays of the camera and of mirrors, which no light could have
+/// sampled.
 type RayDensity = Option<f64>;
 
 impl<'a> Integrator<'a> {
@@ -37,8 +37,8 @@ impl<'a> Integrator<'a> {
         }
     }
 
-    /// Follows a path from where its camera ray stops, or from none at the background; returns its radiance and the number of
-    /// bounces.
+    /// Follows a path from where its camera ray stops, or from the background if it does not; returns its
+    /// radiance and the number of bounces.
     pub fn follow_path(
         &self,
         poses: &mut Poses,
@@ -105,7 +105,7 @@ impl<'a> Integrator<'a> {
         (radiance, MAX_BOUNCES)
     }
 
-    /// Gathers the light that a surface scatters, of lights and of the sky, and draws the path's next direction.
+    /// Gathers the light of lights and the sky that a surface scatters, and draws the path's next direction.
     fn scatter(
         &self,
         poses: &mut Poses,
@@ -116,7 +116,7 @@ impl<'a> Integrator<'a> {
     ) -> ([Vec3; 2], Option<BrdfSample>) {
         let [u, v, _, choice] = sampler.bounce(depth);
         let sky_numbers = match (brdf, self.stage.sky.is_sampled()) {
-            // Nothing asks for them.
+            // Nothing uses them.
             (Brdf::Diffuse { .. }, false) => [0.0; 4],
             _ => sampler.sky(depth),
         };
@@ -202,7 +202,7 @@ impl<'a> Integrator<'a> {
             origin: start,
             direction: light.direction,
         };
-        // The light's own triangle lies at the end of the ray.
+        // The light's own triangle is at the end of the ray.
         let limit = light.distance * (1.0 - LIFT);
         let passed = self.stage.transmittance(poses, &ray, limit);
         if passed == Vec3::ZERO {

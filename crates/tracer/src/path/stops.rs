@@ -89,7 +89,7 @@ pub(crate) fn visit_layers(
 }
 
 /// Draws one of the stops of a ray by their shares of coverage, with the weight that keeps the mean of the light. `number` gives
-/// one in [0, 1), if it is needed. One number serves all surfaces: what is left of it at each is uniform again.
+/// one in [0, 1), if it is needed. One number is enough for all surfaces: the rest of it at each is uniform again.
 pub(crate) fn find_stop(
     stage: &Stage,
     poses: &mut Poses,

@@ -27,7 +27,7 @@ pub enum Background {
 pub struct EnvironmentMap {
     /// The image file.
     pub path: PathBuf,
-    /// Texels around the horizon, twice as many as rows. The middle of the image lies towards -Z, its right quarter towards
+    /// Texels around the horizon, twice as many as rows. The middle of the image is towards -Z, its right quarter towards
     /// +X.
     pub width: u32,
     /// Rows.

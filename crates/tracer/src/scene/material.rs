@@ -33,12 +33,12 @@ pub struct Material {
     pub emission: Vec3,
     /// Index into the scene's textures (map_Ke); multiplies `emission`. Without albedo it makes an unlit surface.
     pub emission_texture: Option<usize>,
-    /// Opacity (d). Where it is below 0.5, times its texture's, the surface has a hole, unless it is translucent.
+    /// Opacity (d). Where opacity times its texture's is below 0.5, the surface has a hole, unless it is translucent.
     pub opacity: f32,
     /// Index into the scene's textures (map_d); its alpha counts if it has one, else its first component undecoded.
     pub opacity_texture: Option<usize>,
-    /// What happens to the light that opacity leaves, if opacity mixes the surface with what lies behind it; none where
-    /// opacity cuts holes.
+    /// Treatment of the light that opacity leaves, if opacity mixes the surface with what
+    /// is behind it; none if opacity cuts holes.
     pub translucency: Option<Translucency>,
 }
 
@@ -50,8 +50,7 @@ pub struct Translucency {
     /// Index of refraction of a pane of glass, which reflects a part of the light on its two sides; none for a film that
     /// reflects nothing.
     pub glass: Option<f32>,
-    /// True if velocity, depth and object id are those of this surface; else they are those of what lies behind it, as
-    /// engines have it.
+    /// True if velocity, depth and object id come from this surface; else from what is behind it, as in engines.
     pub in_buffers: bool,
 }
 

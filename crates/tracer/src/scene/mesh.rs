@@ -11,15 +11,15 @@ pub struct Mesh {
     pub path: PathBuf,
     /// Metres.
     pub positions: Vec<Vec3>,
-    /// Unit normals, one per position; empty where the file has none (then facets are flat).
+    /// Unit normals, one per position; empty if the file has none (then facets are flat).
     pub normals: Vec<Vec3>,
-    /// Texture coordinates, one per position, v up; empty where the file has none.
+    /// Texture coordinates, one per position, v up; empty if the file has none.
     pub texcoords: Vec<Vec2>,
     /// Indices into `positions`.
     pub triangles: Vec<[u32; 3]>,
     /// Index into the object's `materials`, per triangle.
     pub slots: Vec<u32>,
-    /// Key shapes at strictly rising times: none for a rigid mesh, else at least two, of which the first is `positions` and
+    /// Key shapes at strictly rising times: none for a rigid mesh, else at least two, the first being `positions` and
     /// `normals`. Vertices move in straight lines between them, and beyond the ends as between the nearest two.
     pub shapes: Vec<Shape>,
 }

@@ -19,7 +19,7 @@ pub use motion::{Interpolation, Key, Motion, Turn};
 /// The input of a render. Indices are valid, numbers finite, meshes not empty.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// Identity, of which the frame is above 0 for what [`Scene::at_frame`] made.
+    /// Identity; its frame is above 0 if [`Scene::at_frame`] made the scene.
     pub id: SceneId,
     /// Defect that the scene exposes, in one sentence.
     pub exposes: String,
@@ -128,7 +128,7 @@ pub enum Parent {
 /// A mesh in motion.
 #[derive(Clone, Debug)]
 pub struct Object {
-    /// Unique name of letters, digits, `_` and `-`; also that of its coverage channel.
+    /// Unique name of letters, digits, `_` and `-`; also its coverage channel's.
     pub name: String,
     /// Index into the scene's meshes.
     pub mesh: usize,
@@ -141,8 +141,8 @@ pub struct Object {
 }
 
 impl Scene {
-    /// Makes every surface send out its albedo, whatever the light: what emits keeps its radiance, and glass reflects nothing.
-    /// There is no sun, and the background lights nothing. An engine that knows no light at all draws the same radiance.
+    /// Makes every surface send out its albedo in any light: emitters keep their radiance, and glass reflects nothing.
+    /// There is no sun, and the background lights nothing. An engine without lights draws the same radiance.
     pub fn unlit(self) -> Self {
         let materials = self.materials.into_iter().map(Material::unlit);
         Self {
@@ -152,7 +152,7 @@ impl Scene {
         }
     }
 
-    /// Tells whether every surface sends out its own colour alone, whatever light falls on it.
+    /// Returns whether every surface sends out its own colour alone, in any light.
     pub fn is_unlit(&self) -> bool {
         self.materials.iter().all(|own| {
             let is_glass = own.translucency.is_some_and(|own| own.glass.is_some());
@@ -165,7 +165,7 @@ impl Scene {
         self.id.rate.unwrap_or_default()
     }
 
-    /// Takes the camera's lens away: everything is sharp.
+    /// Removes the camera's lens: everything is sharp.
     pub fn pinhole(self) -> Self {
         let camera = Camera {
             lens: None,

@@ -46,13 +46,13 @@ pub enum Interpolation {
     Linear,
     /// Velocities are continuous.
     ///
-    /// Position and scale follow cubic polynomials. The slope at a key is that of the parabola through the key and its
-    /// neighbours (Catmull and Rom 1974, for uneven times), so keys taken from a parabola give it back. The angular
-    /// velocity at a key is the same mean of the turns beside it.
+    /// Position and scale follow cubic polynomials. The slope at a key is the slope of the parabola through the key and
+    /// its neighbours (Catmull and Rom 1974, for uneven times), so keys taken from a parabola reproduce it. The angular
+    /// velocity at a key is the same mean of the turns before and after it.
     ///
     /// Between keys the orientation is a product of rotations about fixed axes by cubic angles (the kind of curve of Kim,
     /// Kim and Shin 1995): the turn from key to key, with a swing before it and one after it. A swing vanishes at both
-    /// keys and supplies the part of the angular velocity there that lies across the turn's axis. Turns that share an axis
+    /// keys and supplies the part of the angular velocity there that is across the turn's axis. Turns that share an axis
     /// need no swing.
     Cubic,
 }

@@ -1,4 +1,4 @@
-//! Sealed variants: scenes changed by a seed, which no tuning has met.
+//! Sealed variants: scenes changed by a seed, which no tuning has seen.
 
 pub(crate) mod chance;
 mod mirror;
@@ -25,8 +25,8 @@ const ZOOM: RangeInclusive<f64> = 0.9..=1.1;
 /// Factor on the albedo of each material.
 const SHADE: RangeInclusive<f64> = 0.7..=1.0;
 
-/// The changes that a seed makes to a scene. They keep what the scene is about, and change what a preset could have been fitted to:
-/// speeds, directions, places in the picture, timing and colours.
+/// The changes that a seed makes to a scene. They keep the scene's subject, and change everything that a preset could have been
+/// fitted to: speeds, directions, places in the picture, timing and colours.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Seal {
     /// The seed.
@@ -176,7 +176,7 @@ mod tests {
 
     const SCENES: [&str; 6] = ["fan", "walker", "dolly", "flag", "reversal", "cockpit"];
 
-    /// Compares what a sealed scene shows with what its scene shows at another time.
+    /// Compares a sealed scene with its scene at another time.
     fn assert_moves(seal: &Seal, then: impl Fn(f64) -> f64) {
         for name in SCENES {
             let scene = load_test_scene(name);

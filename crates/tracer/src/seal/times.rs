@@ -4,7 +4,7 @@ use super::Seal;
 use crate::scene::{Mesh, Motion, Scene, Turn};
 
 impl Seal {
-    /// Changes what happens when: what happened at `t` happens at `delay + t / speed`, or at `delay - t / speed`.
+    /// Changes all times: events at `t` move to `delay + t / speed`, or to `delay - t / speed`.
     pub(super) fn change_times(&self, scene: &mut Scene) {
         let sign = if self.reversed { -1.0 } else { 1.0 };
         scene.change_times(|time| self.delay + sign * time / self.speed);

@@ -1,4 +1,4 @@
-//! Limits of devices, and ranges in which a kernel fails.
+//! Limits of devices, and parameter ranges where a kernel fails.
 
 use filters::{Filter, Limits, try_out};
 use tests::open_gpu;

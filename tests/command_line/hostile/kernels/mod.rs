@@ -29,8 +29,8 @@ fn change(sandbox: &Sandbox, changes: &[(&str, &str)]) {
     sandbox.write_filter("mine", &manifest, &kernels);
 }
 
-/// Lists the filter after the changes of each row of a table, which must be refused. The message must be printable, and no
-/// line of it a command to a log. Returns the sandboxes.
+/// Lists the filter after the changes of each row of a table, which must be refused. The message must be printable, and no line of it may
+/// be a log command. Returns the sandboxes.
 fn refuse_rows(table: &str) -> Vec<(Sandbox, Vec<&'static str>)> {
     let refused = rows(include_str!("refusals.toml"), table)
         .into_iter()

@@ -113,7 +113,7 @@ fn values_out_of_range_are_refused_before_a_run() {
     }
 }
 
-/// Binds what the module of the fuzzer's corpus declares.
+/// Binds the declarations of the fuzzer corpus's module.
 const MODULE: &str = "name = \"module\"\nsummary = \"A damaged module.\"\nalignment = \"centred\"\n\n[[pass]]\nshader = \"module.spv\"\n";
 
 #[test]

@@ -1,4 +1,4 @@
-//! Files in `--out` that a check must not believe.
+//! Files in `--out` that a check must not trust.
 
 use std::fs;
 
@@ -51,7 +51,7 @@ fn a_check_refuses_a_folder_tracked_by_git() {
     let sandbox = set_up();
     let first = sandbox.check(&IDENTITY);
     sandbox.git("init -q");
-    // The folder lies below a work tree without being part of it.
+    // The folder is below a work tree without being part of it.
     assert_eq!(stdout(&sandbox.check(&IDENTITY)), stdout(&first));
     forge(&sandbox);
     sandbox.git(&format!("add -f {RECORD}"));

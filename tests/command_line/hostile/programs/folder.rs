@@ -1,4 +1,4 @@
-//! One folder that several processes use.
+//! One folder shared by several processes.
 
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
@@ -17,7 +17,7 @@ fn two_runs_cannot_share_a_folder_at_the_same_time() {
         "another shuttertruth is writing to out",
         "another output folder",
     ];
-    // The lock file that another process holds.
+    // The lock file of another process.
     fs::create_dir(sandbox.path("out")).unwrap();
     let other = fs::File::create(sandbox.path("out/.shuttertruth.lock")).unwrap();
     other.try_lock().unwrap();
@@ -32,7 +32,7 @@ fn two_runs_cannot_share_a_folder_at_the_same_time() {
         sandbox.refuse(line, &parts);
         assert_eq!(files_below(&sandbox.path("out")).len(), 1, "{line}");
     }
-    // Renders share a folder with each other and with no other command.
+    // Renders share a folder with each other, but not with other commands.
     other.unlock().unwrap();
     other.try_lock_shared().unwrap();
     sandbox.execute(&split(RENDER));

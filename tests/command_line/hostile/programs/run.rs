@@ -25,7 +25,7 @@ fn set_up() -> Sandbox {
 
 const BLUR: &str = "engine blur --allow-commands --filter ./mine --frame frame.exr --out b.exr";
 
-/// Makes the command `blur`; a timeout of a minute fails it.
+/// Makes the command `blur` with a timeout of a minute.
 fn command(sandbox: &Sandbox) -> Command {
     let mut command = Command::new("timeout");
     command.arg("60").arg(env!("CARGO_BIN_EXE_shuttertruth"));
@@ -102,7 +102,7 @@ fn a_program_gets_no_secret_from_the_environment() {
     sandbox.refuse(BLUR, &["mine/filter.toml:4: environment: is for a program"]);
 }
 
-/// Shell line that leaves a process behind in a session of its own; `pid` names it.
+/// Shell line that leaves a process behind in its own session; `pid` names it.
 #[cfg(target_os = "linux")]
 const LEAVES_ONE: &str = "(setsid sh -c 'echo $$ > pid.new; mv pid.new pid; exec sleep 300' &)\n\
                           while [ ! -e pid ]; do sleep 0.01; done";

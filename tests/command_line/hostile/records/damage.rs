@@ -1,4 +1,4 @@
-//! Changed numbers and lists of a run.json. Each must give a report, or an error that names the file.
+//! Changed numbers and lists of a run.json. Each must lead to a report, or to an error that names the file.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -16,7 +16,7 @@ use tests::text::assert_contains;
 use crate::rows::rows;
 use crate::sandbox::{Sandbox, assert_refused, split};
 
-/// Collects the JSON pointers of all values. Of cases and objects it takes only the first: the others are alike.
+/// Collects the JSON pointers of all values, but only of the first case and object: the others are alike.
 fn pointers(value: &Value, at: &str, all: &mut Vec<String>) {
     all.push(at.to_owned());
     match value {
@@ -66,7 +66,7 @@ fn read_everywhere(changed: &Path, whole: &StoredRun) -> Result<(), Error> {
     write_report(&side.run, &[], folder, &page, LARGEST_PAGE).map(drop)
 }
 
-/// Changes every value of a run.json; each gets this many hostile ones, and scores, which are many and alike, get one.
+/// Changes every value of a run.json `most` times; scores, which are many and alike, once.
 fn change_values(most: usize) {
     let sandbox = Sandbox::new();
     // Broken and too strict bounds have evidence.

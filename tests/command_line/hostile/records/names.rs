@@ -1,4 +1,4 @@
-//! Names of scenes: in every script, with an @, with odd characters.
+//! Names of scenes: in all scripts, with an @, with odd characters.
 
 use std::fs;
 

@@ -12,7 +12,7 @@ const FRAME: &str = "out/plate/frame.exr";
 const OUTPUT: &str = "out/plate/identity_default/output.exr";
 const ERRORS: &str = "out/plate/identity_default/errors.exr";
 
-/// Scores the picture that is named next.
+/// Words that score the picture named after them.
 const SCORE: &str = "score --truth out/plate/truth_trailing.exr --frame out/plate/frame.exr --ladder out/plate/ladder_trailing --image";
 const PAGE: &str = "report out --html page.html";
 const LAYERS: &str = "report out --exr layers";
@@ -43,7 +43,7 @@ fn headers_with_huge_claims_are_refused_before_allocation() {
     }
 }
 
-/// Changes a file of the run, with a valid checksum, while it runs commands that must be refused.
+/// Changes a file of the run, with a valid checksum, and runs commands that must refuse it.
 #[track_caller]
 fn refuse_altered(
     sandbox: &Sandbox,
@@ -108,7 +108,7 @@ fn a_truth_or_frame_with_missing_or_invalid_numbers_is_refused() {
     }
 }
 
-/// Makes the picture of a file larger; what is new is like its first pixel.
+/// Enlarges a file's picture by repeating its first pixel.
 pub fn enlarge(file: &mut ExrFile) {
     (file.width, file.height) = (file.width + 4, file.height + 4);
     let count = (file.width * file.height) as usize;
@@ -146,7 +146,7 @@ fn pictures_with_invalid_numbers_are_refused_or_shown() {
     let place = "holds NaN at pixel (30, 16)";
     let nan = |file: &mut ExrFile| fill(file, |_| true, 64 * 16 + 30, f32::NAN);
     refuse_altered(&sandbox, OUTPUT, nan, &[PAGE], &["output.exr", place]);
-    // The square of such a radiance overflows.
+    // The square of this radiance overflows.
     let bright = |file: &mut ExrFile| fill(file, |name| name == "R", 2 * 64 + 9, 1e30);
     let score = format!("{SCORE} {OUTPUT}");
     let parts = [

@@ -1,4 +1,4 @@
-//! Kinds, sizes, names and places of files.
+//! Types, sizes, names and places of files.
 
 use std::fs;
 use std::path::Path;
@@ -36,8 +36,7 @@ fn an_irregular_file_is_refused_before_it_is_opened() {
                 _ => fs::remove_file(sandbox.path("scenes/plate").join(file)).unwrap(),
             }
             make(&sandbox.path("scenes/plate").join(file));
-            // This runs in the test's own process, since there are so many cases. A file that gets opened after all
-            // hangs the test.
+            // This runs in the test's own process, since there are so many cases. The test hangs if a file is opened after all.
             let error = tracer::load_scene(sandbox.path("scenes/plate"), None).unwrap_err();
             let parts = [place, found, "where a regular file is expected"];
             assert_contains(&error.to_string(), &parts);

@@ -6,7 +6,7 @@ mod sizes;
 
 use crate::sandbox::{SCENE, Sandbox};
 
-/// Renders the plate as little as possible, in a process of its own.
+/// Renders as little of the plate as possible, in its own process.
 const RENDER: &str =
     "truths render --quiet --scenes plate --size 16x16 --samples-per-pixel 16 --out out";
 

@@ -10,18 +10,18 @@ fn with_more(sandbox: &Sandbox, more: &str) {
     sandbox.write("scene.toml", &format!("{SCENE}{more}"));
 }
 
-/// Writes objects with more lines each.
+/// Writes objects with additional lines.
 fn objects(count: usize, more: impl Fn(usize) -> String) -> String {
     let object = |at| format!("[object.o{at}]\nmesh = \"plate.obj\"\n{}\n", more(at));
     (0..count).map(object).collect()
 }
 
-/// Writes objects with nothing else.
+/// Writes objects without additional lines.
 fn plain(count: usize) -> String {
     objects(count, |_| String::new())
 }
 
-/// Attaches every object to the one before it, in chains of this length.
+/// Attaches every object to the previous one, in chains of this length.
 fn chained(length: usize) -> impl Fn(usize) -> String {
     move |at| match at % length {
         0 => String::new(),
@@ -29,8 +29,8 @@ fn chained(length: usize) -> impl Fn(usize) -> String {
     }
 }
 
-/// Runs `load`, and fails if it takes long. Each of these cases once took minutes, or grew with the square or the cube
-/// of its size, and now takes about 0.2 s. The limit leaves room for a slow and busy machine.
+/// Runs `load`, and fails if it takes long. Each of these cases once took minutes, or grew with the square or the cube of its
+/// size, and now takes about 0.2 s. The limit allows for a slow and busy machine.
 #[track_caller]
 fn loads_soon<T>(load: impl FnOnce() -> T) -> T {
     let start = Instant::now();

@@ -16,36 +16,36 @@ use crate::commands::calibrate::list_seeds;
 use crate::commands::render::RenderArgs;
 use crate::commands::run::RunArgs;
 
-/// A process of this program: a line of a plan.
+/// A process of this program: one line of a plan.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Job {
-    /// Name, which no other job has.
+    /// Unique name.
     pub job: String,
-    /// Words behind the program's name.
+    /// Words after the program's name.
     pub arguments: Vec<String>,
-    /// Files that must be there before it starts.
+    /// Files that must exist before it starts.
     pub inputs: Vec<String>,
-    /// Files that are there once it has ended.
+    /// Files that exist after it ends.
     pub outputs: Vec<String>,
     /// Expected time on one core, in seconds.
     pub cpu_seconds: f64,
-    /// Expected memory at the most, in bytes.
+    /// Expected peak memory, in bytes.
     pub memory: u64,
 }
 
 impl Job {
-    /// Makes a job of its cost, without words and files.
+    /// Makes a job from its cost, without words and files.
     fn new(job: &str, cost: JobCost) -> Self {
         Self {
             job: job.to_owned(),
-            // Estimates are not known to more.
+            // Estimates are no more precise.
             cpu_seconds: (cost.cpu_seconds * 10.0).ceil() / 10.0,
             memory: cost.memory,
             ..Self::default()
         }
     }
 
-    /// Makes a job that reads what all others made, in no time.
+    /// Makes a job that reads the outputs of all others and needs no time.
     fn last_of(jobs: &[Self], job: &str) -> Self {
         let cost = JobCost {
             cpu_seconds: 1.0,
@@ -55,7 +55,7 @@ impl Job {
     }
 }
 
-/// Lists all jobs of a run, or of a calibration of some runs; each comes after those whose outputs it needs.
+/// Lists all jobs of a run or a calibration; each comes after the jobs that produce its inputs.
 pub fn list_jobs(
     args: &MeasureArgs,
     parts: Option<&Path>,
@@ -78,7 +78,7 @@ pub fn list_jobs(
     }
 }
 
-/// Planner of the jobs of one run: the only one, or that of a seed.
+/// Planner of one run's jobs: the only run, or a seed's.
 #[derive(Clone)]
 struct Planner<'a> {
     given: &'a ArgMatches,
@@ -107,7 +107,7 @@ impl Planner<'_> {
         Ok(jobs)
     }
 
-    /// One run per seed, and the command itself, which reads all of them back.
+    /// Lists one run per seed, then the calibration itself, which reads them all.
     fn jobs_of_calibration(&self, runs: u32) -> Result<Vec<Job>, Error> {
         let command = words(["limits", "calibrate"]);
         let (mut jobs, mut inputs) = (Vec::new(), Vec::new());
@@ -130,7 +130,7 @@ impl Planner<'_> {
         Ok(jobs)
     }
 
-    /// Lists the truths of every scene, references and filters, and the merge, which records this command line as one of `command`.
+    /// Lists the truths of every scene, references and filters, and the merge, which records this command line as `command`'s.
     fn list_jobs(&self, command: Vec<String>) -> Result<Vec<Job>, Error> {
         let mut jobs = Vec::new();
         let mut parts = Vec::new();
@@ -180,7 +180,7 @@ impl Planner<'_> {
         job.inputs = scene.files.clone();
         for frame in 0..self.plan.frames.count {
             let folder = self.truths().join(scene.id.at_frame(frame).folder());
-            // The last file that a render writes of a truth is that of its ladder.
+            // A render writes a truth's ladder last.
             let truths = names.iter().flat_map(|name| {
                 [
                     format!("truth_{name}.exr"),
@@ -194,7 +194,7 @@ impl Planner<'_> {
         Ok(job)
     }
 
-    /// Measures one filter, or the references of all where none is given.
+    /// Makes the job that measures one filter, or all references if none is given.
     fn case_job(
         &self,
         scene: &SceneWords,
@@ -218,7 +218,7 @@ impl Planner<'_> {
             job.arguments.extend_from_slice(&filter.options);
             job.inputs.extend_from_slice(&filter.files);
         }
-        // What an engine drew has its truth beside it.
+        // A scene that an engine drew includes its truth.
         if scene.is_rendered {
             let truths = path_word(&self.truths())?;
             job.arguments.extend(words(["--truths", &truths]));
@@ -249,7 +249,7 @@ impl Planner<'_> {
         seed.unwrap_or_default() + job
     }
 
-    /// Adds the words that all jobs of a scene have, and the options of this command line.
+    /// Adds the words that all jobs of a scene share, and this command line's options.
     fn push_own<A: Args>(
         &self,
         job: &mut Job,

@@ -1,4 +1,4 @@
-//! Words of the command lines of jobs: options as this command line gives them, scenes, and filters.
+//! Command-line words of jobs: this command line's options, scenes, and filters.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -12,7 +12,7 @@ use tracer::SceneId;
 use crate::arguments::MeasureArgs;
 use crate::selection::{select_engine_scenes, select_scenes};
 
-/// Options that are in the words of scenes and filters, or that no job gets.
+/// Options that are part of the words of scenes and filters, or that no job gets.
 const LEFT_OUT: [&str; 8] = [
     "seal",
     "frame-rate",
@@ -24,12 +24,12 @@ const LEFT_OUT: [&str; 8] = [
     "json",
 ];
 
-/// Makes words of a fixed number.
+/// Makes words from a fixed number of texts.
 pub fn words<const N: usize>(words: [&str; N]) -> Vec<String> {
     words.map(str::to_owned).to_vec()
 }
 
-/// Adds the options of this command line that the command with the arguments `A` has as well and `job` does not have yet.
+/// Adds the options of this command line that the command with arguments `A` also has and `job` lacks.
 pub fn push_given<A: Args>(job: &mut Vec<String>, given: &ArgMatches) -> Result<(), Error> {
     let own = job.clone();
     for option in A::augment_args(Command::new("job")).get_arguments() {
@@ -54,7 +54,7 @@ pub fn push_given<A: Args>(job: &mut Vec<String>, given: &ArgMatches) -> Result<
     Ok(())
 }
 
-/// Lists the words of this command line behind its name, without the options that only a plan has.
+/// Lists the words of this command line after its name, without the plan's own options.
 pub fn words_behind() -> Result<Vec<String>, Error> {
     let all = std::env::args_os().skip_while(|word| word != "plan");
     let mut all = all.skip(1).map(as_text);
@@ -84,7 +84,7 @@ fn as_text(word: OsString) -> Result<String, Error> {
     })
 }
 
-/// Writes a folder as a word that no name is taken for.
+/// Writes a folder as a word that cannot be mistaken for a name.
 fn folder_word(folder: &Path) -> Result<String, Error> {
     let word = path_word(folder)?;
     Ok(match word.contains(['/', '\\']) {
@@ -93,7 +93,7 @@ fn folder_word(folder: &Path) -> Result<String, Error> {
     })
 }
 
-/// Lists the regular files in a folder and below, in order: inputs of a job.
+/// Lists the regular files in and below a folder in order, as inputs of a job.
 fn files_below(folder: &Path) -> Result<Vec<String>, Error> {
     let fail = |source| frame::FileError::io(folder, "read", source);
     let mut entries: Vec<PathBuf> = (std::fs::read_dir(folder).map_err(fail)?)
@@ -116,15 +116,15 @@ fn files_below(folder: &Path) -> Result<Vec<String>, Error> {
 pub struct SceneWords {
     /// Word for `--scenes`.
     pub word: String,
-    /// Identity, which no other scene of the plan has.
+    /// Identity, unique in the plan.
     pub id: SceneId,
-    /// True if its frame and truths are rendered, and false if an engine drew them.
+    /// True if its frame and truths are rendered, false if an engine drew them.
     pub is_rendered: bool,
     /// Its files on disk.
     pub files: Vec<String>,
 }
 
-/// Lists the scenes in the order of the plan: those that are rendered, then those that engines drew.
+/// Lists the scenes in the plan's order: rendered ones, then those that engines drew.
 pub fn list_scene_words(args: &MeasureArgs, plan: &RunPlan) -> Result<Vec<SceneWords>, Error> {
     let scenes = &args.scenes;
     let root = &scenes.root.scenes_dir;
@@ -155,20 +155,20 @@ pub fn list_scene_words(args: &MeasureArgs, plan: &RunPlan) -> Result<Vec<SceneW
     Ok(all)
 }
 
-/// Some presets of one filter, which one job measures.
+/// Some presets of one filter for one job.
 #[derive(Clone)]
 pub struct FilterWords {
-    /// Name of the job's folder, which no other filter of the plan has.
+    /// Name of the job's folder, unique in the plan.
     pub name: String,
     /// Its presets and overrides as options.
     pub options: Vec<String>,
     /// Number of presets.
     pub presets: usize,
-    /// Files of a filter of the user's own.
+    /// Files of a user's own filter.
     pub files: Vec<String>,
 }
 
-/// Groups the presets of a plan by their filters, in the order of the plan.
+/// Groups a plan's presets by filter, in the plan's order.
 pub fn list_filter_words(args: &MeasureArgs, plan: &RunPlan) -> Result<Vec<FilterWords>, Error> {
     let place = |filter: &Filter| (filter.name.clone(), filter.folder.clone());
     let groups = (plan.filters).chunk_by(|one, other| place(&one.filter) == place(&other.filter));

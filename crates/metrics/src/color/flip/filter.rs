@@ -1,4 +1,4 @@
-//! Filters of one picture, row by row: what the eye keeps of it.
+//! Filters of one picture, row by row, as the eye filters it.
 
 use frame::Image;
 use pulp::Simd;
@@ -7,7 +7,7 @@ use super::space::{to_lab, to_opponent, tone_map};
 use super::weights::Weights;
 use crate::math::lines::{correlate, correlate_down};
 
-/// Lines that are kept of a row: three of CIELab, and the strengths of edges and of points.
+/// Lines kept per row: three of CIELab, and the strengths of edges and of points.
 pub const LINES: usize = 5;
 
 /// Pixels that are filtered at a time: their sums stay in registers.
@@ -19,10 +19,10 @@ const SUMS: usize = 8;
 /// Lines of a row that was filtered along itself: four for contrast, three for features.
 const FILTERED_ALONG: usize = 7;
 
-/// Brings pixels to linear values in [0, 1].
+/// Conversion of pixels to linear values in [0, 1].
 #[derive(Clone, Copy)]
 pub enum Exposure {
-    /// They are such values.
+    /// They are linear already.
     Display,
     /// They are radiance, to be multiplied by this and mapped by the ACES curve.
     Factor(f32),
@@ -33,13 +33,13 @@ pub struct RowFilter<'a> {
     image: &'a Image,
     exposure: Exposure,
     weights: &'a Weights,
-    /// Pixels beside a row that filters reach.
+    /// Pixels before and after a row that filters reach.
     reach: usize,
     /// Length of a line, a multiple of [`LANES`].
     stride: usize,
     /// Opponent colours of one row and its lightness from 0 to 1, with the outermost pixels repeated.
     padded: [Vec<f32>; 4],
-    /// The last rows that were filtered along themselves, as many as filters reach over, each in the place of its number.
+    /// The last rows, filtered along themselves, as many as filters reach over; each has the slot of its number.
     recent: Vec<f32>,
     /// First row that was not yet filtered along itself.
     next: usize,
@@ -64,7 +64,7 @@ impl<'a> RowFilter<'a> {
         }
     }
 
-    /// Returns the length of a line: a multiple of [`LANES`] that holds a row.
+    /// Returns the length of a line: the least multiple of [`LANES`] that a row fits in.
     pub fn stride(image: &Image) -> usize {
         (image.width as usize).next_multiple_of(LANES)
     }
@@ -78,7 +78,7 @@ impl<'a> RowFilter<'a> {
             self.next += 1;
         }
         let slots = 2 * self.reach + 1;
-        // Beyond the border lie copies of the outermost row.
+        // The outermost row is repeated beyond the border.
         let starts: Vec<usize> = (0..slots)
             .map(|tap| {
                 let row = (y + tap).saturating_sub(self.reach).min(last);
@@ -91,7 +91,7 @@ impl<'a> RowFilter<'a> {
         &self.lines
     }
 
-    /// Filters row `y` along itself, and keeps that among the recent rows.
+    /// Filters row `y` along itself, and stores it among the recent rows.
     #[inline(always)]
     fn filter_along<S: Simd>(&mut self, simd: S, y: usize) {
         let width = self.image.width as usize;

@@ -9,7 +9,7 @@
 //! |---|---|
 //! | `weights` | weights of the filters |
 //! | `space` | conversions of colour |
-//! | `filter` | filters of one picture: what the eye keeps of it |
+//! | `filter` | filters of one picture, as the eye filters it |
 //! | `seen` | pictures as the eye sees them, and their difference |
 
 mod filter;
@@ -81,7 +81,7 @@ impl SeenExposures {
         )
     }
 
-    /// Maps FLIP of a picture: light of a display, or scene-linear radiance, as the truth is.
+    /// Maps FLIP of a picture in the truth's form: light of a display, or scene-linear radiance.
     pub fn map_errors(&self, output: &Image) -> Plane {
         let mut map = Raster::filled(output.width, output.height, 0.0);
         for (exposure, seen) in &self.0 {

@@ -58,7 +58,8 @@ fn assert_equal(found: &Plane, expected: &[f32]) {
     let apart = found.pixels.iter().zip(expected);
     let apart = apart.map(|(found, expected)| (found - expected).abs());
     let largest = apart.fold(0.0, f32::max);
-    // Sums are the same; powers are rounded from 64 bits, and the library's by at most a little more than half a step.
+    // Sums are the same; our powers are rounded from 64 bits, and the library's are off
+    // by little more than half a step.
     assert!(
         largest <= 1e-6,
         "{largest} at {}x{}",

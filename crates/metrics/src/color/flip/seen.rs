@@ -9,7 +9,7 @@ use super::space::{distance, largest_distance};
 use super::weights::Weights;
 use crate::math::power::power;
 
-/// Rows that are filtered one after another: more make pictures of few rows wait for one thread, fewer filter more rows twice.
+/// Rows filtered by one thread: more leave threads idle on pictures of few rows, fewer filter more rows twice.
 const BAND: usize = 64;
 
 /// A picture as the eye sees it at one exposure.
@@ -84,7 +84,7 @@ struct CompareBand<'a> {
     truth: &'a Seen,
     errors: &'a mut [f32],
     width: usize,
-    /// Error of green against blue, the largest that colours make.
+    /// Error of green against blue, the largest of all colours.
     largest: f32,
 }
 
@@ -127,7 +127,7 @@ fn compare(
     [l, a, b, edges, points]: &[[f32; LANES]; LINES],
     [seen_l, seen_a, seen_b, seen_edges, seen_points]: &[[f32; LANES]; LINES],
 ) -> [f32; LANES] {
-    /// Part of the largest distance up to which errors are spread over all but a twentieth of the range.
+    /// Distances up to this part of the largest are spread over 95 % of the range.
     const NEAR: f32 = 0.4;
     const NEAR_RANGE: f32 = 0.95;
     let near = NEAR * largest;

@@ -78,7 +78,7 @@ pub fn to_lab<const LANES: usize>([first, second, third]: &mut [[f32; LANES]; 3]
     }
 }
 
-/// Returns the largest distance of two colours of a display: that of green and blue, raised to 0.7.
+/// Returns the largest distance of two display colours: green to blue, raised to 0.7.
 pub fn largest_distance() -> f32 {
     let [green, blue] = [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|color| {
         let [x, y, z] = multiply(&TO_XYZ, color);
@@ -94,7 +94,7 @@ pub fn distance(one: [f32; 3], other: [f32; 3]) -> f32 {
     (one[0] - other[0]).abs() + (a * a + b * b).sqrt()
 }
 
-/// Bends a part of white as CIELab does: a cube root, which ends in a line.
+/// Applies CIELab's curve to a part of white: a cube root, and a line near 0.
 #[inline(always)]
 fn bend(value: f32) -> f32 {
     const LEAST: f32 = 6.0 / 29.0;
@@ -108,7 +108,7 @@ fn bend(value: f32) -> f32 {
     }
 }
 
-/// Makes CIELab of bent parts of white, and adjusts it as Hunt does: dark colours are less colourful.
+/// Computes CIELab from curved parts of white, with Hunt's adjustment: dark colours are less colourful.
 #[inline(always)]
 fn adjust([x, y, z]: [f32; 3]) -> [f32; 3] {
     let lightness = 116.0 * y - 16.0;

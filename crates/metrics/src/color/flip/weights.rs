@@ -31,7 +31,7 @@ fn compute_contrast_weights() -> [Vec<f32>; 4] {
         let (height, width) = TERMS[filter];
         let peak = match filter {
             0 | 1 => height * (PI / width).sqrt(),
-            // A sum of two Gaussians is no product; the root of each is one.
+            // A sum of two Gaussians is not separable; each Gaussian is, by the root of its peak.
             _ => (height * (PI / width).sqrt()).sqrt(),
         };
         let weigh = |at: i32| {

@@ -12,7 +12,7 @@ use super::{Boxes, EdgeRay, LEAF, Lanes, SlabRay, Triangles, WIDTH};
 pub(crate) struct Avx2(V3);
 
 impl Avx2 {
-    /// The instructions; none where the processor lacks them.
+    /// The instructions; none if the processor lacks them.
     pub fn detect() -> Option<Self> {
         V3::try_new().map(Self)
     }

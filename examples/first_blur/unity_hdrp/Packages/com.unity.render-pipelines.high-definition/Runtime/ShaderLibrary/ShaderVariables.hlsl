@@ -1,4 +1,4 @@
-// What this blur needs of HDRP's file of this name and of those that it includes, in words of our own, for one eye.
+// The parts that this blur needs of HDRP's file of this name and of its includes, in our own words, for one eye.
 #define TEXTURE2D_X(name) Texture2D<float4> name
 #define RW_TEXTURE2D_X(type, name) RWTexture2D<type> name
 #define COORD_TEXTURE2D_X(pixel) pixel

@@ -1,4 +1,4 @@
-// What this blur needs of the file of this name, in words of our own.
+// The parts that this blur needs of the file of this name, in our own words.
 TEXTURE2D_X(_BlitTexture);
 
 struct Varyings
