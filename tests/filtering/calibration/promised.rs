@@ -65,6 +65,8 @@ pub fn stated_lengths(filter: &str, preset: &str) -> RangeInclusive<f64> {
         // Noise adds its own length, on each axis separately: least on diagonals.
         ("realism_effects", _) => 1.29..=1.51,
         ("bevy", "msaa") => 0.955..=1.025,
+        ("urp", _) => 0.995..=1.045,
+        ("kino", "mended") => 0.775..=0.925,
         ("kino", _) => 0.72..=0.78,
         ("jimenez", "hdrp" | "hdrp_mirrored") => 1.00..=1.03,
         ("jimenez", "kajiya") => 1.00..=1.08,
