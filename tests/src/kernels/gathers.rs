@@ -154,3 +154,22 @@ pub fn realism_effects(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     });
     taps.chain([own(1.0)]).collect()
 }
+
+/// Places the taps of Unity's URP, at the nearest pixels: even steps, all shifted back by noise.
+pub fn urp(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
+    let pairs = match preset {
+        "default" | "mended" => 2,
+        "medium" => 3,
+        "high" => 4,
+        _ => panic!("say here how many taps {preset} has"),
+    };
+    let strength = if preset == "mended" { 1.0 } else { 2.0 };
+    let trail = scaled(steady.trail(), strength);
+    let parts = (1 - pairs..=pairs).map(|i| (f64::from(i) - noise) / f64::from(2 * pairs));
+    parts
+        .map(|part| Tap {
+            offset: scaled(trail, part).map(nearest),
+            weight: 1.0,
+        })
+        .collect()
+}
