@@ -153,7 +153,7 @@ fn read_document(folder: &TempDir) -> Value {
 /// Exports a scene to a folder, or returns why not.
 fn export(scene: &Scene) -> Result<TempDir, String> {
     let folder = tempfile::tempdir().unwrap();
-    match export_gltf(scene, &tests::scenes().into(), "test", folder.path()) {
+    match export_gltf(scene, &tests::scenes().into(), "test", folder.path(), 4) {
         Ok(_) => Ok(folder),
         Err(error) => Err(error.to_string()),
     }
@@ -163,6 +163,7 @@ fn export(scene: &Scene) -> Result<TempDir, String> {
 fn assert_plays(scene: &Scene) {
     let folder = export(scene).unwrap_or_else(|error| panic!("{error}"));
     let played = Played::read(folder.path());
+    let by_components = Played::read(folder.path()).by_components();
     let timeline = Timeline::of(scene);
     let mut random = Random::new(7);
     for _ in 0..TIMES {
@@ -173,6 +174,8 @@ fn assert_plays(scene: &Scene) {
         for (index, object) in scene.objects.iter().enumerate() {
             let own = scene.object_to_world(index, time);
             let found = played.to_world(index + 1, seconds);
+            assert_close(scene, &object.name, time, own, found);
+            let found = by_components.to_world(index + 1, seconds);
             assert_close(scene, &object.name, time, own, found);
         }
     }
