@@ -19,49 +19,37 @@ const NO_OBJECT: u32 = u32::MAX;
 /// Upper limit on an object's id.
 const LARGEST_ID: f32 = 65535.0;
 
-/// Place of a buffer other than colour.
-pub struct BufferFile {
-    /// Name of its own file, without an ending.
-    pub stem: &'static str,
-    /// First channel of Blender's pass, in a file of several.
-    pub pass: &'static str,
-}
-
-pub const VELOCITY: BufferFile = BufferFile {
-    stem: "velocity",
-    pass: "Vector.X",
-};
-pub const DEPTH: BufferFile = BufferFile {
-    stem: "depth",
-    pass: "Depth.Z",
-};
-pub const OBJECT: BufferFile = BufferFile {
-    stem: "object",
-    pass: "IndexOB.X",
-};
-/// First channel of Blender's pass of colours.
-const COMBINED: &str = "Combined.R";
-
 /// Endings of colours' files.
 pub const COLOR_ENDINGS: [&str; 3] = ["exr", "png", "raw"];
 /// Endings of other buffers' files.
 const BUFFER_ENDINGS: [&str; 2] = ["exr", "raw"];
-/// Files that may hold several passes.
+/// Files that may hold several buffers.
 const SHARED_FILES: [&str; 2] = ["buffers.exr", "color.exr"];
+/// Channels of Blender's passes, after the name of a view layer, and their names elsewhere.
+const PASSES: [(&str, &str); 7] = [
+    ("Combined.R", "R"),
+    ("Combined.G", "G"),
+    ("Combined.B", "B"),
+    ("Vector.X", "velocity.X"),
+    ("Vector.Y", "velocity.Y"),
+    ("Depth.Z", "Z"),
+    ("IndexOB.X", "object"),
+];
 
 /// Finds the file of a picture, whatever its ending; none if there is none.
 pub fn find_picture(folder: &Path, stem: &str) -> Result<Option<PathBuf>, Error> {
     find_file(folder, stem, &COLOR_ENDINGS)
 }
 
-/// Finds the file of a buffer: its own, or one with Blender's passes. None if there is neither.
-pub fn find_buffer(folder: &Path, buffer: &BufferFile) -> Result<Option<PathBuf>, Error> {
-    let own = find_file(folder, buffer.stem, &BUFFER_ENDINGS)?;
+/// Finds the file of another buffer: its own, or one of several buffers that has its channel. None if there is neither.
+pub fn find_buffer(folder: &Path, stem: &str, channel: &str) -> Result<Option<PathBuf>, Error> {
+    let own = find_file(folder, stem, &BUFFER_ENDINGS)?;
     if own.is_some() {
         return Ok(own);
     }
-    for path in SHARED_FILES.map(|name| folder.join(name)) {
-        if path.is_file() && find_pass(&read_exr(&path)?, buffer.pass)?.is_some() {
+    let shared = SHARED_FILES.map(|name| folder.join(name));
+    for path in shared.into_iter().filter(|path| path.is_file()) {
+        if read_passes(&path)?.has_channel(channel) {
             return Ok(Some(path));
         }
     }
@@ -75,7 +63,7 @@ fn find_file(folder: &Path, stem: &str, endings: &[&str]) -> Result<Option<PathB
         (Some(one), Some(other)) => refuse!(
             other,
             "is in one folder with {}; remove one of them",
-            one.file_name().unwrap_or_default().display()
+            one.display()
         ),
         (one, _) => Ok(one),
     }
@@ -100,14 +88,9 @@ pub fn read_color(
         true => scene_linear(&read_png(path)?, description.stops.unwrap_or(0.0)),
         false => {
             let file = open(path, description, "color")?;
-            let pass = find_pass(&file, COMBINED)?;
-            let layer = pass.map_or("", |name| &name[..name.len() - ".R".len()]);
-            let names = ["R", "G", "B"].map(|name| match layer {
-                "" => name.to_owned(),
-                layer => format!("{layer}.{name}"),
-            });
+            let names = ["R", "G", "B"];
             check_finite(&file, &names)?;
-            file.color(layer)?
+            file.color("")?
         }
     };
     check_sides(path, (color.width, color.height))?;
@@ -116,20 +99,14 @@ pub fn read_color(
 
 /// Reads velocity as the engine stores it.
 pub fn read_velocity(path: &Path, description: &CaptureDescription) -> Result<Vectors, Error> {
-    let file = open(path, description, VELOCITY.stem)?;
-    let pass = find_pass(&file, VELOCITY.pass)?;
-    let pass = pass.map(|x| [x.to_owned(), format!("{}Y", &x[..x.len() - 1])]);
+    let file = open(path, description, "velocity")?;
     let pairs = [["velocity.X", "velocity.Y"], ["X", "Y"], ["R", "G"]];
-    let pairs = pairs.map(|pair| pair.map(str::to_owned));
-    let has_both = |pair: &[String; 2]| pair.iter().all(|name| file.has_channel(name));
-    let Some(names) = pass.into_iter().chain(pairs).find(has_both) else {
-        return refuse_channels(
-            &file,
-            "velocity.X and velocity.Y, X and Y, R and G, or Blender's pass Vector",
-        );
+    let has_both = |pair: &&[&str; 2]| pair.iter().all(|name| file.has_channel(name));
+    let Some(names) = pairs.iter().find(has_both) else {
+        return refuse_channels(&file, "velocity.X and velocity.Y, X and Y, or R and G");
     };
-    check_finite(&file, &names)?;
-    let [x, y] = names.map(|name| file.plane(&name));
+    check_finite(&file, names)?;
+    let [x, y] = names.map(|name| file.plane(name));
     Ok(x?.zip(&y?, |x, y| [*x, *y]))
 }
 
@@ -139,8 +116,8 @@ pub fn read_depth(
     convention: &Convention,
     description: &CaptureDescription,
 ) -> Result<Plane, Error> {
-    let file = open(path, description, DEPTH.stem)?;
-    let name = find_channel(&file, DEPTH.pass, &["Z", "R", "depth"])?;
+    let file = open(path, description, "depth")?;
+    let name = find_channel(&file, &["Z", "R", "depth"])?;
     let depth = file.plane(name)?;
     let from_0 = -RANGE_ROUNDING..=1.0 + RANGE_ROUNDING;
     let (range, allowed) = match convention.depth {
@@ -170,9 +147,9 @@ const OBJECT_CHANNELS: [&str; 2] = ["object", "object.id"];
 
 /// Reads object ids; 0 is the background, which the file may store as 0, as -1, or as the largest unsigned integer.
 pub fn read_objects(path: &Path, description: &CaptureDescription) -> Result<Raster<u32>, Error> {
-    let file = open(path, description, OBJECT.stem)?;
+    let file = open(path, description, "object")?;
     let names = [OBJECT_CHANNELS[0], OBJECT_CHANNELS[1], "R"];
-    let name = find_channel(&file, OBJECT.pass, &names)?;
+    let name = find_channel(&file, &names)?;
     take_objects(&file, name)
 }
 
@@ -181,14 +158,8 @@ pub fn read_objects_beside_color(path: &Path) -> Result<Option<Raster<u32>>, Err
     if !has_ending(path, "exr") {
         return Ok(None);
     }
-    let file = read_exr(path)?;
-    let pass = find_pass(&file, OBJECT.pass)?;
-    let own = || {
-        OBJECT_CHANNELS
-            .into_iter()
-            .find(|name| file.has_channel(name))
-    };
-    let name = pass.or_else(own);
+    let file = read_passes(path)?;
+    let name = OBJECT_CHANNELS.iter().find(|name| file.has_channel(name));
     name.map(|name| take_objects(&file, name)).transpose()
 }
 
@@ -222,38 +193,42 @@ pub fn check_size<T>(path: &Path, raster: &Raster<T>, color: &Image) -> Result<(
     }
 }
 
-/// Opens the file of a buffer; its name says which layout of `capture.toml` a raw dump has.
+/// Opens the file of a buffer, whose name finds the layout of a raw dump in `capture.toml`.
 fn open(path: &Path, description: &CaptureDescription, buffer: &str) -> Result<ExrFile, Error> {
-    if has_ending(path, "raw") {
-        return match description.raw.get(buffer) {
-            Some(layout) => layout.read(path),
-            None => refuse!(
-                path,
-                "is a raw dump without a layout; add [raw.{buffer}] with width, height, components and type to {CAPTURE_FILE}"
-            ),
-        };
+    match (has_ending(path, "raw"), description.raw.get(buffer)) {
+        (false, _) => read_passes(path),
+        (true, Some(layout)) => layout.read(path),
+        (true, None) => refuse!(
+            path,
+            "is a raw dump without a layout; add [raw.{buffer}] with width, height, components and type to {CAPTURE_FILE}"
+        ),
     }
-    let file = read_exr(path)?;
-    file.expect_no_padding()?;
-    Ok(file)
 }
 
-/// Finds the first channel of a pass, as Blender names it: `ViewLayer.Depth.Z`.
-fn find_pass<'a>(file: &'a ExrFile, pass: &str) -> Result<Option<&'a str>, Error> {
-    let is_pass = |name: &&str| {
-        let layer = name.strip_suffix(pass);
-        layer.is_some_and(|layer| layer.is_empty() || layer.ends_with('.'))
-    };
-    let names = file.channels.iter().map(|channel| channel.name.as_str());
-    let mut found = names.filter(is_pass);
-    match (found.next(), found.next()) {
-        (Some(one), Some(other)) => refuse!(
-            file.path,
-            "has the channels {}; allowed: one view layer; save only the one that the capture shows",
-            printable(&format!("{one} and {other}"))
-        ),
-        (one, _) => Ok(one),
+/// Reads an OpenEXR file. Blender's passes get the names of other engines' channels.
+fn read_passes(path: &Path) -> Result<ExrFile, Error> {
+    let mut file = read_exr(path)?;
+    file.expect_no_padding()?;
+    for (pass, own) in PASSES {
+        let is_pass = |name: &str| {
+            let layer = name.strip_suffix(pass);
+            layer.is_some_and(|layer| layer.is_empty() || layer.ends_with('.'))
+        };
+        let mut found = file.channels.iter_mut().filter(|it| is_pass(&it.name));
+        match (found.next(), found.next()) {
+            (Some(one), Some(other)) => {
+                let names = format!("{} and {}", one.name, other.name);
+                return refuse!(
+                    path,
+                    "has the channels {}; allowed: one view layer; save only the one that the capture shows",
+                    printable(&names)
+                );
+            }
+            (Some(one), None) => one.name = own.to_owned(),
+            (None, _) => {}
+        }
     }
+    Ok(file)
 }
 
 fn check_sides(path: &Path, (width, height): (u32, u32)) -> Result<(), Error> {
@@ -268,12 +243,11 @@ fn check_sides(path: &Path, (width, height): (u32, u32)) -> Result<(), Error> {
     }
 }
 
-/// Finds a pass, or else the first of some channels in a file.
-fn find_channel<'a>(file: &'a ExrFile, pass: &str, names: &[&'a str]) -> Result<&'a str, Error> {
-    let own = || (names.iter().copied()).find(|name| file.has_channel(name));
-    match find_pass(file, pass)?.or_else(own) {
+/// Finds the first of some channels in a file.
+fn find_channel<'a>(file: &ExrFile, names: &[&'a str]) -> Result<&'a str, Error> {
+    match names.iter().find(|name| file.has_channel(name)) {
         Some(name) => Ok(name),
-        None => refuse_channels(file, &format!("one of {}, {pass}", names.join(", "))),
+        None => refuse_channels(file, &format!("one of {}", names.join(", "))),
     }
 }
 
@@ -289,7 +263,7 @@ fn refuse_channels<T>(file: &ExrFile, allowed: &str) -> Result<T, Error> {
 }
 
 /// Refuses a channel with NaN or infinity, and names the pixel.
-fn check_finite(file: &ExrFile, names: &[String]) -> Result<(), Error> {
+fn check_finite(file: &ExrFile, names: &[&str]) -> Result<(), Error> {
     let allowed = "every number must be finite: look for a division by 0 in the engine, or for a half float that overflowed";
     let mut names = names.iter();
     names.try_for_each(|name| {

@@ -9,8 +9,8 @@ use store::read_text;
 use suite::Error;
 
 use crate::capture::buffers::{
-    BufferFile, COLOR_ENDINGS, DEPTH, OBJECT, VELOCITY, check_size, find_buffer, find_picture,
-    is_png, read_color, read_depth, read_objects, read_objects_beside_color, read_velocity,
+    COLOR_ENDINGS, check_size, find_buffer, find_picture, is_png, read_color, read_depth,
+    read_objects, read_objects_beside_color, read_velocity,
 };
 use crate::capture::description::{CAPTURE_FILE, CaptureDescription};
 use crate::capture::half_floats::{are_halves, rounding_of};
@@ -64,7 +64,11 @@ impl Capture {
         let mut notes = Vec::new();
         notes.extend(is_png(&color_path).then(|| png_note("color.png")));
 
-        let path = require(folder, &VELOCITY, "the motion of every pixel")?;
+        let path = require(
+            folder,
+            ["velocity", "velocity.X"],
+            "the motion of every pixel",
+        )?;
         let velocity = read_velocity(&path, &description)?;
         check_size(&path, &velocity, &color)?;
         let is_half = are_halves(velocity.pixels.iter().flatten().copied());
@@ -72,7 +76,7 @@ impl Capture {
         let velocity = convention.restore_velocity(&velocity, exposure);
         notes.extend(is_half.then(|| velocity_note(&path, &velocity)));
 
-        let path = require(folder, &DEPTH, "the distance of every pixel")?;
+        let path = require(folder, ["depth", "Z"], "the distance of every pixel")?;
         let depth = read_depth(&path, &convention, &description)?;
         check_size(&path, &depth, &color)?;
         let is_half = are_halves(depth.pixels.iter().copied());
@@ -80,7 +84,7 @@ impl Capture {
         let depth = convention.restore_depth(&depth);
 
         let mut object_id = None;
-        if let Some(path) = find_buffer(folder, &OBJECT)? {
+        if let Some(path) = find_buffer(folder, "object", "object")? {
             let ids = read_objects(&path, &description)?;
             check_size(&path, &ids, &color)?;
             object_id = Some(ids);
@@ -178,10 +182,11 @@ fn find_velocity_exposure(
     }
 }
 
-fn require(folder: &Path, buffer: &BufferFile, holds: &str) -> Result<PathBuf, Error> {
-    match find_buffer(folder, buffer)? {
+/// Finds the file of a buffer by its name, or by a channel in a file of several buffers.
+fn require(folder: &Path, [stem, channel]: [&str; 2], holds: &str) -> Result<PathBuf, Error> {
+    match find_buffer(folder, stem, channel)? {
         Some(path) => Ok(path),
-        None => refuse_missing(&folder.join(format!("{}.exr", buffer.stem)), holds),
+        None => refuse_missing(&folder.join(format!("{stem}.exr")), holds),
     }
 }
 
