@@ -66,9 +66,9 @@ mutants: software_vulkan
 GROWTH = $(or $(CARGO_TARGET_DIR),target)/tmp/growth
 PROGRAM = $(or $(CARGO_TARGET_DIR),target)/debug/shuttertruth
 
-growth: vulkan python
+growth: software_vulkan python
 	rm -rf "$(GROWTH)"
-	cargo build --workspace --locked --bin shuttertruth
+	$(TEST) --no-run
 	"$(PROGRAM)" check --scenes sliding_panel --filter mcguire:paper --size 160x90 --samples-per-pixel 64 --out "$(GROWTH)/small"
 	"$(PYTHON)" examples/growth.py "$(GROWTH)/small" --scenes 100 --filters 94 --out "$(GROWTH)/large" --program "$(PROGRAM)"
 

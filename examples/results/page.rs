@@ -5,10 +5,13 @@ use frame::Alignment;
 use judge::{RANK_RULE, RankedFilter, ResultScores, Results, SizeComparison, compare_sizes};
 use metrics::Metric;
 use serde::Deserialize;
-use suite::{Error, IDENTITY};
+use suite::{Bench, Error, IDENTITY};
 
 /// Engines' shipped presets, without scores.
 const ENGINES: &str = include_str!("../../results/engines.toml");
+
+/// A bench of the presets on a graphics card.
+const BENCH: &str = include_str!("../../results/bench/1920x1080_h100.json");
 
 /// Characters of a line of the page.
 const WIDTH: usize = 135;
@@ -52,6 +55,7 @@ pub fn main_results(all: &[Results]) -> Option<&Results> {
 
 /// Makes the page from files of results: engines' shipped presets, and each shutter's presets next to their ranks in the sealed variants.
 pub fn results_page(all: &[Results]) -> Result<String, Error> {
+    let bench: Bench = serde_json::from_str(BENCH).expect("it is a bench");
     let results = main_results(all).ok_or_else(|| Error::Usage("no file of results".to_owned()))?;
     let sealed = all.iter().find(|own| {
         own.seal.is_some() && own.size == results.size && own.adapter == results.adapter
@@ -63,6 +67,8 @@ pub fn results_page(all: &[Results]) -> Result<String, Error> {
         ("{SAMPLES}", results.samples_per_pixel.to_string()),
         ("{ADAPTER}", results.adapter.clone().unwrap_or_default()),
         ("{RANK_RULE}", RANK_RULE.to_owned()),
+        ("{CARD}", bench.adapter.name.clone()),
+        ("{TIMED_SIZE}", format!("{}x{}", bench.width, bench.height)),
     ];
     let fill = |text: &str| {
         (settings.iter()).fold(text.to_owned(), |text, (key, value)| {
@@ -70,7 +76,7 @@ pub fn results_page(all: &[Results]) -> Result<String, Error> {
         })
     };
     let groups = results.ranking();
-    let mut page = fill(HEAD) + &engines(results, &groups);
+    let mut page = fill(HEAD) + &engines(results, &groups, &bench);
     page += &fill(PRESETS);
     let sealed_groups = sealed.map(Results::ranking).unwrap_or_default();
     for group in &groups {
@@ -112,7 +118,7 @@ const HEAD: &str = "\
 See how close each engine's motion blur comes to path-traced truth, what is wrong with it, and which small change helps most.
 
 Scores are FLIP where anything moves: the mean over {SCENES} scenes at {SIZE}, on {ADAPTER}. Lower is better. *No blur* is the score of
-the sharp frame. Compare scores of one shutter only.
+the sharp frame. Compare scores of one shutter only. *Time* is in milliseconds per frame of {TIMED_SIZE}, on {CARD}.
 
 An engine without an exposure, such as three.js, blurs the same share of every frame's motion. Here its motion is first multiplied by
 the scene's exposure, so its own picture has a longer smear.
@@ -132,12 +138,13 @@ const COMMANDS: &str = "
 These commands make the scores, the pictures and this page. Each run announces the time that it needs:
 
     shuttertruth run --size {SIZE} --samples-per-pixel {SAMPLES} --jitter-frames 0 --out out/results_{SIZE}
+    shuttertruth bench --size {TIMED_SIZE} --out out
     shuttertruth run --seal 1 --size {SIZE} --samples-per-pixel {SAMPLES} --jitter-frames 0 --out out/sealed_{SIZE}
     cargo run -p cli --example results -- out/results_{SIZE}/run.json
     cargo run -p cli --example results -- out/sealed_{SIZE}/run.json
 
 To add a filter, put its folder into `shaders/` and run them with `--filter` and its name. The JSON files next to this page hold every
-score; [engines.toml](engines.toml) holds the sentences about engines. [Picture sizes](studies/picture-sizes.md) uses the files of other
+score, and [one in bench](bench/1920x1080_h100.json) the times; [engines.toml](engines.toml) holds the sentences about engines. [Picture sizes](studies/picture-sizes.md) uses the files of other
 sizes. [What the scores mean](../crates/metrics/README.md).
 ";
 
@@ -174,7 +181,7 @@ fn measured(groups: &[Vec<RankedFilter>]) -> Vec<Measured<'_>> {
 }
 
 /// Makes a table of the engines, and a section for each with its worst picture.
-fn engines(results: &Results, groups: &[Vec<RankedFilter>]) -> String {
+fn engines(results: &Results, groups: &[Vec<RankedFilter>], bench: &Bench) -> String {
     let all = measured(groups);
     let number = |value: f64| Metric::FLIP.number(value);
     let row = |own: &Measured| -> Vec<String> {
@@ -182,7 +189,8 @@ fn engines(results: &Results, groups: &[Vec<RankedFilter>]) -> String {
         let name = format!("{}, `{}`", own.engine.name, own.engine.ships);
         let names = [name, own.shipped.alignment.to_string()];
         let changed = own.changed.map_or("-".to_owned(), number);
-        (names.into_iter().chain(scores).chain([changed])).collect()
+        let time = find_time(bench, &own.engine.ships);
+        (names.into_iter().chain(scores).chain([changed, time])).collect()
     };
     let titles = [
         "engine ships",
@@ -190,6 +198,7 @@ fn engines(results: &Results, groups: &[Vec<RankedFilter>]) -> String {
         "FLIP",
         "no blur",
         "after the change",
+        "time",
     ];
     let mut text = markdown_table(&titles, all.iter().map(row));
     let worse: Vec<&str> = (all.iter())
@@ -220,6 +229,15 @@ fn engines(results: &Results, groups: &[Vec<RankedFilter>]) -> String {
         }
     }
     text
+}
+
+/// Finds the time of a preset in milliseconds; a dash if it was not timed.
+fn find_time(bench: &Bench, name: &str) -> String {
+    let mut cases = bench.cases.iter();
+    let timed = cases.find(|own| format!("{}:{}", own.filter, own.preset) == name);
+    timed.map_or("-".to_owned(), |own| {
+        format!("{:.2}", 1e3 * own.seconds.median)
+    })
 }
 
 /// Names the file of a case's picture: `mcguire_tuned_fan.png`.

@@ -17,6 +17,8 @@ fn a_scene_becomes_a_folder_that_says_when_its_frame_is() {
     let manifest: serde_json::Value = sandbox.read_json("gltf/plate/manifest.json");
     assert_eq!(manifest["objects"][0], "background");
     assert_eq!(manifest["seconds_per_frame"].as_f64(), Some(1.0 / 24.0));
+    let times = ["previous", "instant", "next"].map(|name| manifest[name].as_f64());
+    assert_eq!(times, [1.0, 2.0, 3.0].map(|frame| Some(frame / 24.0)));
 }
 
 #[test]

@@ -19,6 +19,7 @@ mod failures;
 mod fidelity;
 mod finished_sequence;
 mod frame_rates;
+mod further_velocities;
 mod gallery;
 #[cfg(unix)]
 mod growth;

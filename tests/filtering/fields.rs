@@ -19,6 +19,8 @@ impl Field {
         Input {
             color,
             velocity: &self.velocity,
+            velocity_next: None,
+            velocity_z: None,
             depth: &self.depth,
             reprojection: self.reprojection,
             camera: None,

@@ -48,8 +48,8 @@ fn compare(name: &str, names: &[&str], width: u32, as_written: bool) -> (PairedC
     let tuned = presets.find_map(|preset| preset.tuned.as_ref()).unwrap();
     let scenes = held_out(names, &tuned.scenes);
     assert!(scenes.len() >= 5, "{name}: too few scenes are left");
-    let alignment = choice.filter.alignment;
-    let rendered = render_scenes(&scenes, alignment, &render, &out, Monitor::SILENT).unwrap();
+    let filter = &choice.filter;
+    let rendered = render_scenes(&scenes, filter, &render, &out, Monitor::SILENT).unwrap();
     let mut evaluator =
         Evaluator::new(Some(&gpu), &choice, &rendered, true, Monitor::SILENT).unwrap();
     let [published, own] =

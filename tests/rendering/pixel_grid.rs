@@ -68,6 +68,43 @@ fn a_grid_that_is_off_by_whole_pixels_shows_what_lies_beside() {
 }
 
 #[test]
+fn movers_show_through_walls_without_a_depth_test() {
+    let mut scene = drifting_sphere();
+    scene.camera.motion = through([Key::REST]);
+    let free = render_frame(&scene, &settings([WIDTH, HEIGHT]));
+    // A still wall in front of the left half of the picture.
+    add(
+        &mut scene,
+        rectangle(4.0, 4.0),
+        glowing(0.5),
+        placed(DVec3::new(-2.0, 0.0, -1.0)),
+    );
+    let trace = |motion| {
+        let grid = PixelGrid::of_picture(WIDTH, HEIGHT);
+        trace_motion_on(&scene, &settings([WIDTH, HEIGHT]), &motion, &grid).expect("allowed")
+    };
+    let (right, through) = (trace(PointMotion::RIGHT), trace(PointMotion::THROUGH_WALLS));
+    let mut shown = 0;
+    for (x, y) in (0..HEIGHT).flat_map(|y| (0..WIDTH).map(move |x| (x, y))) {
+        let is_sphere = *free.object_id.at(x, y) == 1;
+        assert_eq!(*through.object_id.at(x, y) == 1, is_sphere, "({x}, {y})");
+        let is_hidden = is_sphere && *right.object_id.at(x, y) == 2;
+        shown += usize::from(is_hidden);
+        if !is_hidden {
+            assert_eq!(
+                through.velocity.at(x, y),
+                right.velocity.at(x, y),
+                "({x}, {y})"
+            );
+        } else {
+            assert_eq!(right.velocity.at(x, y), &[0.0; 2]);
+            assert_ne!(through.velocity.at(x, y), &[0.0; 2]);
+        }
+    }
+    assert!(shown > 10, "{shown} pixels of the sphere are hidden");
+}
+
+#[test]
 fn a_grid_of_half_the_size_is_the_picture_at_half_the_size() {
     let half = render_on([WIDTH / 2, HEIGHT / 2], [0.0; 2]);
     let own = render_frame(&drifting_sphere(), &settings([WIDTH / 2, HEIGHT / 2]));

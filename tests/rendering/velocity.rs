@@ -3,7 +3,9 @@
 use frame::{FAR_DEPTH, Frame, VelocityKind};
 use glam::{DQuat, DVec2, DVec3, Vec3};
 use tests::shapes::*;
-use tracer::{Interpolation, Key, Motion, Parent, Scene, Turn};
+use tracer::{
+    Interpolation, Key, Motion, Parent, PixelGrid, Scene, Turn, trace_further_velocities,
+};
 
 use crate::renders::{self, expect_near, settings_with};
 use crate::scenery::{key, through, turned};
@@ -252,6 +254,83 @@ fn points_behind_the_previous_camera_get_the_derivative() {
     let scene = wall_scene(depth, |at| drift(at, speed * DVec3::NEG_Z));
     let derivative = |place: DVec2| -place * speed / depth;
     expect_velocity(&scene, VelocityKind::PreviousFrame, derivative);
+}
+
+/// Samples the motion to the next frame, y up, and the change of depth, at the place of every pixel.
+fn trace_further(scene: &Scene, kind: VelocityKind) -> Vec<(DVec2, DVec2, f64)> {
+    let settings = settings_with([WIDTH, HEIGHT], 1, kind);
+    let grid = PixelGrid::of_picture(WIDTH, HEIGHT);
+    let (next, z) = trace_further_velocities(scene, &settings, &grid).unwrap();
+    let places = (0..HEIGHT).flat_map(|y| (0..WIDTH).map(move |x| pixel_center(x, y)));
+    (places.zip(next.pixels).zip(z.pixels))
+        .map(|((place, next), z)| {
+            let [right, down] = next.map(f64::from);
+            (place, DVec2::new(right, -down), f64::from(z))
+        })
+        .collect()
+}
+
+#[track_caller]
+fn expect_next(found: DVec2, expected: DVec2) {
+    assert!(found.distance(expected) < TOLERANCE, "{found}, {expected}");
+}
+
+#[test]
+fn further_velocities_are_differences_of_places_and_depths() {
+    let (axis, rate) = (DVec3::new(0.6, 0.0, 0.8), 0.3);
+    let centre = DVec3::new(0.3, -0.2, -6.0);
+    let speed = DVec3::new(0.2, -0.1, 0.4);
+    let mut scene = empty_scene("box");
+    let (mesh, motion) = (cuboid(Vec3::new(30.0, 30.0, 2.0)), spin(centre, axis, rate));
+    add(&mut scene, mesh, glowing(1.0), motion);
+    scene.camera.motion = drift(DVec3::ZERO, speed);
+    let seen = |point: DVec3, time: f64| {
+        let turn = DQuat::from_axis_angle(axis, rate * time);
+        centre + turn * (point - centre) - time * speed
+    };
+    for kind in [VelocityKind::Instantaneous, VelocityKind::PreviousFrame] {
+        for (place, next, z) in trace_further(&scene, kind) {
+            let point = point_at(place, 5.0);
+            expect_next(next, project(seen(point, 1.0)) - place);
+            let expected = match kind {
+                VelocityKind::PreviousFrame => seen(point, -1.0).z - point.z,
+                _ => -(rate * axis.cross(point - centre) - speed).z,
+            };
+            expect_near("velocity_z", z, expected, 1e-5);
+        }
+    }
+}
+
+#[test]
+fn a_steady_motion_goes_on_to_the_next_frame_as_it_came() {
+    let mut scene = wall_scene(7.0, |at| drift(at, DVec3::new(0.8, -0.5, 0.0)));
+    scene.camera.motion = drift(DVec3::ZERO, DVec3::new(-0.3, 0.2, 0.0));
+    for kind in VelocityKind::ALL {
+        let velocity = render_frame(&scene, kind).velocity;
+        let further = trace_further(&scene, kind);
+        for ([right, down], (_, next, z)) in velocity.pixels.iter().zip(further) {
+            assert!(*right > 0.4, "{kind}: {right}");
+            expect_next(next, DVec2::new(f64::from(*right), -f64::from(*down)));
+            assert!(z.abs() < 1e-6, "{kind}: {z}");
+        }
+    }
+}
+
+#[test]
+fn the_background_and_what_passes_the_camera_have_further_velocities_too() {
+    let (depth, speed, rate) = (1.0, 3.0, 0.2);
+    let wall = wall_scene(depth, |at| drift(at, speed * DVec3::Z));
+    for (place, next, z) in trace_further(&wall, VelocityKind::PreviousFrame) {
+        expect_next(next, place * speed / depth);
+        expect_near("velocity_z", z, -speed, 1e-6);
+    }
+    let mut sky = empty_scene("background");
+    sky.camera.motion = spin(DVec3::ZERO, DVec3::Y, rate);
+    for (place, next, z) in trace_further(&sky, VelocityKind::Instantaneous) {
+        let later = DQuat::from_rotation_y(rate).inverse() * point_at(place, 1.0);
+        expect_next(next, project(later) - place);
+        assert_eq!(z, 0.0);
+    }
 }
 
 #[test]

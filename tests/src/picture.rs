@@ -111,6 +111,8 @@ impl Picture {
         Input {
             color,
             velocity: &self.velocity,
+            velocity_next: None,
+            velocity_z: None,
             depth: &self.depth,
             exposure: self.exposure,
             frames_per_second: None,
@@ -166,6 +168,8 @@ pub fn frame_input<'a>(frame: &'a Frame, color: &'a [&'a Image]) -> Input<'a> {
     Input {
         color,
         velocity: &frame.velocity,
+        velocity_next: frame.velocity_next.as_ref(),
+        velocity_z: frame.velocity_z.as_ref(),
         depth: &frame.depth,
         reprojection: Some(frame.reprojection.moved(f64::from(frame.guard_band))),
         camera: frame.camera,

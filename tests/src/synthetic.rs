@@ -122,6 +122,8 @@ impl Scene {
             objects: self.names(),
             color: instant.color,
             velocity,
+            velocity_next: None,
+            velocity_z: None,
             depth: seen.map(|id| if *id == 0 { FAR_DEPTH } else { *id as f32 }),
             object_id: seen.map(|id| *id as u32),
             coverage: instant.coverage,

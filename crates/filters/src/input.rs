@@ -15,6 +15,11 @@ pub struct Input<'a> {
     pub color: &'a [&'a Image],
     /// Screen motion in pixels per frame, +x right, +y down.
     pub velocity: &'a Vectors,
+    /// Screen motion from the instant to one frame later, likewise. Filters that read it refuse to run without it.
+    pub velocity_next: Option<&'a Vectors>,
+    /// Change of depth over the interval of `velocity`, in metres per frame; above 0 moves away. Filters that read it refuse to run
+    /// without it.
+    pub velocity_z: Option<&'a Plane>,
     /// Distance along the view axis, in metres; above 0.
     pub depth: &'a Plane,
     /// The camera's motion since the frame before, between places of these rasters. Filters that read it refuse to run
@@ -35,6 +40,7 @@ impl Input<'_> {
     pub(crate) fn check(&self, filter: &Filter, size: [u32; 2]) -> Result<(), FilterError> {
         self.check_values(size)
             .and(self.check_camera(filter.camera_use()))
+            .and(self.check_further(&filter.further_inputs()))
             .map_err(|reason| FilterError::Input {
                 filter: filter.name.clone(),
                 reason,
@@ -49,12 +55,36 @@ impl Input<'_> {
             ));
         }
         check_raster("velocity", self.velocity, size, "finite", find_broken)?;
+        if let Some(next) = self.velocity_next {
+            check_raster("velocity_next", next, size, "finite", find_broken)?;
+        }
+        if let Some(z) = self.velocity_z {
+            check_raster("velocity_z", z, size, "finite", |z| {
+                let index = frame::find_broken(&z.pixels, f32::NEG_INFINITY)?;
+                Some(place_of(z, index))
+            })?;
+        }
         check_raster("depth", self.depth, size, "finite and above 0", |depth| {
             let index = frame::find_broken(&depth.pixels, 0.0)?;
             Some(place_of(depth, index))
         })?;
         (self.color.iter())
             .try_for_each(|color| check_raster("color", color, size, "finite", find_broken))
+    }
+
+    /// Refuses a frame that lacks some of the inputs that a filter reads.
+    fn check_further(&self, reads: &[&str]) -> Result<(), String> {
+        let is_there = |name: &str| match name {
+            "velocity_next" => self.velocity_next.is_some(),
+            _ => self.velocity_z.is_some(),
+        };
+        match reads.iter().find(|name| !is_there(name)) {
+            None => Ok(()),
+            Some(missing) => Err(format!(
+                "the frame has no {missing}, which this filter reads; render it with `truths render --further-velocities`, add it \
+                 to the capture, or choose another filter"
+            )),
+        }
     }
 
     fn check_camera(&self, reads: CameraUse) -> Result<(), String> {

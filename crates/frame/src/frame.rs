@@ -36,6 +36,11 @@ pub struct Frame {
     pub color: Image,
     /// Screen motion over one frame interval at the pixel centre, in pixels; +x right, +y down.
     pub velocity: Vectors,
+    /// Screen motion from the instant to one frame later, of the same points and in the same units. Few filters read it; none in a
+    /// frame that was not asked for it.
+    pub velocity_next: Option<Vectors>,
+    /// Change of depth over the interval of `velocity`, in metres per frame; above 0 moves away. Few filters read it, as above.
+    pub velocity_z: Option<Plane>,
     /// Distance along the view axis at the pixel centre, in metres; [`FAR_DEPTH`] where nothing is seen.
     pub depth: Plane,
     /// The object seen at the pixel centre.
@@ -62,6 +67,8 @@ impl Frame {
             guard_band: 0,
             color: self.color.cropped(band),
             velocity: self.velocity.cropped(band),
+            velocity_next: self.velocity_next.as_ref().map(|it| it.cropped(band)),
+            velocity_z: self.velocity_z.as_ref().map(|it| it.cropped(band)),
             depth: self.depth.cropped(band),
             object_id: self.object_id.cropped(band),
             coverage: self
@@ -83,7 +90,7 @@ impl Frame {
     }
 
     /// Writes the frame as OpenEXR: `R G B`, `Z`, `velocity.X/Y`, `object.id`, `coverage.<object>`,
-    /// `samples`.
+    /// `samples`; `velocity_next.X/Y` and `velocity_z` where it has them.
     pub fn write(&self, path: &Path) -> Result<(), FileError> {
         write_exr(path, &self.to_exr())
     }
@@ -94,8 +101,13 @@ impl Frame {
         let mut file = ExrFile::new(width, height);
         self.picture().move_to(&mut file, "", &self.objects);
         file.push_plane("Z", &self.depth);
-        file.push_plane("velocity.X", &self.velocity.map(|v| v[0]));
-        file.push_plane("velocity.Y", &self.velocity.map(|v| v[1]));
+        file.push_vectors("velocity", &self.velocity);
+        if let Some(next) = &self.velocity_next {
+            file.push_vectors("velocity_next", next);
+        }
+        if let Some(z) = &self.velocity_z {
+            file.push_plane("velocity_z", z);
+        }
         file.channels.push(Channel {
             name: "object.id".into(),
             samples: Samples::U32(self.object_id.pixels.clone()),
@@ -131,7 +143,6 @@ impl Frame {
         let objects = file.objects()?;
         let ids = file.u32s("object.id")?;
         let Picture { color, coverage } = Picture::take_from(&mut file, "", &objects)?;
-        let [x, y] = [file.plane("velocity.X")?, file.plane("velocity.Y")?];
         Ok(Self {
             provenance: Provenance::from_exr(&file)?,
             exposure: read_exposure(&file)?,
@@ -143,11 +154,13 @@ impl Frame {
             display: Display::from_exr(&file)?,
             objects,
             color,
-            velocity: x.zip(&y, |x, y| [*x, *y]),
+            velocity: file.vectors("velocity")?,
+            velocity_next: file.optional("velocity_next.X", || file.vectors("velocity_next"))?,
+            velocity_z: file.optional("velocity_z", || file.plane("velocity_z"))?,
             depth: file.plane("Z")?,
             object_id: ids,
             coverage,
-            samples: (file.has_channel("samples").then(|| file.plane("samples"))).transpose()?,
+            samples: file.optional("samples", || file.plane("samples"))?,
         })
     }
 }

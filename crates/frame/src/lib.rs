@@ -14,6 +14,7 @@
 //! | time | in frames; the frame's instant is `t = 0` |
 //! | shutter | [`Shutter`]`{ open, close }`, frames relative to the instant. Exposure `m = close - open`, 1 being 360 degrees. Trailing is `[-m, 0]`, centred `[-m/2, m/2]`, leading `[0, m]`. The frame never moves; the truth's interval does. [`ShutterProfile`] says how it opens and closes within the interval, and when each row is exposed |
 //! | velocity | screen motion of the surface point seen at the pixel centre over one frame interval, in pixels, +x right, +y down; see [`VelocityKind`]. A background at infinity has the camera's rotational velocity |
+//! | further velocities | only where a filter asks for them: `velocity_next`, the motion from the instant to one frame later, and `velocity_z`, the change of depth in metres per frame over the interval of `velocity`, positive away from the camera |
 //! | depth | distance along the view axis in metres; the background holds [`FAR_DEPTH`] |
 //! | coverage | per object: the fraction of (shutter x pixel area) in which that object is the visible surface; sums to 1 with the background. A translucent surface counts by the share of the light that it stops or reflects |
 //! | lens | a camera may have one. Colour and coverage of frames, and all of a truth, are then means over the points of its disc; velocity, depth and object id belong to a pinhole at its centre. A truth's state at the instant is seen from the same point of the lens, so that it shows motion alone |

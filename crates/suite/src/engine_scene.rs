@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use filters::Filter;
 use frame::{Alignment, FileError, Frame, Ladder, Picture, Provenance, Truth, read_exr};
 use serde::{Deserialize, Serialize};
 use store::{RenderFile, read_text};
@@ -46,6 +47,9 @@ pub struct EngineScene {
     pub ladder: Vec<u32>,
     /// True if the folder has the engine's own blurred picture.
     pub has_picture: bool,
+    /// Inputs of the frame that few filters read: `velocity_next`, `velocity_z`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub further_inputs: Vec<String>,
     /// Hash of the capture.
     pub hash: String,
     /// The folder.
@@ -80,6 +84,16 @@ impl EngineScene {
             "{}: {reason}; make the folder anew with `shuttertruth engine ingest`",
             path.display()
         )))
+    }
+
+    /// Finds what a filter reads and the frame lacks.
+    pub fn find_lacking(&self, filter: &Filter) -> Option<&'static str> {
+        let is_there = |name: &&str| self.further_inputs.iter().any(|own| own == name);
+        let mut further = filter.further_inputs().into_iter();
+        match filter.reads_camera() {
+            true => Some("the camera"),
+            false => further.find(|name| !is_there(name)),
+        }
     }
 
     /// Returns the content hash of the truth.

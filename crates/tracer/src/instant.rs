@@ -11,14 +11,18 @@ use crate::film::pilot::{PILOT_REPLICATES, PILOT_SAMPLES, choose_samples};
 use crate::film::render::{Film, PixelMean, Times, assemble_picture};
 use crate::film::sample_counts::SampleCounts;
 use crate::frame_rate::FrameRate;
+use crate::geometry::ray::{Hit, Ray};
 use crate::material::surface::Sight;
-use crate::motion::velocity::{PointMotion, TrackedPoint, camera, camera_velocity, reprojection};
+use crate::motion::poses::Poses;
+use crate::motion::velocity::{
+    ObjectsBefore, PointMotion, TrackedPoint, camera, camera_velocity, reprojection,
+};
 use crate::path::integrator::Integrator;
 use crate::pixel_grid::{PixelGrid, scale_camera, scale_reprojection};
 use crate::progress::{Meter, Watch};
 use crate::sampler::Stream;
 use crate::scene::Scene;
-use crate::settings::RenderSettings;
+use crate::settings::{RenderSettings, check_next_frame};
 use crate::stage::Stage;
 
 /// A rasteriser's output at the pixels' centres, without colour.
@@ -26,6 +30,8 @@ use crate::stage::Stage;
 pub struct PointLayers {
     /// Screen motion over one frame, in pixels; +x right, +y down.
     pub velocity: Vectors,
+    /// Change of depth over the interval of the velocity, in metres per frame; above 0 moves away.
+    pub velocity_z: Plane,
     /// Distance along the view axis, in metres; [`FAR_DEPTH`] where nothing is seen.
     pub depth: Plane,
     /// The object seen, counted from 1; 0 is the background.
@@ -36,6 +42,7 @@ pub struct PointLayers {
 #[derive(Clone)]
 struct PointSample {
     velocity: [f32; 2],
+    velocity_z: f32,
     depth: f32,
     object_id: u32,
 }
@@ -46,6 +53,7 @@ impl PointLayers {
         check_layer(scene, "velocity", &velocity)?;
         Ok(Self {
             velocity,
+            velocity_z: points.map(|point| point.velocity_z),
             depth: points.map(|point| point.depth),
             object_id: points.map(|point| point.object_id),
         })
@@ -105,14 +113,9 @@ pub fn trace_frame_part(
     check_picture(scene, &picture)?;
     let points = sample_points(stage, canvas, settings, &PointMotion::RIGHT).part(tile);
     let layers = PointLayers::new(scene, &points)?;
+    let hash = grid_hash(scene, settings, grid);
     Ok(Frame {
-        provenance: provenance(
-            stage,
-            settings.seed,
-            settings.samples_per_pixel,
-            1,
-            grid_hash(scene, settings, grid),
-        ),
+        provenance: provenance(stage, settings.seed, settings.samples_per_pixel, 1, hash),
         exposure: settings.exposure(scene),
         frames_per_second: Some(scene.rate().per_second)
             .filter(|rate| *rate != FrameRate::WRITTEN.per_second),
@@ -125,6 +128,8 @@ pub fn trace_frame_part(
         color: picture.color,
         coverage: picture.coverage,
         velocity: layers.velocity,
+        velocity_next: None,
+        velocity_z: None,
         depth: layers.depth,
         object_id: layers.object_id,
         samples: Some(samples.to_plane(canvas).part(tile)),
@@ -156,8 +161,39 @@ pub fn trace_motion_on(
 ) -> Result<PointLayers, TraceError> {
     settings.check_frame(scene)?;
     let canvas = check_canvas(settings, grid)?;
-    let stage = Stage::try_new(scene, motion.seen_at, motion.seen_at)?;
+    // Objects stand still if they do over the interval of the motion.
+    let from = match motion.through_walls {
+        true => motion.seen_at - motion.over,
+        false => motion.seen_at,
+    };
+    let stage = Stage::try_new(scene, from, motion.seen_at)?;
     PointLayers::new(scene, &sample_points(&stage, canvas, settings, motion))
+}
+
+/// Samples the velocities of a frame that few filters read: the motion to the next frame, and the change of depth over the interval of
+/// its velocity. With velocity from only the camera, objects stand still in both.
+///
+/// # Errors
+/// The settings or the grid do not fit the scene, it is not defined up to the next frame, or a velocity is not finite.
+pub fn trace_further_velocities(
+    scene: &Scene,
+    settings: &RenderSettings,
+    grid: &PixelGrid,
+) -> Result<(Vectors, Plane), TraceError> {
+    check_next_frame(scene)?;
+    let own = trace_motion_on(scene, settings, &PointMotion::RIGHT, grid)?;
+    check_layer(scene, "velocity_z", &own.velocity_z.map(|z| [*z]))?;
+    let motion = match settings.options.velocity {
+        VelocityKind::CameraOnly => PointMotion {
+            objects_before: ObjectsBefore::Now,
+            ..PointMotion::TO_NEXT
+        },
+        _ => PointMotion::TO_NEXT,
+    };
+    let mut settings = *settings;
+    settings.options.velocity = VelocityKind::Instantaneous;
+    let next = trace_motion_on(scene, &settings, &motion, grid)?;
+    Ok((next.velocity, own.velocity_z))
 }
 
 /// Makes the canvas of a grid; refuses a grid of an impossible size.
@@ -191,19 +227,28 @@ fn sample_points(
             |poses, pixel| {
                 let centre = canvas.place(pixel, [0.5; 2]);
                 let ray = view.ray(centre[0], centre[1]);
-                let hit = stage.closest_in_sight(poses.at(motion.seen_at), &ray, Sight::Buffers);
+                let hit = match motion.through_walls {
+                    true => find_mover(stage, poses.at(motion.seen_at), &ray),
+                    false => None,
+                };
+                let hit = hit.or_else(|| {
+                    stage.closest_in_sight(poses.at(motion.seen_at), &ray, Sight::Buffers)
+                });
                 let depth = hit.map_or(FAR_DEPTH, |hit| view.depth(ray.at(hit.t)) as f32);
+                let tracked = TrackedPoint::of(hit, ray.direction);
+                let follow = |motion| tracked.velocity(scene, size, options.velocity, motion);
                 let velocity = if hit.is_none() && !options.sky_velocity {
-                    [0.0, 0.0]
+                    [0.0; 3]
                 } else if options.velocity == VelocityKind::CameraOnly {
                     let depth = hit.map_or(f64::INFINITY, |_| f64::from(depth));
-                    camera_velocity(&before, centre, depth)
+                    let [x, y] = camera_velocity(&before, centre, depth);
+                    [x, y, follow(&PointMotion::WITHOUT_OBJECTS)[2]]
                 } else {
-                    let tracked = TrackedPoint::of(hit, ray.direction);
-                    tracked.velocity(scene, size, options.velocity, motion)
+                    follow(motion)
                 };
                 PointSample {
                     velocity: [0, 1].map(|axis| (velocity[axis] / canvas.step[axis]) as f32),
+                    velocity_z: velocity[2] as f32,
                     depth,
                     object_id: hit.map_or(0, |hit| hit.object as u32 + 1),
                 }
@@ -215,4 +260,13 @@ fn sample_points(
         height: canvas.rows(),
         pixels: points,
     }
+}
+
+/// Finds the nearest surface on a ray that moves, whatever hides it.
+fn find_mover(stage: &Stage, poses: &mut Poses, ray: &Ray) -> Option<Hit> {
+    let mut next = stage.closest(poses, ray);
+    while let Some(hit) = next.filter(|hit| stage.object_stands_still(hit.object)) {
+        next = stage.closest_behind(poses, ray, &hit);
+    }
+    next
 }

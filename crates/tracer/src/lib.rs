@@ -37,7 +37,10 @@ pub use defocus::{Defocus, trace_defocus};
 pub use error::TraceError;
 pub use frame_rate::FrameRate;
 pub use geometry::ray::{Hit, Ray};
-pub use instant::{PointLayers, trace_frame, trace_frame_part, trace_motion, trace_motion_on};
+pub use instant::{
+    PointLayers, trace_frame, trace_frame_part, trace_further_velocities, trace_motion,
+    trace_motion_on,
+};
 pub use ladder::{LadderTracer, trace_ladder};
 pub use limits::MAX_SAMPLES;
 pub use load::{
@@ -55,6 +58,6 @@ pub use scene::{
 };
 pub use scene_id::SceneId;
 pub use seal::Seal;
-pub use settings::RenderSettings;
+pub use settings::{RenderSettings, check_next_frame};
 pub use stage::Stage;
 pub use truth::{TruthTracer, trace_truth};

@@ -103,6 +103,12 @@ impl RenderSettings {
     }
 }
 
+/// Refuses a scene that is not defined up to the next frame, so that its points cannot be followed there.
+pub fn check_next_frame(scene: &Scene) -> Result<(), TraceError> {
+    scene.check_defined(0.0, 1.0)?;
+    check_field_of_view(scene, 0.0, 1.0)
+}
+
 /// Refuses an impossible size of a picture.
 pub(crate) fn check_size(width: u32, height: u32) -> Result<(), TraceError> {
     let allowed = 1..=LARGEST_SIDE;

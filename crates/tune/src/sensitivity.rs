@@ -48,9 +48,24 @@ fn read_indices<'de, D: Deserializer<'de>>(deserializer: D) -> Result<SobolIndic
     })
 }
 
-/// Counts the candidates of a study of `axes` parameters.
-pub fn count_candidates(axes: usize, rows: usize) -> usize {
-    rows * (axes + 2) + axes * SLICE
+/// Counts the candidates of a study of all axes of a space.
+pub fn count_candidates(space: &Space, rows: usize) -> usize {
+    let axes = space.axes.len();
+    let slices = (0..axes).map(|axis| slice_points(space, axis).len());
+    rows * (axes + 2) + slices.sum::<usize>()
+}
+
+/// Lists the points along an axis with its values there, all others at the start: fewer than [`SLICE`] if some round to one value.
+fn slice_points(space: &Space, axis: usize) -> Vec<(Value, Vec<f64>)> {
+    let points = (0..SLICE).map(|step| {
+        let mut point = space.point(&space.start);
+        point[axis] = step as f64 / (SLICE - 1) as f64;
+        let value = space.settings(&point).values[&space.axes[axis].name].clone();
+        (value, point)
+    });
+    let mut points: Vec<(Value, Vec<f64>)> = points.collect();
+    points.dedup_by(|(value, _), (before, _)| value == before);
+    points
 }
 
 /// Scores candidates all over the space, `rows` x (axes + 2) for Sobol indices and some more for slices along each axis. Reports each to
@@ -65,7 +80,7 @@ pub fn analyze_sensitivity(
     let all = evaluator.all_scenes();
     let start = evaluator.score(&space.start, &all, |_, _| true)?;
     let axes = space.axes.len();
-    let planned = count_candidates(axes, rows);
+    let planned = count_candidates(space, rows);
     let (mut candidates, mut failed) = (0, 0);
     let interrupted = evaluator.monitor.interrupted;
     let mut error = |point: &[f64]| -> Result<f64, Error> {
@@ -83,19 +98,12 @@ pub fn analyze_sensitivity(
     let indices = sobol_indices(axes, rows, seed, &mut error)?;
     let mut parameters = BTreeMap::new();
     for (index, (axis, indices)) in space.axes.iter().zip(indices).enumerate() {
-        let mut slice: Vec<(Value, f64)> = Vec::new();
-        for step in 0..SLICE {
-            let mut point = space.point(&space.start);
-            point[index] = step as f64 / (SLICE - 1) as f64;
-            let value = space.settings(&point).values[&axis.name].clone();
-            if slice.last().is_none_or(|(last, _)| *last != value) {
-                slice.push((value, error(&point)?));
-            }
-        }
+        let points = slice_points(space, index).into_iter();
+        let slice = points.map(|(value, point)| Ok((value, error(&point)?)));
         let found = ParameterSensitivity {
             indices,
             constant: indices.total.high < CONSTANT_TOTAL,
-            slice,
+            slice: slice.collect::<Result<_, Error>>()?,
         };
         parameters.insert(axis.name.clone(), found);
     }

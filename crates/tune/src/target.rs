@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use frame::{Alignment, Frame, Image, Plane, Truth};
+use filters::Filter;
+use frame::{Frame, Image, Plane, Truth};
 use judge::{Bounds, SceneBounds};
 use metrics::{Metric, ObjectMetric, Reference, Viewing, flip_ldr};
 use serde::{Deserialize, Serialize};
@@ -24,10 +25,10 @@ pub struct RenderedScene {
     pub viewing: Viewing,
 }
 
-/// Reads frames and truths of scenes from `out`, or renders and keeps them there.
+/// Reads frames and truths of scenes for a filter from `out`, or renders and keeps them there.
 pub fn render_scenes(
     scenes: &[(Scene, SceneBounds)],
-    alignment: Alignment,
+    filter: &Filter,
     render: &RenderSettings,
     out: &Path,
     monitor: Monitor,
@@ -41,8 +42,11 @@ pub fn render_scenes(
         };
         Ok(RenderedScene {
             name: scene.id.to_string(),
-            frame: rendering.frame()?,
-            truth: rendering.truth(alignment)?,
+            frame: match filter.further_inputs().is_empty() {
+                true => rendering.frame()?,
+                false => rendering.frame_with_further_velocities()?,
+            },
+            truth: rendering.truth(filter.alignment)?,
             viewing: scene.display.into(),
             bounds: bounds.clone().at((render.width, render.height)),
         })

@@ -68,8 +68,8 @@ pub fn tune(
         monitor,
         ..
     } = options;
-    let alignment = choice.filter.alignment;
-    let scenes = render_scenes(&options.scenes, alignment, render, out, *monitor)?;
+    let filter = &choice.filter;
+    let scenes = render_scenes(&options.scenes, filter, render, out, *monitor)?;
     let bleed = options.measures(Objective::Bleed);
     let mut evaluator = Evaluator::new(gpu, choice, &scenes, bleed, *monitor)?;
     let search = make_search(options)?;
@@ -214,9 +214,9 @@ fn evaluate_held_out(
         monitor,
         ..
     } = options;
-    let alignment = choice.filter.alignment;
+    let filter = &choice.filter;
     let folder = out.join("held_out");
-    let scenes = render_scenes(&options.held_out, alignment, render, &folder, *monitor)?;
+    let scenes = render_scenes(&options.held_out, filter, render, &folder, *monitor)?;
     let mut evaluator = Evaluator::new(gpu, choice, &scenes, true, *monitor)?;
     let start = choice.preset_at(&choice.preset, render.width)?;
     // Values from pictures of one width are scaled to another like the start's.

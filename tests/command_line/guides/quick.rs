@@ -41,7 +41,8 @@ pub fn shorten(command: &str) -> String {
         }
     }
     let Some(words) = line.strip_prefix("shuttertruth ") else {
-        return line;
+        // `make growth` makes the large run.
+        return line.replace("--scenes 100 --filters 94", "--scenes 4 --filters 10");
     };
     let mut words: Vec<String> = words.split(' ').map(str::to_owned).collect();
     let command = words[0].clone();

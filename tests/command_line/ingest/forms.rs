@@ -106,7 +106,7 @@ fn raw_dumps_give_the_same_frame_and_need_their_layout() {
         "
         height = 54/height = 53 => color.raw: has 31104 bytes; 96x53 pixels of 3 f16 have 30528 | its layout in capture.toml
         components = 2/components = 5 => [raw.velocity] 96x54 pixels of 5 components; allowed: 16 to 16384 | 1 to 4
-        raw.depth/raw.normal => [raw.normal]; allowed: color, velocity, depth, object
+        raw.depth/raw.normal => [raw.normal]; allowed: color, velocity, velocity_next, velocity_z, depth, object
         raw.color/extra.color => capture.toml:5: unknown field `extra`
         \"f32\"/\"f64\" => capture.toml: | unknown variant `f64`",
     ) {

@@ -140,7 +140,11 @@ fn a_run_on_a_capture_scores_near_our_own_scene_and_ranks_the_engine() {
             .iter()
             .all(|cell| *cell < row("identity")[1])
     );
+    // The filter is scaled; the engine's picture has no filter.toml to name a width in.
+    assert!(!printed.contains("reference_width"), "{printed}");
     let run = sandbox.read_run();
+    let scaled = find(&run, NAME, "jump_flood").reference_width;
+    assert!(scaled.is_some_and(|width| width != 96), "{scaled:?}");
     assert_eq!((run.render.width, run.render.height), (96, 54));
     for filter in ["identity", "jump_flood", "scatter_oracle"] {
         let [engines, ours] = read_scores(&run, filter, "flip_moving");

@@ -8,7 +8,7 @@ use filters::Filter;
 use serde_json::Value;
 use tests::filter_folder::copy_shipped_filter;
 use tests::text::{assert_contains, squeeze};
-use tune::TrialOutcome;
+use tune::{Space, TrialOutcome, count_candidates};
 
 use super::{ON_SEVEN, read_journal, read_trials, read_tuning, set_up, tune};
 use crate::sandbox::{Files, Sandbox};
@@ -178,6 +178,14 @@ fn a_study_finds_the_parameters_that_matter() {
     // Nine points from 1 to 64, two of them rounded to the same number.
     let samples = &found.parameters["samples"];
     assert!(!samples.constant && samples.slice.len() == 8, "{samples:?}");
+    // As many as are announced: four rows of two axes, and both slices.
+    let filter = Filter::builtin("jump_flood").unwrap();
+    let axes = ["samples", "behind_extent"].map(str::to_owned);
+    let space = Space::new(&filter, filter.settings(Some("corrected")).unwrap(), &axes).unwrap();
+    assert_eq!(
+        [found.candidates, count_candidates(&space, 4)],
+        [16 + 8 + 9; 2]
+    );
     let row = |name: &str| {
         let mut lines = table.lines().map(str::trim_start);
         lines.position(|line| line.starts_with(name)).unwrap()

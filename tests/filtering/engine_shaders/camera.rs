@@ -74,6 +74,46 @@ fn depth_and_the_camera_s_matrices_give_its_velocity_in_every_language() {
 }
 
 #[test]
+fn matrices_in_structs_lie_as_those_of_the_block_itself() {
+    let frame = render_frame(7);
+    let names = [
+        "inverse_projection",
+        "inverse_view",
+        "previous",
+        "resolution",
+        "jitter",
+    ];
+    let macros = names
+        .map(|name| format!("#define {name} GBuffer.{name}\n"))
+        .concat();
+    let block = format!("jitter;\n}};\ncbuffer Scene : register(b0) {{ View GBuffer; }}\n{macros}");
+    let own = [0, 1, 3, 4]
+        .map(|at| format!(", GBuffer.{0} = \"{0}\"", names[at]))
+        .concat();
+    for layout in ["", "row_major"] {
+        let files = declare("move.hlsl", [100, 200, 0], REVERSED);
+        let flat = files.text("move.hlsl").replace("LAYOUT", layout);
+        let nested = flat.replace("cbuffer Scene : register(b0)", "struct View");
+        let nested = nested.replace("jitter;\n};", &block);
+        let files = files.with("move.hlsl", flat);
+        let in_struct = (files.changed(
+            "filter.toml",
+            "padding = 0, previous",
+            "GBuffer.padding = 0, GBuffer.previous",
+        ))
+        .changed(
+            "filter.toml",
+            "view_projection\"",
+            &format!("view_projection\"{own}"),
+        )
+        .with("move.hlsl", nested);
+        let [due, found] =
+            [files, in_struct].map(|files| run(&files.load().unwrap(), &frame, frame.camera));
+        assert_eq!(due.unwrap(), found.unwrap(), "{layout}");
+    }
+}
+
+#[test]
 fn every_value_of_a_frame_has_the_number_that_its_name_says() {
     let pose = CameraPose {
         to_world: [

@@ -88,3 +88,55 @@ fn constants_that_cannot_be_are_refused() {
     let parts = ["\"group\" = 2, the lower end of its range", "taps.wgsl"];
     assert_contains(&refusal.to_string(), &parts);
 }
+
+/// A shader of Godot, which marks its sections and the place of its macros, and one in HLSL.
+const DEFINED: [(&str, &str); 2] = [
+    (
+        "shader = \"defined.comp\"\ndefines = { FACTOR = 1.5, OFFSET = \"ivec2(2, 3)\", FLAG = \"\" }\n",
+        "[[pass.binding]]\nbinding = 1\ntexture = \"output\"\n",
+    ),
+    (
+        "shader = \"defined.hlsl\"\nstage = \"fragment\"\ndefines = { FACTOR = 3.0, OFFSET = \"int2(2, 3)\", FLAG = \"/ 2\" }\n",
+        "",
+    ),
+];
+
+#[test]
+fn macros_reach_the_compilers_of_glsl_and_hlsl() {
+    let color = busy_picture().color;
+    for (pass, bindings) in DEFINED {
+        let found = blur_busy(&make("constants", &format!("[[pass]]\n{pass}{bindings}")));
+        for (x, y) in [(3, 5), (12, 9), (40, 30)] {
+            let due = color.at(x + 2, y + 3).map(|part| 1.5 * part);
+            // Compilers may turn 3 / 2 x into 3 x 0.5 x.
+            let apart = (found.at(x, y).iter().zip(due)).map(|(found, due)| (found - due).abs());
+            assert_within(apart.fold(0.0, f32::max), ..1e-5);
+        }
+    }
+}
+
+#[test]
+fn macros_that_name_files_or_have_no_compiler_are_refused() {
+    let [(pass, bindings), _] = DEFINED;
+    let files = make("constants", &format!("[[pass]]\n{pass}{bindings}"));
+    let long = format!("FLAG = \"{}\"", "x".repeat(201));
+    #[rustfmt::skip]
+    files.assert_refused("filter.toml", &[
+        ("FLAG = \"\"", "2FLAG = \"\"", &["filter.toml:4: defines: \"2FLAG\" is no name; allowed: letters, digits and _"]),
+        ("FLAG = \"\"", "\"A(b)\" = \"\"", &["filter.toml:4: defines: \"A(b)\" is no name"]),
+        ("FLAG = \"\"", "FLAG = true", &["defines: FLAG is a boolean; allowed: a number, or a text of at most 200 characters"]),
+        ("FLAG = \"\"", &long, &["defines: FLAG is a string", "at most 200 characters"]),
+        ("FLAG = \"\"", "FLAG = \"a\\nb\"", &["defines: FLAG = ", "has several lines; allowed: one"]),
+        ("FLAG = \"\"", "FLAG = '1 \\'", &["ends with \\"]),
+        ("FLAG = \"\"", "FLAG = '# include \"x\"'", &["names a file in a way that the program does not resolve"]),
+        ("FLAG = \"\"", "FLAG = '_Pragma(\"once\")'", &["holds _Pragma"]),
+        ("FLAG = \"\"", "FLAG = '\"../x\"'", &["looks like a path out of the filter's folder"]),
+        ("FLAG = \"\"", "FLAG = \"import\"", &["makes a macro of `import`"]),
+        ("shader = \"defined.comp\"", "shader = \"taps.wgsl\"", &["defines: are for GLSL, HLSL and Slang; WGSL has no macros; use `constants`"]),
+    ]);
+    #[rustfmt::skip]
+    files.assert_refused("defined.comp", &[
+        ("\"factor_inc.glsl\"", "FLAG", &["defined.comp:11: #include names its file by a macro"]),
+        ("pixel + OFFSET", "pixel + OFFSETS", &["defined.comp:21: glslangValidator refuses it", "OFFSETS"]),
+    ]);
+}

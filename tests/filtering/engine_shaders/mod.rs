@@ -4,6 +4,7 @@ mod camera;
 mod constants;
 mod conventions;
 mod fragment;
+mod further_inputs;
 mod guide;
 mod mips;
 mod refusals;

@@ -63,7 +63,7 @@ fn push_constants_that_are_too_large_are_refused() {
                         [[pass.binding]]\npush_constants = true\nvalues = { \"*\" = 0 }\n";
     #[rustfmt::skip]
     make("camera", declarations).with("large.comp", shader).assert_refused("large.comp", &[
-        ("MEMBERS", "vec4 many[256]; float last;", &["filter.toml:", "push constants", "more than 1024 numbers"]),
+        ("MEMBERS", "vec4 many[1024]; float last;", &["filter.toml:", "push constants", "more than 4096 numbers"]),
         ("MEMBERS", "layout(offset = 65536) float last;", &["filter.toml:", "push constants", "at most 65536"]),
     ]);
 }

@@ -158,3 +158,70 @@ fn hlsl_without_registers_is_bound_by_name() {
     let change = ("name = \"_Motion\"", "name = \"_Velocity\"", &missing[..]);
     files.assert_refused("filter.toml", &[change]);
 }
+
+#[test]
+fn textures_of_whole_numbers_keep_their_signs() {
+    let declare = |format: &str, [kind, qualifier, sign]: [&str; 3]| {
+        let declarations = format!(
+            "[[texture]]\nname = \"kept\"\nformat = \"{format}\"\n\
+             [[pass]]\nshader = \"whole.comp\"\nover = \"kept\"\n[[pass]]\nshader = \"show_whole.frag\"\n"
+        );
+        let files = make("resources", &declarations);
+        let text = files.text("whole.comp").replace("KIND", kind);
+        let text = text.replace("QUALIFIER", qualifier).replace("SIGN", sign);
+        let files = files.with("whole.comp", text);
+        files.changed("show_whole.frag", "KIND", kind)
+    };
+    for (channels, word) in [(1, "r"), (2, "rg"), (4, "rgba")] {
+        for bits in [8, 16, 32] {
+            for (ending, short, kind, sign) in [("sint", "i", "i", "-"), ("uint", "ui", "u", "")] {
+                let format = format!("{word}{bits}{ending}");
+                let glsl = [kind, &format!("{word}{bits}{short}"), sign];
+                let shown = blur_busy(&declare(&format, glsl));
+                let side = if sign == "-" { -1.0 } else { 1.0 };
+                let mut due = [side * 12.0, side * 9.0, 12.0];
+                due[channels.min(3)..].fill(0.0);
+                assert_eq!(*shown.at(12, 9), due, "{format}");
+            }
+        }
+    }
+    let files = declare("rg8sint", ["i", "rg8i", ""]);
+    let parts = [
+        "\"kept\"",
+        "does not fit the declared format rg8sint, which is read as texture_2d<i32>",
+    ];
+    files.assert_refused("show_whole.frag", &[("isampler2D", "sampler2D", &parts)]);
+    let stored = ["writes texture \"kept\" as rg8sint; it is declared as rg16sint"];
+    files.assert_refused("filter.toml", &[("rg8sint", "rg16sint", &stored)]);
+}
+
+const TABLE: &str = "[[pass]]\nshader = \"table.comp\"\n[[pass.binding]]\nbinding = 0\ntexture = \"output\"\n\
+                     [[pass.binding]]\nbinding = 1\nvalues = { view.size = [\"width\", \"height\", 0, 0], view.scale = 0.5, \
+                     taps = 0.25, \"taps[1].weight\" = 4 }\n\
+                     [[pass.binding]]\nbinding = 2\nvalues = { first = [0, \"10 * exposure\"], weights = [1, 2, 3, 4, 80] }\n";
+
+#[test]
+fn members_of_structs_and_storage_buffers_have_their_values() {
+    let files = make("resources", TABLE);
+    // Height and scale; two weights; the length of the array, its last number and 10 x exposure.
+    let due = [43.5, 4.25, 5.0 + 80.0 + 7.0];
+    for (found, due) in blur_busy(&files).at(30, 20).iter().zip(due) {
+        assert_near(*found, due, 1e-4);
+    }
+    #[rustfmt::skip]
+    files.assert_refused("filter.toml", &[
+        ("view.scale = 0.5, ", "", &["filter.toml:", "member \"view.scale\" (f32 at byte 16) has no value"]),
+        ("view.scale = 0.5", "view.scale = 0.5, view.scales = 1", &["`values` names \"view.scales\", which is no member; it has: view.size, view.scale, taps[0].place, taps[0].weight"]),
+        ("0.5, ", "[0.5, 1], ", &["member \"view.scale\" holds f32, and `values` has 2 for it"]),
+        (", weights = [1, 2, 3, 4, 80]", "", &["group 0, binding 2", "member \"weights\" (f32 at byte 8) has no value"]),
+        ("first = [0, \"10 * exposure\"]", "first = [1, 2, 3]", &["member \"first\" holds 2 x f32, and `values` has 3"]),
+    ]);
+    let written = files.changed("table.comp", "readonly buffer", "buffer");
+    blur_busy(&written);
+    let parts = [
+        "table.comp: \"table\" at group 0, binding 2: is a storage buffer that the shader writes",
+        "a [[texture]]",
+    ];
+    let store = "table.weights[count - 1] = 1.0;\n    imageStore(picture";
+    written.assert_refused("table.comp", &[("imageStore(picture", store, &parts)]);
+}

@@ -1,6 +1,7 @@
 //! Fragment shaders with their own vertex stage.
 
-use tests::near::assert_within;
+use tests::near::{assert_near, assert_within};
+use tests::text::assert_contains;
 
 use super::{blur_busy, busy_picture, largest_difference, make};
 
@@ -13,6 +14,10 @@ const GLSL_PASS: &str = "[[pass]]\nshader = \"draw.frag\"\nvertex_shader = \"cor
                          [[pass.binding]]\nbinding = 0\ntexture = \"color\"\nsampler = \"nearest\"\n\
                          [[pass.binding]]\nset = 2\nbinding = 5\nvalues = { side = 1 }\n";
 
+/// Both stages in one file, as Godot has them; the fragment shader alone says `noperspective`.
+const GODOT_PASS: &str = "[[pass]]\nshader = \"draw.glsl\"\nstage = \"fragment\"\nvertex = \"main\"\n\
+                          [[pass.binding]]\nbinding = 0\ntexture = \"color\"\nsampler = \"nearest\"\n";
+
 const HLSL_PASS: &str = "[[pass]]\nshader = \"draw.hlsl\"\nentry = \"shade\"\nstage = \"fragment\"\nvertex = \"corners\"\n";
 
 #[test]
@@ -23,6 +28,7 @@ fn a_vertex_stage_of_the_file_draws_as_the_program_s_own() {
         &format!("{own}{SAMPLED}"),
         &format!("{WGSL_PASS}{SAMPLED}"),
         GLSL_PASS,
+        GODOT_PASS,
         &format!("{HLSL_PASS}{SAMPLED}"),
     ] {
         let output = blur_busy(&make("vertex", pass));
@@ -36,6 +42,39 @@ fn a_vertex_stage_of_the_file_draws_as_the_program_s_own() {
     let output = blur_busy(&glsl.changed("filter.toml", "side = 1", "side = -1"));
     assert_eq!(output.at(12, 9), picture.color.at(60 - 12 + 2, 42 - 9 + 3));
     assert_within(largest_difference(&output, &picture.color), 0.5..);
+}
+
+#[test]
+fn the_program_s_triangle_has_the_place_of_a_pixel_as_engines_do() {
+    let shader = "#version 450\nlayout(location = 2) QUALIFIER in TYPE place;\nlayout(location = 0) out vec4 result;\n\
+                  void main() { result = vec4(SHOWN); }\n";
+    let pass = "[[pass]]\nshader = \"place.frag\"\n";
+    let files = |[qualifier, ty, shown]: [&str; 3]| {
+        let words = [("QUALIFIER", qualifier), ("TYPE", ty), ("SHOWN", shown)];
+        let text =
+            (words.into_iter()).fold(shader.to_owned(), |text, (from, to)| text.replace(from, to));
+        make("vertex", pass).with("place.frag", text)
+    };
+    // Texture coordinates from the top left, then clip space with +y up.
+    let (u, v) = (12.5 / 61.0, 9.5 / 43.0);
+    let (x, y) = (2.0 * u - 1.0, 1.0 - 2.0 * v);
+    for (shader, due) in [
+        (["", "float", "place, 0, 0, 1"], [u, 0.0, 0.0]),
+        (["noperspective", "vec2", "place, 0, 1"], [u, v, 0.0]),
+        (["centroid", "vec3", "place, 1"], [u, v, x]),
+        (["noperspective", "vec4", "place.yzw, 1"], [v, x, y]),
+        (["flat", "vec2", "place, 1, 1"], [0.0, 0.0, 1.0]),
+    ] {
+        println!("{shader:?}");
+        let shown = blur_busy(&files(shader));
+        for (found, due) in shown.at(12, 9).iter().zip(due) {
+            // Coordinates are interpolated over the triangle.
+            assert_near(*found, due, 1e-4);
+        }
+    }
+    let whole = files(["flat", "int", "place"]).load().unwrap_err();
+    let says = "pass \"place\": the fragment shader reads no floats at location 2; the program's triangle has texture coordinates";
+    assert_contains(&whole.to_string(), &["filter.toml:4:", says, "`vertex`"]);
 }
 
 #[test]
@@ -56,7 +95,7 @@ fn a_pass_of_a_shader_lab_file_draws_as_its_hlsl_alone() {
     lab.assert_refused("filter.toml", &[
         ("shader_pass = \"Draw\"\n", "", &["draw.shader", "several of its passes", "0 \"Black\", 1 \"Draw\""]),
         ("\"Draw\"", "\"Blur\"", &["draw.shader", "allowed, by place or by name"]),
-        ("\"Draw\"", "0", &["draw.shader:8"]),
+        ("\"Draw\"", "0", &["draw.shader:18"]),
         ("draw.shader", "draw.hlsl", &["filter.toml:", "shader_pass is for a .shader file of Unity"]),
     ]);
 }

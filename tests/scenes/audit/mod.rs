@@ -67,6 +67,8 @@ fn draw(scene: &Scene, time: f64) -> Capture {
         convention: Convention::default(),
         color: frame.color,
         velocity: frame.velocity,
+        velocity_next: None,
+        velocity_z: None,
         depth: frame.depth,
         object_id: Some(frame.object_id),
         blurred: None,

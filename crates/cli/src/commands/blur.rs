@@ -1,6 +1,6 @@
 //! The command `engine blur`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use filters::{Convention, FilterError, Gpu, Input};
@@ -31,7 +31,8 @@ pub struct BlurArgs {
     /// picture's].
     #[arg(long)]
     pub as_written: bool,
-    /// OpenEXR file with the channels R G B, Z, velocity.X, velocity.Y. With --frames the first frame's file, as `run` and `truths render`
+    /// OpenEXR file with the channels R G B, Z, velocity.X, velocity.Y, and velocity_next.X, velocity_next.Y, velocity_z for filters
+    /// that read them. With --frames the first frame's file, as `run` and `truths render`
     /// write it, or a folder of 0000.exr, 0001.exr and so on.
     #[arg(long, value_name = "FILE|DIR")]
     pub frame: PathBuf,
@@ -90,16 +91,7 @@ pub fn execute(args: &BlurArgs) -> Result<(), Error> {
             )?),
         };
         let now = own.as_ref().unwrap_or(&before);
-        let (width, height) = (now.color.width, now.color.height);
-        if (width, height) != size {
-            refuse!(
-                "{}: has {width}x{height} pixels, {} has {}x{}; the frames of a sequence have one size",
-                now.path.display(),
-                first_path.display(),
-                size.0,
-                size.1
-            );
-        }
+        check_same_size(now, &first_path, size)?;
         let index = args.frame_index + frame;
         let colors = [[&now.color], [&before.color]];
         let input = now.input(&colors[0], index);
@@ -123,6 +115,21 @@ pub fn execute(args: &BlurArgs) -> Result<(), Error> {
             show_texture(&runner, &choice.filter, name, &path)?;
         }
         before = own.unwrap_or(before);
+    }
+    Ok(())
+}
+
+/// Refuses a frame of another size than the first.
+fn check_same_size(now: &Buffers, first: &Path, size: (u32, u32)) -> Result<(), Error> {
+    let (width, height) = (now.color.width, now.color.height);
+    if (width, height) != size {
+        refuse!(
+            "{}: has {width}x{height} pixels, {} has {}x{}; the frames of a sequence have one size",
+            now.path.display(),
+            first.display(),
+            size.0,
+            size.1
+        );
     }
     Ok(())
 }
@@ -185,6 +192,8 @@ struct Buffers {
     path: PathBuf,
     color: Image,
     velocity: Vectors,
+    velocity_next: Option<Vectors>,
+    velocity_z: Option<Plane>,
     depth: Plane,
     reprojection: Option<Reprojection>,
     camera: Option<Camera>,
@@ -203,9 +212,7 @@ impl Buffers {
         } else {
             0
         };
-        let velocity = file
-            .plane("velocity.X")?
-            .zip(&file.plane("velocity.Y")?, |x, y| [*x, *y]);
+        let next = file.optional("velocity_next.X", || file.vectors("velocity_next"))?;
         let exposure = match exposure {
             Some(exposure) => exposure,
             None if has("exposure") => file.get("exposure")?,
@@ -222,7 +229,9 @@ impl Buffers {
         };
         Ok(Self {
             color: convention.restore_color(&file.color("")?),
-            velocity: convention.restore_velocity(&velocity, exposure),
+            velocity: convention.restore_velocity(&file.vectors("velocity")?, exposure),
+            velocity_next: next.map(|next| convention.restore_velocity(&next, exposure)),
+            velocity_z: file.optional("velocity_z", || file.plane("velocity_z"))?,
             depth: convention.restore_depth(&file.plane("Z")?),
             reprojection,
             camera: Camera::from_exr(&file)?,
@@ -238,6 +247,8 @@ impl Buffers {
         Input {
             color,
             velocity: &self.velocity,
+            velocity_next: self.velocity_next.as_ref(),
+            velocity_z: self.velocity_z.as_ref(),
             depth: &self.depth,
             reprojection: self.reprojection,
             camera: self.camera,

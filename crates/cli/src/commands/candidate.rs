@@ -62,8 +62,8 @@ impl CandidateArgs {
         };
         let SceneArgs { out, .. } = &self.scenes;
         let locked = lock_folder(out, scenes.iter().map(|(scene, _)| scene), sharing)?;
-        let alignment = choice.filter.alignment;
-        let rendered = render_scenes(&scenes, alignment, &render, out, make_monitor())?;
+        let filter = &choice.filter;
+        let rendered = render_scenes(&scenes, filter, &render, out, make_monitor())?;
         // A process that shares the folder has finished reading it.
         let _lock = candidates.is_some().then_some(locked);
         let mut evaluator = Evaluator::new(gpu.as_ref(), choice, &rendered, bleed, make_monitor())?;

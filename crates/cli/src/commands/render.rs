@@ -6,7 +6,7 @@ use clap::Args;
 use frame::{Alignment, Truth};
 use store::{LADDER, MAX_REPLICATES, Sharing, lock_folder, printable_path, scene_folder};
 use suite::{Error, Rendering, deciding_floor, estimate_render_seconds};
-use tracer::{RenderSettings, Scene};
+use tracer::{RenderSettings, Scene, check_next_frame};
 
 use super::expected::print_expected_time;
 use crate::arguments::{
@@ -45,6 +45,9 @@ pub struct RenderArgs {
     /// Render the ladder of sub-frames of each truth too, which `run` measures with.
     #[arg(help_heading = "Truths", long)]
     pub ladders: bool,
+    /// Write velocity_next and velocity_z to frame.exr too, for `engine blur` with filters that read them.
+    #[arg(help_heading = "Truths", long)]
+    pub further_velocities: bool,
     /// Upper limit on replicates for --noise.
     #[arg(
         help_heading = "Truths",
@@ -115,13 +118,24 @@ fn scene_settings(args: &RenderArgs, scene: &Scene) -> Result<RenderSettings, Er
         Replicates::Part(_) => RenderSettings::default().replicates,
     };
     let settings = args.scenes.render_settings(size, count);
-    for frame in 1..args.frames {
+    for frame in 0..args.frames {
         let later = scene.at_frame(frame);
+        if args.further_velocities {
+            check_next_frame(&later)?;
+        }
         for alignment in &args.alignments {
             settings.check_truth(&later, *alignment)?;
         }
     }
     Ok(settings)
+}
+
+/// Renders a scene's frame, with the velocities that are asked for.
+fn render_frame(args: &RenderArgs, rendering: Rendering) -> Result<(), Error> {
+    match args.further_velocities {
+        true => rendering.write_further_velocities(),
+        false => rendering.frame().map(drop),
+    }
 }
 
 /// Renders some replicates of a scene's truths, and the frame together with replicate 0. Reports no noise.
@@ -131,7 +145,7 @@ fn render_some(
     indices: &Range<u32>,
 ) -> Result<String, Error> {
     if indices.start == 0 {
-        rendering.frame()?;
+        render_frame(args, rendering)?;
     }
     rendering.shared(&args.alignments, indices.clone())?;
     for alignment in &args.alignments {
@@ -146,7 +160,7 @@ fn render_whole(
     rendering: Rendering,
     noisy: &mut Vec<String>,
 ) -> Result<String, Error> {
-    rendering.frame()?;
+    render_frame(args, rendering)?;
     let (target, most) = (args.noise.unwrap_or(f64::INFINITY), args.most_replicates);
     let mut report = String::new();
     let ended = |truth: &Truth, is_reached: bool| {

@@ -77,35 +77,38 @@ fn leave_out_filters(
     engine_scenes: &[EngineScene],
     alone: bool,
 ) -> Result<Vec<FilterChoice>, Error> {
-    for EngineScene { id, alignment, .. } in engine_scenes {
-        let others = filters
-            .iter()
-            .filter(|it| it.filter.alignment != *alignment);
-        let lost = (filters.iter())
-            .filter(|it| it.filter.alignment == *alignment && it.filter.reads_camera());
-        let reasons = [
-            format!("of another shutter than the {alignment} one that the engine drew"),
-            "that need the camera, which no capture has".to_owned(),
-        ];
-        for (count, reason) in [others.count(), lost.count()].into_iter().zip(reasons) {
-            if count > 0 {
-                let presets = count_text(count, "preset", "presets");
-                print_note(&format!("{id}: leaves out {presets} {reason}"));
-            }
+    for scene in engine_scenes {
+        let EngineScene { id, alignment, .. } = scene;
+        let mut reasons = BTreeMap::new();
+        for FilterChoice { filter, .. } in &filters {
+            let reason = match scene.find_lacking(filter) {
+                _ if filter.alignment != *alignment => {
+                    format!("of another shutter than the {alignment} one that the engine drew")
+                }
+                Some(lacking) => format!("because the capture does not have {lacking}"),
+                None => continue,
+            };
+            *reasons.entry(reason).or_insert(0) += 1;
+        }
+        for (reason, count) in reasons {
+            let presets = count_text(count, "preset", "presets");
+            print_note(&format!("{id}: leaves out {presets} {reason}"));
         }
     }
     if !alone || engine_scenes.is_empty() {
         return Ok(filters);
     }
     filters.retain(|FilterChoice { filter, .. }| {
-        let mut scenes = engine_scenes.iter();
-        !filter.reads_camera() && scenes.any(|scene| scene.alignment == filter.alignment)
+        let can_blur = |scene: &EngineScene| {
+            scene.alignment == filter.alignment && scene.find_lacking(filter).is_none()
+        };
+        engine_scenes.iter().any(can_blur)
     });
     match filters.is_empty() {
         false => Ok(filters),
         true => refuse!(
             "--filter: no filter is left that {} can be measured with; allowed: filters with a {} shutter that need no \
-             camera motion",
+             camera motion and no other input that the capture does not have",
             engine_scenes[0].id,
             engine_scenes[0].alignment
         ),

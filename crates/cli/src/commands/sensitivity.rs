@@ -38,7 +38,7 @@ pub fn execute(args: &SensitivityArgs) -> Result<(), Error> {
     let candidate = &args.candidate;
     let choice = candidate.select()?;
     let space = Space::new(&choice.filter, choice.settings.clone(), &args.vary)?;
-    let count = count_candidates(space.axes.len(), args.rows);
+    let count = count_candidates(&space, args.rows);
     let label = format!("parameters of {}", choice.filter.name);
     let found = candidate.score(&choice, false, Some(count), |evaluator| {
         make_monitor().watch(&label, |watch| {

@@ -97,7 +97,13 @@ pub fn twins_text(cases: &[Case], ranked: &[Vec<RankedFilter>]) -> String {
         let mut ours = full.iter().filter(|case| case.drawn.is_none());
         ours.any(|case| case.scene == *scene)
     };
-    let twin = |case: &Case| case.drawn.as_ref()?.scene.clone().filter(|scene| is_ours(scene));
+    let twin = |case: &Case| {
+        case.drawn
+            .as_ref()?
+            .scene
+            .clone()
+            .filter(|scene| is_ours(scene))
+    };
     let drawn = || full.iter().filter(|case| twin(case).is_some());
     let scenes = list_once(drawn().filter_map(|case| twin(case)));
     let engines = list_once(drawn().filter_map(|case| case.scene.variant.clone()));

@@ -58,7 +58,7 @@ pub fn run_table(run: &Run) -> String {
 
 /// Meaning of titles and marks.
 const KEY: &str = "Skill by FLIP: 0 is a sharp picture of the shutter's middle, [identity] if centred, else [accumulate:1]; 1 is \
-                   [scatter_oracle]. Bleed: the largest of beside, ahead (>) and behind (<); grow, loss and bleed in pixels.";
+                   [scatter_oracle]. Bleed: the largest of sideways, ahead (>) and behind (<); grow, loss and bleed in pixels.";
 
 /// Makes the table of one picture's scores, like [`run_table`].
 pub fn score_table(scene: &str, picture: &str, scores: &Scores) -> String {

@@ -134,7 +134,7 @@ fn notes(groups: &[Vec<RankedFilter>]) -> String {
         notes += &format!(" {RANK_RULE}");
     }
     if groups.len() > 1 {
-        notes += " Compare filters of one shutter only; --table has skill, which compares all.";
+        notes += " Compare filters of one shutter only. Across shutters, --table has skill, a rough measure.";
     }
     notes
 }

@@ -26,12 +26,14 @@ const BUFFER_ENDINGS: [&str; 2] = ["exr", "raw"];
 /// Files that may hold several buffers.
 const SHARED_FILES: [&str; 2] = ["buffers.exr", "color.exr"];
 /// Channels of Blender's passes, after the name of a view layer, and their names elsewhere.
-const PASSES: [(&str, &str); 7] = [
+const PASSES: [(&str, &str); 9] = [
     ("Combined.R", "R"),
     ("Combined.G", "G"),
     ("Combined.B", "B"),
     ("Vector.X", "velocity.X"),
     ("Vector.Y", "velocity.Y"),
+    ("Vector.Z", "velocity_next.X"),
+    ("Vector.W", "velocity_next.Y"),
     ("Depth.Z", "Z"),
     ("IndexOB.X", "object"),
 ];
@@ -97,10 +99,20 @@ pub fn read_color(
     Ok(convention.restore_color(&color))
 }
 
-/// Reads velocity as the engine stores it.
-pub fn read_velocity(path: &Path, description: &CaptureDescription) -> Result<Vectors, Error> {
-    let file = open(path, description, "velocity")?;
-    let pairs = [["velocity.X", "velocity.Y"], ["X", "Y"], ["R", "G"]];
+/// Reads velocity, or `velocity_next`, as the engine stores it.
+pub fn read_velocity(
+    path: &Path,
+    description: &CaptureDescription,
+    buffer: &str,
+) -> Result<Vectors, Error> {
+    let file = open(path, description, buffer)?;
+    let own = ["X", "Y"].map(|axis| format!("{buffer}.{axis}"));
+    let pairs = [
+        own.each_ref().map(String::as_str),
+        ["velocity.X", "velocity.Y"],
+        ["X", "Y"],
+        ["R", "G"],
+    ];
     let has_both = |pair: &&[&str; 2]| pair.iter().all(|name| file.has_channel(name));
     let Some(names) = pairs.iter().find(has_both) else {
         return refuse_channels(&file, "velocity.X and velocity.Y, X and Y, or R and G");
@@ -108,6 +120,14 @@ pub fn read_velocity(path: &Path, description: &CaptureDescription) -> Result<Ve
     check_finite(&file, names)?;
     let [x, y] = names.map(|name| file.plane(name));
     Ok(x?.zip(&y?, |x, y| [*x, *y]))
+}
+
+/// Reads the change of depth, in metres per frame.
+pub fn read_velocity_z(path: &Path, description: &CaptureDescription) -> Result<Plane, Error> {
+    let file = open(path, description, "velocity_z")?;
+    let name = find_channel(&file, &["velocity_z", "Z", "R"])?;
+    check_finite(&file, &[name])?;
+    Ok(file.plane(name)?)
 }
 
 /// Reads depth as the engine stores it; infinite linear depth becomes the background's.

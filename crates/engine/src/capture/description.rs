@@ -17,7 +17,14 @@ pub const CAPTURE_FILE: &str = "capture.toml";
 /// Upper limit on the characters of an engine's name.
 const LONGEST_ENGINE: usize = 160;
 /// Names of the buffers that can be raw dumps.
-const RAW_BUFFERS: [&str; 4] = ["color", "velocity", "depth", "object"];
+const RAW_BUFFERS: [&str; 6] = [
+    "color",
+    "velocity",
+    "velocity_next",
+    "velocity_z",
+    "depth",
+    "object",
+];
 
 /// Contents of `capture.toml`.
 #[derive(Clone, Debug, PartialEq, Deserialize)]

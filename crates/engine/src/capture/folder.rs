@@ -10,7 +10,7 @@ use suite::Error;
 
 use crate::capture::buffers::{
     COLOR_ENDINGS, check_size, find_buffer, find_picture, is_png, read_color, read_depth,
-    read_objects, read_objects_beside_color, read_velocity,
+    read_objects, read_objects_beside_color, read_velocity, read_velocity_z,
 };
 use crate::capture::description::{CAPTURE_FILE, CaptureDescription};
 use crate::capture::half_floats::{are_halves, rounding_of};
@@ -34,6 +34,10 @@ pub struct Capture {
     pub color: Image,
     /// Screen motion in pixels per frame; +x right, +y down.
     pub velocity: Vectors,
+    /// The same from the instant to one frame later, if the capture has it.
+    pub velocity_next: Option<Vectors>,
+    /// Change of depth over the interval of `velocity`, in metres per frame; above 0 moves away. None where the capture has none.
+    pub velocity_z: Option<Plane>,
     /// Distance along the view axis in metres; [`frame::FAR_DEPTH`] where nothing is visible.
     pub depth: Plane,
     /// Object at each pixel's centre, numbered as in an exported manifest; 0 is the background. None if the capture has no ids.
@@ -69,12 +73,16 @@ impl Capture {
             ["velocity", "velocity.X"],
             "the motion of every pixel",
         )?;
-        let velocity = read_velocity(&path, &description)?;
+        let velocity = read_velocity(&path, &description, "velocity")?;
         check_size(&path, &velocity, &color)?;
         let is_half = are_halves(velocity.pixels.iter().flatten().copied());
         let exposure = find_velocity_exposure(folder, &description, &convention)?;
         let velocity = convention.restore_velocity(&velocity, exposure);
         notes.extend(is_half.then(|| velocity_note(&path, &velocity)));
+        let read_next = |path: &Path| read_velocity(path, &description, "velocity_next");
+        let names = ["velocity_next", "velocity_next.X"];
+        let next = read_optional(folder, names, &color, read_next)?;
+        let velocity_next = next.map(|next| convention.restore_velocity(&next, exposure));
 
         let path = require(folder, ["depth", "Z"], "the distance of every pixel")?;
         let depth = read_depth(&path, &convention, &description)?;
@@ -83,12 +91,8 @@ impl Capture {
         notes.extend(is_half.then(|| depth_note(&path, &convention)).flatten());
         let depth = convention.restore_depth(&depth);
 
-        let mut object_id = None;
-        if let Some(path) = find_buffer(folder, "object", "object")? {
-            let ids = read_objects(&path, &description)?;
-            check_size(&path, &ids, &color)?;
-            object_id = Some(ids);
-        }
+        let read_z = |path: &Path| read_velocity_z(path, &description);
+        let read_ids = |path: &Path| read_objects(path, &description);
         let mut blurred = None;
         if let Some(path) = find_picture(folder, "blurred")? {
             let picture = read_color(&path, &convention, &description)?;
@@ -98,13 +102,15 @@ impl Capture {
         }
         Ok(Self {
             subframes: list_subframes(folder, &color_path)?,
+            velocity_z: read_optional(folder, ["velocity_z"; 2], &color, read_z)?,
+            object_id: read_optional(folder, ["object"; 2], &color, read_ids)?,
             folder: folder.to_owned(),
             description,
             convention,
             color,
             velocity,
+            velocity_next,
             depth,
-            object_id,
             blurred,
             notes,
         })
@@ -188,6 +194,21 @@ fn require(folder: &Path, [stem, channel]: [&str; 2], holds: &str) -> Result<Pat
         Some(path) => Ok(path),
         None => refuse_missing(&folder.join(format!("{stem}.exr")), holds),
     }
+}
+
+/// Reads a picture that a capture need not have, of the colour's size.
+fn read_optional<T>(
+    folder: &Path,
+    [stem, channel]: [&str; 2],
+    color: &Image,
+    read: impl Fn(&Path) -> Result<Raster<T>, Error>,
+) -> Result<Option<Raster<T>>, Error> {
+    let Some(path) = find_buffer(folder, stem, channel)? else {
+        return Ok(None);
+    };
+    let picture = read(&path)?;
+    check_size(&path, &picture, color)?;
+    Ok(Some(picture))
 }
 
 fn refuse_missing<T>(path: &Path, holds: &str) -> Result<T, Error> {

@@ -33,6 +33,8 @@ pub struct Manifest {
     pub instant: f64,
     /// Animation time of the previous frame, which engines need for velocity.
     pub previous: f64,
+    /// Animation time of the frame after, to which `velocity_next` leads.
+    pub next: f64,
     /// Exposure in frames.
     pub exposure: f64,
     /// Animation times of the shutter's opening and closing, by its alignment.
@@ -61,7 +63,7 @@ pub struct Manifest {
     pub conventions: Vec<&'static str>,
 }
 
-const CONVENTIONS: [&str; 7] = [
+const CONVENTIONS: [&str; 8] = [
     "Units are metres and linear Rec.709 radiance; the space is right-handed with +Y up, and the camera looks along its own -Z.",
     "Light: the directional light's intensity is its irradiance, without any factor for lumens; a white diffuse surface that \
      faces it sends irradiance / pi.",
@@ -72,6 +74,8 @@ const CONVENTIONS: [&str; 7] = [
     "The animation stops before its first key and after its last one, but the scene's motion goes on; draw only times between them.",
     "Expected velocity, to compare with the suite's: pixels per frame, +x right, +y down, the position at the instant minus the \
      position one frame before.",
+    "If a filter reads them: velocity_next is the position one frame later minus the position at the instant, likewise; velocity_z \
+     is the depth at the instant minus the depth one frame before, in metres.",
 ];
 
 impl Manifest {
@@ -98,6 +102,7 @@ impl Manifest {
             seconds_per_frame: 1.0 / FRAMES_PER_SECOND,
             instant: timeline.seconds(0.0),
             previous: timeline.seconds(-1.0),
+            next: timeline.seconds(1.0),
             exposure: scene.exposure,
             shutter: shutters.map(|(name, own)| (name, ends(own))).into(),
             subframes: shutters.map(|(name, own)| (name, midpoints(own))).into(),

@@ -155,6 +155,13 @@ fn describe_scene(capture: &Capture, out: &Path) -> Result<EngineScene, Error> {
         step: length / f64::from(subframes.max(1)),
         ladder: Vec::new(),
         has_picture: capture.blurred.is_some(),
+        further_inputs: [
+            ("velocity_next", capture.velocity_next.is_some()),
+            ("velocity_z", capture.velocity_z.is_some()),
+        ]
+        .into_iter()
+        .filter_map(|(name, is_there)| is_there.then(|| name.to_owned()))
+        .collect(),
         hash: hash_capture(capture)?,
         folder: out.to_owned(),
     })
@@ -208,6 +215,8 @@ fn make_frame(
         objects,
         color: capture.color.clone(),
         velocity: capture.velocity.clone(),
+        velocity_next: capture.velocity_next.clone(),
+        velocity_z: capture.velocity_z.clone(),
         depth: capture.depth.clone(),
         samples: None,
     }
@@ -238,8 +247,11 @@ fn hash_capture(capture: &Capture) -> Result<String, Error> {
     hasher.update(how.as_bytes());
     let colors = |image: &Image| image.pixels.clone().into_iter().flatten();
     let ids = capture.object_id.iter().flat_map(|ids| &ids.pixels);
+    let next = capture.velocity_next.iter().flat_map(|next| &next.pixels);
+    let z = capture.velocity_z.iter().flat_map(|z| &z.pixels);
     let values = colors(&capture.color)
         .chain(capture.velocity.pixels.iter().flatten().copied())
+        .chain(next.flatten().chain(z).copied())
         .chain(capture.depth.pixels.iter().copied())
         .chain(ids.map(|id| *id as f32))
         .chain(capture.blurred.iter().flat_map(colors));

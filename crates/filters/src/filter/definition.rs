@@ -17,6 +17,9 @@ use crate::shader::{EntryPoint, Shader};
 /// Textures that every filter may read.
 pub(crate) const INPUTS: [&str; 3] = ["color", "velocity", "depth"];
 
+/// Textures that a filter gets if one of its shaders reads them: few frames have them.
+pub(crate) const FURTHER_INPUTS: [&str; 2] = ["velocity_next", "velocity_z"];
+
 /// Seconds that one run of a program, or one dispatch of a pass, may take if filter.toml does not say.
 pub(crate) const DEFAULT_TIME_LIMIT: f64 = 60.0;
 
@@ -107,6 +110,13 @@ impl Filter {
         [own].into_iter().chain(corners).collect()
     }
 
+    /// Lists the inputs that its shaders read and few frames have: `velocity_next` and `velocity_z`.
+    pub fn further_inputs(&self) -> Vec<&'static str> {
+        let stages = || self.passes.iter().flat_map(|pass| self.stages(pass));
+        let is_read = |name: &&str| stages().any(|(_, entry)| entry.reads.contains(*name));
+        FURTHER_INPUTS.into_iter().filter(is_read).collect()
+    }
+
     /// Finds a declared texture.
     pub(crate) fn texture(&self, name: &str) -> Option<&Texture> {
         self.textures.iter().find(|texture| texture.name == name)
@@ -132,6 +142,7 @@ impl Filter {
         let declared = self.textures.iter().map(|texture| &texture.name[..]);
         let before = self.history.iter().map(|history| history.texture());
         let inputs = INPUTS.into_iter().chain(before);
-        inputs.chain(["output"]).chain(declared)
+        let all = inputs.chain(["output"]).chain(declared);
+        all.chain(FURTHER_INPUTS)
     }
 }

@@ -19,7 +19,7 @@ pub use convention::{
     Convention, DepthKind, VelocitySign, VelocityTime, VelocityUnit, VerticalDirection,
 };
 pub use definition::Filter;
-pub(crate) use definition::{DEFAULT_TIME_LIMIT, INPUTS, Lines};
+pub(crate) use definition::{DEFAULT_TIME_LIMIT, FURTHER_INPUTS, INPUTS, Lines};
 pub use history::History;
 pub use parameter::{Kind, Parameter, Scale, Unit, Value};
 pub(crate) use pass::{Count, Pass, Rounding};

@@ -42,6 +42,8 @@ pub(crate) struct PassShader {
     pub constants: Vec<(String, Expression)>,
     /// Conditions of WESL that are true.
     pub conditions: Vec<String>,
+    /// Macros of its compiler, each as `NAME=value`.
+    pub defines: Vec<String>,
     /// Program that compiles it; the first that can if left out.
     pub compiler: Option<String>,
 }

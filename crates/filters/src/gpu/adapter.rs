@@ -2,7 +2,7 @@
 
 use super::device::{AdapterDescription, Clock, Gpu, LoopLimit};
 use super::loop_probe::find_loop_limit;
-use crate::FilterError;
+use crate::{FilterError, Format};
 
 /// Features that read the GPU's own clock between passes.
 const TIMESTAMPS: wgpu::Features =
@@ -62,6 +62,7 @@ impl Gpu {
                 false => Clock::WallClock,
             },
             loop_limit: None,
+            stored_formats: list_stored_formats(chosen, &device),
             interrupted: || false,
             device,
             queue,
@@ -69,6 +70,20 @@ impl Gpu {
         gpu.loop_limit = find_loop_limit(&gpu)?.map(|iterations| LoopLimit { iterations, lanes });
         Ok(gpu)
     }
+}
+
+/// Lists the formats in which shaders can store textures.
+fn list_stored_formats(adapter: &wgpu::Adapter, device: &wgpu::Device) -> Vec<Format> {
+    let features = device.features();
+    let is_open = features.contains(wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES);
+    let is_stored = |format: &Format| {
+        let granted = match is_open {
+            true => adapter.get_texture_format_features(format.wgpu()),
+            false => format.wgpu().guaranteed_format_features(features),
+        };
+        (granted.allowed_usages).contains(wgpu::TextureUsages::STORAGE_BINDING)
+    };
+    Format::ALL.iter().copied().filter(is_stored).collect()
 }
 
 fn find_adapters() -> Vec<wgpu::Adapter> {

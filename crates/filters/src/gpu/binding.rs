@@ -1,11 +1,15 @@
 //! Pipelines of kernels, and bindings of their variables.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use wgpu::naga::{ScalarKind, ShaderStage};
+use wgpu::naga::{Module, ScalarKind, ShaderStage, front};
 
 use super::device::Gpu;
-use crate::shader::{EntryPoint, Role, SamplerFilter, Sampling, Shader, Variable, Wrap};
+use crate::shader::{
+    EntryPoint, Role, SamplerFilter, Sampling, Shader, Variable, Varying, Wrap,
+    follow_interpolation,
+};
 
 /// A compiled pass.
 #[derive(Clone, Debug)]
@@ -93,10 +97,14 @@ fn create_layout(
     let used = entry.variables.iter().map(|index| {
         let variable = &shader.variables[*index];
         let ty = match variable.role {
-            Role::Block(_) => buffer(wgpu::BufferBindingType::Uniform),
+            Role::Block(block) => buffer(match shader.blocks[block].is_storage {
+                true => wgpu::BufferBindingType::Storage { read_only: true },
+                false => wgpu::BufferBindingType::Uniform,
+            }),
             Role::Read(kind) => wgpu::BindingType::Texture {
                 sample_type: match kind {
                     ScalarKind::Uint => wgpu::TextureSampleType::Uint,
+                    ScalarKind::Sint => wgpu::TextureSampleType::Sint,
                     _ => wgpu::TextureSampleType::Float {
                         filterable: entry.interpolated.contains(index),
                     },
@@ -163,23 +171,34 @@ pub(super) fn create_pipeline(
     Pipeline::Compute(pipeline)
 }
 
-/// Vertices of a triangle over the whole picture, with texture coordinates from the top left at each location that the fragment
-/// shader reads.
-fn write_triangle(locations: &[u32]) -> String {
-    let coordinates = locations
-        .iter()
-        .map(|location| format!("@location({location}) place_{location}: vec2<f32>, "));
-    let coordinates: String = coordinates.collect();
-    let values = ", place".repeat(locations.len());
-    format!(
-        "struct Corner {{ @builtin(position) position: vec4<f32>, {coordinates}}}
+/// Makes the vertex stage of a triangle over the whole picture. Each location that the fragment shader reads gets texture coordinates
+/// from the top left, and then, as in Unreal, the place in clip space.
+fn make_triangle(read: &[Varying]) -> Module {
+    let (mut members, mut values) = (String::new(), String::new());
+    for varying in read {
+        let location = varying.location;
+        let (ty, parts) = match varying.count_floats() {
+            Some(1) => ("f32", "x"),
+            Some(2) => ("vec2<f32>", "xy"),
+            Some(3) => ("vec3<f32>", "xyz"),
+            _ => ("vec4<f32>", "xyzw"),
+        };
+        members += &format!("@location({location}) place_{location}: {ty}, ");
+        values += &format!(", place.{parts}");
+    }
+    let text = format!(
+        "struct Corner {{ @builtin(position) position: vec4<f32>, {members}}}
 @vertex
 fn triangle(@builtin(vertex_index) index: u32) -> Corner {{
-    let place = vec2<f32>(f32((index << 1u) & 2u), f32(index & 2u));
-    return Corner(vec4<f32>(2.0 * place.x - 1.0, 1.0 - 2.0 * place.y, 0.0, 1.0){values});
+    let uv = vec2<f32>(f32((index << 1u) & 2u), f32(index & 2u));
+    let place = vec4<f32>(uv, 2.0 * uv.x - 1.0, 1.0 - 2.0 * uv.y);
+    return Corner(vec4<f32>(place.zw, 0.0, 1.0){values});
 }}
 "
-    )
+    );
+    let mut triangle = front::wgsl::parse_str(&text).expect("the triangle is valid WGSL");
+    follow_interpolation(&mut triangle, read);
+    triangle
 }
 
 fn create_render_pipeline(
@@ -197,7 +216,7 @@ fn create_render_pipeline(
                 .device
                 .create_shader_module(wgpu::ShaderModuleDescriptor {
                     label: Some("triangle"),
-                    source: wgpu::ShaderSource::Wgsl(write_triangle(&entry.inputs).into()),
+                    source: wgpu::ShaderSource::Naga(Cow::Owned(make_triangle(&entry.inputs))),
                 });
             (&triangle, "triangle")
         }

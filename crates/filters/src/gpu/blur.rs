@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use frame::{Image, Raster};
+use wgpu::naga::ScalarKind;
 
 use super::bound_passes::{BoundPasses, mark_of};
 use super::device::Gpu;
@@ -168,8 +169,9 @@ impl<'g> Blur<'g> {
     fn find_first_broken(&self) -> Option<String> {
         for dispatch in &self.passes.dispatches {
             self.run_dispatch(dispatch).ok()?;
-            let between = (dispatch.written.iter())
-                .filter(|(name, target)| name != "output" && target.format != Format::R32Uint);
+            let between = (dispatch.written.iter()).filter(|(name, target)| {
+                name != "output" && target.format.kind() == ScalarKind::Float
+            });
             for (name, target) in between {
                 let texels = self.gpu.download(target, self.place("read back")).ok()?;
                 let broken = find_broken(&texels);
@@ -193,8 +195,8 @@ impl<'g> Blur<'g> {
         }
     }
 
-    /// Reads what the last run left in a texture between the passes. Components that its format lacks are 0, and a whole number
-    /// is the float of the same bits. Panics if the filter has no such texture.
+    /// Reads what the last run left in a texture between the passes. Components that its format lacks are 0, and a number
+    /// of `r32uint` is the float of the same bits. Panics if the filter has no such texture.
     pub fn read_texture(&self, name: &str) -> Result<Raster<[f32; 4]>, FilterError> {
         let target = self.passes.target(name);
         self.gpu.download(target, self.place("read back"))
@@ -215,9 +217,16 @@ impl<'g> Blur<'g> {
 
     /// Uploads everything but the colour, and what the filter reads of the frame before.
     fn upload_layers(&self, input: &Input, before: &Input) -> Result<(), FilterError> {
-        let texels = |layer: &str, input: &Input| match layer {
-            "velocity" => velocity_texels(&self.filter().convention, input),
-            _ => self.filter().convention.convert_depth(input.depth).pixels,
+        let convention = &self.filter().convention;
+        let texels = |layer: &str, input: &Input| {
+            let velocity = |own| velocity_texels(convention, input, own);
+            let is_there = "a checked frame has what the filter reads";
+            match layer {
+                "velocity" => velocity(input.velocity),
+                "velocity_next" => velocity(input.velocity_next.expect(is_there)),
+                "velocity_z" => input.velocity_z.expect(is_there).pixels.clone(),
+                _ => convention.convert_depth(input.depth).pixels,
+            }
         };
         let history = self
             .filter()
@@ -225,11 +234,13 @@ impl<'g> Blur<'g> {
             .iter()
             .filter(|it| **it != History::Color);
         let history = history.map(|it| (it.texture(), it.input(), before));
-        let own = ["velocity", "depth"].map(|layer| (layer, layer, input));
+        let further = self.filter().further_inputs();
+        let own = ["velocity", "depth"].into_iter().chain(further);
+        let own = own.map(|layer| (layer, layer, input));
         self.gpu.catch_errors(self.place("upload"), || {
-            let frame = FrameValues::of(input, &self.filter().convention);
+            let frame = FrameValues::of(input, convention);
             self.passes.upload_frame(self.gpu, frame);
-            for (texture, layer, input) in own.into_iter().chain(history) {
+            for (texture, layer, input) in own.chain(history) {
                 let target = self.passes.target(texture);
                 self.gpu.upload(target, &texels(layer, input));
             }

@@ -231,9 +231,13 @@ fn sum_bytes(targets: &Targets, filter: &Filter, pass: &Pass, levels: &Levels) -
 
 /// Creates a buffer for each uniform block.
 fn create_blocks(gpu: &Gpu, blocks: &[UniformBlock]) -> Vec<(UniformBlock, wgpu::Buffer)> {
-    let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
     let create = |block: &UniformBlock| {
-        let bytes = u64::from(block.bytes).next_multiple_of(16);
+        let usage = match block.is_storage {
+            true => wgpu::BufferUsages::STORAGE,
+            false => wgpu::BufferUsages::UNIFORM,
+        };
+        let usage = usage | wgpu::BufferUsages::COPY_DST;
+        let bytes = block.buffer_bytes() as u64;
         (block.clone(), gpu.create_buffer("block", bytes, usage))
     };
     blocks.iter().map(create).collect()

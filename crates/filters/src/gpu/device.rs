@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::Format;
+
 /// Description of an adapter, as a run records it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct AdapterDescription {
@@ -51,6 +53,8 @@ pub struct Gpu {
     pub clock: Clock,
     /// Loop iterations that it grants an invocation; `None` if it ends no loop early.
     pub loop_limit: Option<LoopLimit>,
+    /// Formats in which its shaders can store textures.
+    pub(super) stored_formats: Vec<Format>,
     /// Function polled while the GPU works; work stops when it returns true. The default never does.
     pub interrupted: fn() -> bool,
     pub(super) device: wgpu::Device,

@@ -12,7 +12,9 @@ use super::device::Gpu;
 use super::limits::Limits;
 use super::targets::list_target_formats;
 use crate::printable::escape_controls;
-use crate::shader::{Shader, count_loop_iterations, run_on_large_stack};
+use crate::shader::{
+    Shader, Varying, count_loop_iterations, follow_interpolation, run_on_large_stack,
+};
 use crate::translate::{list_constants, specialise};
 use crate::{Filter, FilterError, Pass, Settings};
 
@@ -152,7 +154,8 @@ fn compile_pass(
 ) -> Result<Compiled, FilterError> {
     for index in &pass.shaders {
         if let Entry::Vacant(missing) = modules.entry(*index) {
-            missing.insert(compile_shader(gpu, filter, &filter.shaders[*index])?);
+            let read = &filter.entry_point(pass).inputs;
+            missing.insert(compile_shader(gpu, filter, &filter.shaders[*index], read)?);
         }
     }
     let compiled = gpu.catch(|| {
@@ -170,20 +173,25 @@ fn compile_pass(
     compiled.map_err(|reason| refuse(gpu, filter, &pass.entry, &reason))
 }
 
-/// Compiles a module. Its loops are counted if the adapter ends long ones, except in vertex stages, which may store nothing.
+/// Compiles a module. Its loops are counted if the adapter ends long ones, except in vertex stages, which may store nothing;
+/// those are interpolated as their fragment shader reads them.
 fn compile_shader(
     gpu: &Gpu,
     filter: &Filter,
     shader: &Shader,
+    read: &[Varying],
 ) -> Result<(wgpu::ShaderModule, Option<u32>), FilterError> {
     let mut entries = shader.entry_points.iter();
     let is_vertex = entries.any(|entry| entry.stage == ShaderStage::Vertex);
     let limit = gpu.loop_limit.filter(|_| !is_vertex);
     let counted_at = limit.map(|_| shader.find_free_binding());
-    let module = match (limit, counted_at) {
+    let mut module = match (limit, counted_at) {
         (Some(limit), Some(at)) => count_loop_iterations(&shader.module, at, limit.safe()),
         _ => (*shader.module).clone(),
     };
+    if is_vertex {
+        follow_interpolation(&mut module, read);
+    }
     let source = wgpu::ShaderSource::Naga(Cow::Owned(module));
     let module = gpu.catch(|| {
         gpu.device

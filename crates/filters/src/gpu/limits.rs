@@ -2,7 +2,7 @@
 
 use super::device::Gpu;
 use crate::shader::{EntryPoint, Role, Shader};
-use crate::{Filter, FilterError, Pass};
+use crate::{Filter, FilterError, Format, Pass};
 
 /// The limits of a device.
 #[derive(Clone, Debug)]
@@ -12,6 +12,8 @@ pub struct Limits {
     limits: wgpu::Limits,
     /// True if samplers interpolate 32-bit floats.
     interpolates_floats: bool,
+    /// Formats in which shaders can store textures.
+    stored_formats: Vec<Format>,
 }
 
 impl Limits {
@@ -21,6 +23,8 @@ impl Limits {
             owner: "the lowest common limits, those that WebGPU promises everywhere".into(),
             limits: wgpu::Limits::default(),
             interpolates_floats: false,
+            // Most of those that WebGPU does not promise are there.
+            stored_formats: Format::ALL.to_vec(),
         }
     }
 
@@ -31,6 +35,7 @@ impl Limits {
             limits: gpu.device.limits(),
             interpolates_floats: (gpu.device.features())
                 .contains(wgpu::Features::FLOAT32_FILTERABLE),
+            stored_formats: gpu.stored_formats.clone(),
         }
     }
 
@@ -79,6 +84,7 @@ impl Limits {
             .map(|index| shader.variables[*index].binding);
         let found = [
             self.find_broken_size(entry.workgroup_size),
+            self.find_unstored(shader, entry),
             self.exceed(
                 entry.usage.workgroup_bytes,
                 limits.max_compute_workgroup_storage_size,
@@ -105,6 +111,30 @@ impl Limits {
             ),
         ];
         found.into_iter().flatten().next()
+    }
+
+    /// Describes the first texture that a shader stores in a format that the adapter cannot store.
+    fn find_unstored(&self, shader: &Shader, entry: &EntryPoint) -> Option<String> {
+        let used = entry
+            .variables
+            .iter()
+            .map(|index| &shader.variables[*index]);
+        let mut stored = used.filter_map(|variable| match variable.role {
+            Role::Write(format) => Some((&variable.resource, format)),
+            _ => None,
+        });
+        let (name, format) = stored.find(|(_, format)| !self.stored_formats.contains(format))?;
+        let allowed = self
+            .stored_formats
+            .iter()
+            .filter(|it| it.kind() == format.kind());
+        let allowed: Vec<&str> = allowed.map(|format| format.name()).collect();
+        Some(format!(
+            "stores \"{name}\" as {}, not allowed by {}; give the texture one of {}",
+            format.name(),
+            self.owner,
+            allowed.join(", ")
+        ))
     }
 
     /// Describes the first limit that the size of a workgroup breaks.
@@ -135,5 +165,24 @@ impl Limits {
         let owner = &self.owner;
         (found > u64::from(allowed))
             .then(|| format!("{found} {what}; allowed: at most {allowed} by {owner}; {way_out}"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_format_that_the_adapter_cannot_store_is_refused_with_those_that_it_can() {
+        let limits = Limits {
+            stored_formats: vec![Format::R32Sint, Format::R32Float],
+            ..Limits::lowest()
+        };
+        let filter = Filter::builtin("identity").unwrap();
+        let refusal = limits.check(&filter).unwrap_err().to_string();
+        let says = "stores \"output\" as rgba32float, not allowed by the lowest common limits";
+        assert!(refusal.contains(says), "{refusal}");
+        let way_out = "give the texture one of r32float";
+        assert!(refusal.ends_with(way_out), "{refusal}");
     }
 }

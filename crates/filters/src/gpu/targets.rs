@@ -31,6 +31,7 @@ fn plan_targets(
 ) -> Result<Vec<Planned>, String> {
     let before = filter.history.iter().map(|history| history.texture());
     let inputs = INPUTS.into_iter().chain(before);
+    let inputs = inputs.chain(filter.further_inputs());
     let inputs = inputs.map(|name| (name, filter.convention.format_of(name)));
     let builtin = inputs.chain([("output", output_format(filter))]);
     let builtin = builtin.map(|(name, format)| Texture {

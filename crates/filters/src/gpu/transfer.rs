@@ -1,7 +1,8 @@
 //! Textures on the GPU, and transfers to and from them.
 
-use frame::Raster;
+use frame::{Raster, Vectors};
 use half::f16;
+use wgpu::naga::ScalarKind;
 
 use super::device::Gpu;
 use super::place::Place;
@@ -9,10 +10,10 @@ use crate::filter::DEFAULT_TIME_LIMIT;
 use crate::{Convention, FilterError, Format, Input};
 
 impl Format {
-    /// Encodes numbers; those of `r32uint` are given as the floats of their bits.
+    /// Encodes the numbers of an input, which are floats.
     fn encode(self, values: &[f32]) -> Vec<u8> {
         match self {
-            Format::R32Uint | Format::R32Float | Format::Rg32Float | Format::Rgba32Float => {
+            Format::R32Float | Format::Rg32Float | Format::Rgba32Float => {
                 bytemuck::cast_slice(values).to_vec()
             }
             Format::R16Float | Format::Rg16Float | Format::Rgba16Float => (values.iter())
@@ -20,7 +21,7 @@ impl Format {
                     f16::from_f32(value.clamp(-LARGEST_F16, LARGEST_F16)).to_le_bytes()
                 })
                 .collect(),
-            Format::R8Unorm | Format::Rgba8Unorm => (values.iter())
+            Format::R8Unorm | Format::Rg8Unorm | Format::Rgba8Unorm => (values.iter())
                 .map(|value| (value.clamp(0.0, 1.0) * 255.0).round() as u8)
                 .collect(),
             Format::Rgb10a2Unorm => pack(values, |texel| {
@@ -33,21 +34,13 @@ impl Format {
                     [(0, 4), (1, 4), (2, 5)].map(|(index, cut)| shorten(texel[index], cut));
                 r | g << 11 | b << 22
             }),
+            _ => unreachable!("no input holds whole numbers"),
         }
     }
 
-    /// Decodes the numbers of a row.
+    /// Decodes the numbers of a row. Those of `r32uint` become the floats of their bits.
     fn decode(self, bytes: &[u8]) -> Vec<f32> {
         match self {
-            Format::R32Uint | Format::R32Float | Format::Rg32Float | Format::Rgba32Float => {
-                bytemuck::pod_collect_to_vec(bytes)
-            }
-            Format::R16Float | Format::Rg16Float | Format::Rgba16Float => (bytes.chunks_exact(2))
-                .map(|pair| f16::from_le_bytes([pair[0], pair[1]]).to_f32())
-                .collect(),
-            Format::R8Unorm | Format::Rgba8Unorm => {
-                bytes.iter().map(|byte| f32::from(*byte) / 255.0).collect()
-            }
             Format::Rgb10a2Unorm => unpack(bytes, |word| {
                 let part = |shift: u32| (word >> shift & 1023) as f32 / 1023.0;
                 [part(0), part(10), part(20), (word >> 30) as f32 / 3.0]
@@ -61,7 +54,32 @@ impl Format {
                     1.0,
                 ]
             }),
+            Format::R32Uint | Format::R32Float | Format::Rg32Float | Format::Rgba32Float => {
+                bytemuck::pod_collect_to_vec(bytes)
+            }
+            _ => {
+                let size = self.texel_bytes() as usize / self.components();
+                let numbers = bytes.chunks_exact(size);
+                numbers
+                    .map(|number| decode_number(number, self.kind()))
+                    .collect()
+            }
         }
+    }
+}
+
+/// Decodes a whole number, or a float of 8 or 16 bits.
+fn decode_number(number: &[u8], kind: ScalarKind) -> f32 {
+    let mut word = [0; 4];
+    word[..number.len()].copy_from_slice(number);
+    let bits = u32::from_le_bytes(word);
+    let unused = 32 - 8 * number.len() as u32;
+    match (kind, number.len()) {
+        (ScalarKind::Uint, _) => bits as f32,
+        // The sign is the highest bit in use.
+        (ScalarKind::Sint, _) => ((bits << unused) as i32 >> unused) as f32,
+        (_, 1) => bits as f32 / 255.0,
+        _ => f16::from_bits(bits as u16).to_f32(),
     }
 }
 
@@ -127,10 +145,14 @@ pub(super) fn count_texels(width: u32, height: u32, levels: std::ops::Range<u32>
         .sum()
 }
 
-/// Converts the velocity of an input as a shader expects it, with as many components as its format has.
-pub(super) fn velocity_texels(convention: &Convention, input: &Input) -> Vec<f32> {
+/// Converts a velocity of an input as a shader expects it, with as many components as its format has.
+pub(super) fn velocity_texels(
+    convention: &Convention,
+    input: &Input,
+    velocity: &Vectors,
+) -> Vec<f32> {
     let convention = convention.at_rate(input.frames_per_second);
-    let velocity = convention.convert_velocity(input.velocity, input.exposure);
+    let velocity = convention.convert_velocity(velocity, input.exposure);
     match convention.format_of("velocity").components() {
         4 => (velocity.pixels.iter())
             .flat_map(|[x, y]| [*x, *y, 0.0, 1.0])
@@ -307,5 +329,14 @@ mod tests {
             assert!(error <= 0.5_f32.powi(bits), "{decoded:?}");
         }
         assert_eq!(decoded[4..], [0.0, 65024.0, 0.0, 1.0]);
+    }
+
+    #[test]
+    fn whole_numbers_keep_their_values() {
+        assert_eq!(Format::Rg8Sint.decode(&[0xff, 0x7f]), [-1.0, 127.0]);
+        assert_eq!(Format::Rg16Uint.decode(&[1, 2, 0, 0x80]), [513.0, 32768.0]);
+        let minus_two = (-2_i32).to_le_bytes();
+        assert_eq!(Format::R32Sint.decode(&minus_two), [-2.0]);
+        assert_eq!(Format::R16Sint.decode(&minus_two[..2]), [-2.0]);
     }
 }

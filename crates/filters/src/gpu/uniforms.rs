@@ -117,6 +117,8 @@ mod tests {
         let input = Input {
             color: &[],
             velocity: &Raster::from_fn(40, 30, |_, _| [0.0, 0.0]),
+            velocity_next: None,
+            velocity_z: None,
             depth: &Raster::from_fn(40, 30, |_, _| 1.0),
             reprojection: Some(reprojection),
             camera: None,

@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
-use crate::filter::{INPUTS, PassShader};
-use crate::shader::{BlockNumber, EntryPoint, Role, Shader, Variable, written_texture};
+use crate::filter::{FURTHER_INPUTS, INPUTS, PassShader};
+use crate::shader::{BlockNumber, EntryPoint, Role, Shader, Variable, Varying, written_texture};
 use crate::translate::check_texture;
 use crate::{Count, Expression, Filter, FilterError, Pass, Stage};
 
@@ -147,8 +147,10 @@ impl Filter {
         let textures = &self.textures;
         let names: Vec<&str> = textures.iter().map(|texture| &texture.name[..]).collect();
         format!(
-            "is no known input or output; uniforms: parameters, frame; read: color, velocity, depth, those of the frame before \
+            "is no known input or output; uniforms: parameters, frame; read: {}, {}, those of the frame before \
              as color_before and so on if `history` names them, or a [[texture]] by its name; written: output or a [[texture]] as <name>_out; textures of {}: {}",
+            INPUTS.join(", "),
+            FURTHER_INPUTS.join(", "),
             self.lines.path.display(),
             if names.is_empty() {
                 "none".to_owned()
@@ -160,7 +162,8 @@ impl Filter {
 
     fn check_passes(&self) -> Result<(), FilterError> {
         let before = self.history.iter().map(|history| history.texture());
-        let mut ready: BTreeSet<&str> = INPUTS.into_iter().chain(before).collect();
+        let inputs = INPUTS.into_iter().chain(FURTHER_INPUTS);
+        let mut ready: BTreeSet<&str> = inputs.chain(before).collect();
         let mut used = BTreeSet::new();
         for (pass, line) in self.passes.iter().zip(&self.lines.passes) {
             let refuse = |reason: String| {
@@ -170,8 +173,9 @@ impl Filter {
             if let Some(shader) = &pass.shader {
                 check_targets(self, shader, entry).map_err(refuse)?;
             }
-            if let [_, (_, vertex)] = self.stages(pass)[..] {
-                check_vertex(vertex, entry).map_err(refuse)?;
+            match self.stages(pass)[..] {
+                [_, (_, vertex)] => check_vertex(vertex, entry).map_err(refuse)?,
+                _ => check_coordinates(entry).map_err(refuse)?,
             }
             if let Some(name) = entry.reads.iter().find(|name| !ready.contains(&name[..])) {
                 return Err(refuse(format!(
@@ -261,23 +265,33 @@ fn check_targets(filter: &Filter, shader: &PassShader, entry: &EntryPoint) -> Re
 
 /// Refuses a vertex stage that wants vertices, or that leaves out what the fragment shader reads.
 fn check_vertex(vertex: &EntryPoint, fragment: &EntryPoint) -> Result<(), String> {
-    if !vertex.inputs.is_empty() {
+    let attributes: Vec<u32> = vertex.inputs.iter().map(|it| it.location).collect();
+    if !attributes.is_empty() {
         return Err(format!(
             "vertex shader \"{}\" reads attributes at locations {:?}; there are no vertex buffers; allowed: one that makes \
              its three corners from the index of the vertex; or leave `vertex` out for a triangle of the program's own",
-            vertex.name, vertex.inputs
+            vertex.name, attributes
         ));
     }
-    match fragment
-        .inputs
-        .iter()
-        .find(|location| !vertex.locations.contains(location))
-    {
+    let mut read = fragment.inputs.iter().map(|it| it.location);
+    match read.find(|location| !vertex.locations.contains(location)) {
         Some(missing) => Err(format!(
             "the fragment shader reads location {missing}; vertex shader \"{}\" writes locations {:?}; allowed: one that \
              writes all that the other reads",
             vertex.name, vertex.locations
         )),
         None => Ok(()),
+    }
+}
+
+/// Refuses a fragment shader that reads other numbers than the program's own triangle has.
+fn check_coordinates(fragment: &EntryPoint) -> Result<(), String> {
+    let mut read = fragment.inputs.iter();
+    match read.find(|input| input.count_floats().is_none()) {
+        None => Ok(()),
+        Some(Varying { location, .. }) => Err(format!(
+            "the fragment shader reads no floats at location {location}; the program's triangle has texture coordinates there; \
+             name a vertex stage by `vertex`, or read up to four floats"
+        )),
     }
 }

@@ -72,17 +72,16 @@ fn read_binding(entry: &BindingEntry, filter: &Filter, line: usize) -> Result<Bi
                 .into(),
         );
     };
-    if entry.values.len() > MAX_ENTRIES {
+    let mut values = Vec::new();
+    flatten(&entry.values, "", &mut values);
+    if values.len() > MAX_ENTRIES {
         return Err(format!("has more than {MAX_ENTRIES} values"));
     }
-    let read_values = |(member, numbers): (&String, &NumbersEntry)| {
-        let read = numbers
-            .as_slice()
-            .iter()
-            .map(|number| filter.read_value(number));
+    let read_values = |(member, numbers): (String, &[NumberEntry])| {
+        let read = numbers.iter().map(|number| filter.read_value(number));
         let read: Result<_, String> = read.collect();
         let read = read.map_err(|reason| format!("{member} = {reason}"))?;
-        Ok::<_, String>((member.clone(), read))
+        Ok::<_, String>((member, read))
     };
     let level = entry.level.as_ref().map(|level| filter.read_level(level));
     Ok(Binding {
@@ -94,11 +93,25 @@ fn read_binding(entry: &BindingEntry, filter: &Filter, line: usize) -> Result<Bi
             mip_filter: entry.mip_filter.unwrap_or(SamplerFilter::Nearest),
             wrap: entry.wrap.unwrap_or_default(),
         },
-        values: entry
-            .values
-            .iter()
-            .map(read_values)
-            .collect::<Result<_, _>>()?,
+        values: (values.into_iter().map(read_values)).collect::<Result<_, _>>()?,
         line,
     })
+}
+
+/// Lists values by the paths of their members: `{ light.x = 1 }` is `{ "light.x" = 1 }`.
+fn flatten<'e>(
+    values: &'e BTreeMap<String, NumbersEntry>,
+    path: &str,
+    flat: &mut Vec<(String, &'e [NumberEntry])>,
+) {
+    for (name, entry) in values {
+        let path = match path {
+            "" => name.clone(),
+            path => format!("{path}.{name}"),
+        };
+        match entry {
+            NumbersEntry::Members(members) => flatten(members, &path, flat),
+            entry => flat.push((path, entry.as_slice())),
+        }
+    }
 }

@@ -3,6 +3,7 @@
 mod bindings;
 mod command;
 mod convention;
+mod defines;
 mod file;
 mod number;
 mod parameters;

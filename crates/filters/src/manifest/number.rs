@@ -1,5 +1,7 @@
 //! Numbers of filter.toml that may be expressions, and the names that these may have.
 
+use std::collections::BTreeMap;
+
 use serde::Deserialize;
 
 use crate::filter::explain_unknown;
@@ -22,6 +24,8 @@ pub(super) enum NumberEntry {
 pub(super) enum NumbersEntry {
     One(NumberEntry),
     Several(Vec<NumberEntry>),
+    /// Those of the members of a struct.
+    Members(BTreeMap<String, NumbersEntry>),
 }
 
 impl NumbersEntry {
@@ -29,6 +33,7 @@ impl NumbersEntry {
         match self {
             Self::One(number) => std::slice::from_ref(number),
             Self::Several(numbers) => numbers,
+            Self::Members(_) => &[],
         }
     }
 }

@@ -7,6 +7,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::bindings::{BindingEntry, read_bindings};
+use super::defines::read_defines;
 use super::file::File;
 use super::number::NumberEntry;
 use crate::filter::{LabPass, PassShader, Stage, VertexShader};
@@ -35,6 +36,8 @@ pub(super) struct PassEntry {
     pub constants: BTreeMap<String, NumberEntry>,
     #[serde(default)]
     pub conditions: Vec<String>,
+    #[serde(default)]
+    pub defines: BTreeMap<String, toml::Value>,
     pub compiler: Option<String>,
 }
 
@@ -70,6 +73,7 @@ pub(super) fn read_shader(
         Ok((name.clone(), value))
     });
     let constants: Result<_, String> = constants.collect();
+    let defines = read_defines(&keys.defines, language);
     Ok(Some(PassShader {
         file: relative,
         shader_pass: keys.shader_pass.clone(),
@@ -81,6 +85,7 @@ pub(super) fn read_shader(
         vertex,
         constants: constants.map_err(|reason| file.at(pass, reason))?,
         conditions: keys.conditions.clone(),
+        defines: defines.map_err(|reason| file.at(pass, format!("defines: {reason}")))?,
         compiler: keys.compiler.clone(),
     }))
 }
@@ -97,6 +102,7 @@ fn refuse_keys(keys: &PassEntry) -> Result<(), String> {
         ("[[pass.binding]]", !keys.binding.is_empty()),
         ("constants", !keys.constants.is_empty()),
         ("conditions", !keys.conditions.is_empty()),
+        ("defines", !keys.defines.is_empty()),
         ("compiler", keys.compiler.is_some()),
     ];
     match given.iter().find(|(_, given)| *given) {

@@ -33,11 +33,13 @@ pub const MAX_DISPATCHES: u32 = 4095;
 /// Upper limit on the mip levels of a texture: the largest has 16,384 texels on a side.
 pub const MAX_MIPS: u32 = 15;
 
-/// Variables of kernels that every filter has, or may have by its `history`.
-const BUILTIN_VARIABLES: [&str; 9] = [
+/// Variables of kernels that every filter has, or may have.
+const BUILTIN_VARIABLES: [&str; 11] = [
     "color",
     "velocity",
     "depth",
+    "velocity_next",
+    "velocity_z",
     "color_before",
     "velocity_before",
     "depth_before",

@@ -1,31 +1,22 @@
-//! Uniform blocks of shaders, filled with values by name.
+//! Uniform blocks of shaders, and storage buffers that they only read, filled with values by name.
 
 use wgpu::naga::proc::Layouter;
-use wgpu::naga::{ArraySize, Handle, Module, Scalar, Type, TypeInner, VectorSize};
+use wgpu::naga::{ArraySize, Handle, Module, Type, TypeInner};
 
+use super::member::{NumberKind, list_members, name_element};
 use crate::Expression;
 
-/// Upper limit on the numbers of a block.
-const MAX_NUMBERS: usize = 1024;
-
-/// Upper limit on its bytes, which every adapter grants.
+/// Upper limit on the bytes of a block, which every adapter grants.
 const MAX_BYTES: u32 = 64 << 10;
 
-/// A member of a block: its name, its place and its numbers.
-pub(crate) struct Member {
-    pub name: String,
-    /// Offset in bytes.
-    pub offset: u32,
-    /// Places and kinds of its numbers.
-    pub numbers: Vec<(u32, NumberKind)>,
-}
-
-/// A uniform block, and the places of its numbers.
+/// A uniform block or a storage buffer, and where its numbers lie.
 #[derive(Clone, Debug)]
 pub(crate) struct UniformBlock {
     /// Its size.
-    pub bytes: u32,
+    bytes: u32,
     pub numbers: Vec<BlockNumber>,
+    /// True for a storage buffer.
+    pub is_storage: bool,
 }
 
 /// A number of a uniform block.
@@ -37,19 +28,6 @@ pub(crate) struct BlockNumber {
     pub value: Expression,
 }
 
-/// Type of a number of 32 bits, as WGSL names it.
-pub(crate) type NumberKind = &'static str;
-
-/// Returns the kind of a scalar; none for those of other sizes.
-fn find_kind(scalar: Scalar) -> Option<NumberKind> {
-    match scalar {
-        Scalar::F32 => Some("f32"),
-        Scalar::I32 => Some("i32"),
-        Scalar::U32 => Some("u32"),
-        _ => None,
-    }
-}
-
 impl UniformBlock {
     /// Refuses a block that is larger than adapters grant, or too small for its numbers.
     pub fn new(
@@ -59,21 +37,40 @@ impl UniformBlock {
     ) -> Result<Self, String> {
         let mut layouter = Layouter::default();
         (layouter.update(module.to_ctx())).map_err(|error| format!("has no layout: {error}"))?;
-        let bytes = layouter[block].size;
+        let mut bytes = layouter[block].size;
+        if let Some((offset, stride)) = find_open_array(module, block) {
+            let end = numbers
+                .last()
+                .map_or(0, |last| last.offset.saturating_add(4));
+            let array = end.saturating_sub(offset).checked_next_multiple_of(stride);
+            bytes = bytes.max(array.map_or(u32::MAX, |array| offset.saturating_add(array)));
+        }
         let is_outside = |number: &BlockNumber| number.offset.saturating_add(4) > bytes;
         if bytes > MAX_BYTES || numbers.iter().any(is_outside) {
             return Err(format!(
                 "takes {bytes} bytes; allowed: at most {MAX_BYTES}, with all members in it"
             ));
         }
-        Ok(Self { bytes, numbers })
+        Ok(Self {
+            bytes,
+            numbers,
+            is_storage: false,
+        })
+    }
+
+    /// Returns the size of its buffer. That of a storage buffer is exact: it says how long the last array is.
+    pub fn buffer_bytes(&self) -> usize {
+        match self.is_storage {
+            true => self.bytes as usize,
+            false => (self.bytes as usize).next_multiple_of(16),
+        }
     }
 
     /// Makes a block with numbers named after its members: `prefix`, the member, and the index of
     /// the number if there are several.
     pub fn by_name(module: &Module, block: Handle<Type>, prefix: &str) -> Result<Self, String> {
         let mut numbers = Vec::new();
-        for member in list_members(module, block)? {
+        for member in list_members(module, block, &|_, _| 0)? {
             let count = member.numbers.len();
             for (index, (offset, kind)) in member.numbers.into_iter().enumerate() {
                 let name = format!("{prefix}{}", member.name);
@@ -93,7 +90,7 @@ impl UniformBlock {
 
     /// Encodes the block with the values of names. Whole numbers are rounded to the nearest.
     pub fn encode(&self, value: &dyn Fn(&str) -> f64) -> Vec<u8> {
-        let mut bytes = vec![0; (self.bytes as usize).next_multiple_of(16)];
+        let mut bytes = vec![0; self.buffer_bytes()];
         for number in &self.numbers {
             let value = number.value.evaluate(value);
             let encoded = match number.kind {
@@ -118,90 +115,18 @@ impl UniformBlock {
     }
 }
 
-/// Names one number of several.
-pub(crate) fn name_element(whole: &str, index: usize) -> String {
-    format!("{whole}[{index}]")
-}
-
-/// Lists the members of a block.
-pub(crate) fn list_members(module: &Module, block: Handle<Type>) -> Result<Vec<Member>, String> {
-    let ty = &module.types[block];
-    let mut left = MAX_NUMBERS;
-    let mut list = |name: String, ty, offset| {
-        let mut numbers = Vec::new();
-        list_numbers(module, ty, offset, &mut left, &mut numbers)
-            .map_err(|reason| format!("its member \"{name}\" {reason}"))?;
-        Ok(Member {
-            name,
-            offset,
-            numbers,
-        })
+/// Finds the array without a length that a block ends with: its offset and its stride.
+fn find_open_array(module: &Module, block: Handle<Type>) -> Option<(u32, u32)> {
+    let (offset, ty) = match &module.types[block].inner {
+        TypeInner::Struct { members, .. } => members.last().map(|last| (last.offset, last.ty))?,
+        _ => (0, block),
     };
-    match &ty.inner {
-        TypeInner::Struct { members, .. } => (members.iter())
-            .map(|member| {
-                let name = member
-                    .name
-                    .clone()
-                    .unwrap_or_else(|| format!("@{}", member.offset));
-                list(name, member.ty, member.offset)
-            })
-            .collect(),
-        _ => Ok(vec![list("@0".to_owned(), block, 0)?]),
-    }
-}
-
-/// Lists the numbers of a type in order.
-fn list_numbers(
-    module: &Module,
-    ty: Handle<Type>,
-    offset: u32,
-    left: &mut usize,
-    numbers: &mut Vec<(u32, NumberKind)>,
-) -> Result<(), String> {
-    let mut row = |offset: u32, count: u32, scalar: Scalar| {
-        let kind = find_kind(scalar).ok_or("holds numbers that are not of 32 bits")?;
-        *left = (left.checked_sub(count as usize))
-            .ok_or_else(|| format!("makes the block hold more than {MAX_NUMBERS} numbers"))?;
-        numbers.extend((0..count).map(|index| (offset.saturating_add(4 * index), kind)));
-        Ok::<(), String>(())
-    };
-    match &module.types[ty].inner {
-        TypeInner::Scalar(scalar) => row(offset, 1, *scalar),
-        TypeInner::Vector { size, scalar } => row(offset, *size as u32, *scalar),
-        TypeInner::Matrix {
-            columns,
-            rows,
-            scalar,
-        } => {
-            let stride = match rows {
-                VectorSize::Bi => 8,
-                VectorSize::Tri | VectorSize::Quad => 16,
-            };
-            (0..*columns as u32).try_for_each(|column| {
-                row(
-                    offset.saturating_add(column * stride),
-                    *rows as u32,
-                    *scalar,
-                )
-            })
-        }
+    match module.types[ty].inner {
         TypeInner::Array {
-            base,
-            size: ArraySize::Constant(count),
+            size: ArraySize::Dynamic,
             stride,
-        } => (0..count.get()).try_for_each(|index| {
-            let offset = offset.saturating_add(index.saturating_mul(*stride));
-            // An array of empty structs is refused by its length.
-            *left = left.checked_sub(1).ok_or("is too long")?;
-            let listed = list_numbers(module, *base, offset, left, numbers);
-            *left += 1;
-            listed
-        }),
-        TypeInner::Struct { members, .. } => members.iter().try_for_each(|member| {
-            let offset = offset.saturating_add(member.offset);
-            list_numbers(module, member.ty, offset, left, numbers)
-        }),
-        _ => Err("is no number, vector, matrix, array of known length, or struct of these".into()),
+            ..
+        } => Some((offset, stride)),
+        _ => None,
     }
 }

@@ -3,11 +3,12 @@
 use std::collections::BTreeSet;
 
 use wgpu::naga::valid::{FunctionInfo, GlobalUse, ModuleInfo};
-use wgpu::naga::{Binding, GlobalVariable, Handle, Module, ShaderStage, Type, TypeInner};
+use wgpu::naga::{GlobalVariable, Handle, Module, ShaderStage};
 
 use super::noise::reads_frame_index;
 use super::resource_usage::ResourceUsage;
 use super::variable::{Role, Variable};
+use super::varying::Varying;
 
 /// A kernel.
 #[derive(Clone, Debug)]
@@ -22,8 +23,8 @@ pub(crate) struct EntryPoint {
     pub interpolated: BTreeSet<usize>,
     /// Locations that a vertex stage or a fragment shader writes; none for a kernel.
     pub locations: Vec<u32>,
-    /// Locations that it reads: texture coordinates, or the attributes of vertices.
-    pub inputs: Vec<u32>,
+    /// Values that it reads: texture coordinates, or the attributes of vertices.
+    pub inputs: Vec<Varying>,
     /// Names of the textures that it reads.
     pub reads: BTreeSet<String>,
     /// Names of those among them that it reads with all their mip levels.
@@ -86,8 +87,8 @@ pub(crate) fn find_entry_points(
             }
             let function = &entry.function;
             let outputs =
-                (function.result.iter()).flat_map(|it| find_locations(module, it.ty, &it.binding));
-            let mut locations: Vec<u32> = outputs.collect();
+                (function.result.iter()).flat_map(|it| Varying::list(module, it.ty, &it.binding));
+            let mut locations: Vec<u32> = outputs.map(|it| it.location).collect();
             locations.sort_unstable();
             EntryPoint {
                 name: entry.name.clone(),
@@ -97,7 +98,7 @@ pub(crate) fn find_entry_points(
                 interpolated: find_interpolated(info, handles, variables),
                 locations,
                 inputs: (function.arguments.iter())
-                    .flat_map(|it| find_locations(module, it.ty, &it.binding))
+                    .flat_map(|it| Varying::list(module, it.ty, &it.binding))
                     .collect(),
                 reads,
                 reads_whole,
@@ -122,19 +123,5 @@ fn find_interpolated(
     (info.sampling_set.iter())
         .filter(|pair| index(pair.sampler).is_some_and(is_linear))
         .filter_map(|pair| index(pair.image))
-        .collect()
-}
-
-/// Lists the locations of a value: its own, or those of its members.
-fn find_locations(module: &Module, ty: Handle<Type>, binding: &Option<Binding>) -> Vec<u32> {
-    let bindings = match &module.types[ty].inner {
-        TypeInner::Struct { members, .. } => members.iter().map(|it| &it.binding).collect(),
-        _ => vec![binding],
-    };
-    (bindings.into_iter().flatten())
-        .filter_map(|binding| match binding {
-            Binding::Location { location, .. } => Some(*location),
-            Binding::BuiltIn(_) => None,
-        })
         .collect()
 }

@@ -2,70 +2,55 @@
 
 use serde::{Deserialize, Serialize};
 use wgpu::TextureFormat;
-use wgpu::naga::{ScalarKind, StorageFormat};
+use wgpu::naga::{Scalar, ScalarKind, StorageFormat};
 
-/// Texel format.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Format {
-    /// One whole number from 0, of 32 bits.
-    R32Uint,
-    /// One number of 32 bits.
-    R32Float,
-    /// Two numbers of 32 bits.
-    Rg32Float,
-    /// Four numbers of 32 bits.
-    Rgba32Float,
-    /// One number of 16 bits.
-    R16Float,
-    /// Two numbers of 16 bits.
-    Rg16Float,
-    /// Four numbers of 16 bits.
-    Rgba16Float,
-    /// One number from 0 to 1, of 8 bits.
-    R8Unorm,
-    /// Four numbers from 0 to 1, of 8 bits.
-    Rgba8Unorm,
-    /// Three numbers from 0 to 1, of 10 bits, and one of 2.
-    Rgb10a2Unorm,
-    /// Three numbers from 0, of 11, 11 and 10 bits, five of them for the exponent.
-    Rg11b10Ufloat,
+/// Declares the formats: each with its name in filter.toml and in WGSL, and how many numbers a texel is given as.
+macro_rules! formats {
+    ($($format:ident $word:ident $components:literal,)*) => {
+        /// Texel format, named as in WGSL.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+        #[serde(rename_all = "lowercase")]
+        pub enum Format {
+            $(
+                #[doc = concat!("`", stringify!($word), "`")]
+                $format,
+            )*
+        }
+
+        impl Format {
+            /// Every format.
+            pub(crate) const ALL: &[Self] = &[$(Self::$format),*];
+
+            /// Returns its name, how many numbers a texel is given as, and its formats as a texture and as a storage texture.
+            fn describe(self) -> (&'static str, usize, TextureFormat, StorageFormat) {
+                match self {
+                    $(Self::$format => {
+                        (stringify!($word), $components, TextureFormat::$format, StorageFormat::$format)
+                    })*
+                }
+            }
+        }
+    };
+}
+
+formats! {
+    R8Unorm r8unorm 1, Rg8Unorm rg8unorm 2, Rgba8Unorm rgba8unorm 4,
+    R8Uint r8uint 1, Rg8Uint rg8uint 2, Rgba8Uint rgba8uint 4,
+    R8Sint r8sint 1, Rg8Sint rg8sint 2, Rgba8Sint rgba8sint 4,
+    R16Uint r16uint 1, Rg16Uint rg16uint 2, Rgba16Uint rgba16uint 4,
+    R16Sint r16sint 1, Rg16Sint rg16sint 2, Rgba16Sint rgba16sint 4,
+    R16Float r16float 1, Rg16Float rg16float 2, Rgba16Float rgba16float 4,
+    R32Uint r32uint 1, Rg32Uint rg32uint 2, Rgba32Uint rgba32uint 4,
+    R32Sint r32sint 1, Rg32Sint rg32sint 2, Rgba32Sint rgba32sint 4,
+    R32Float r32float 1, Rg32Float rg32float 2, Rgba32Float rgba32float 4,
+    Rgb10a2Unorm rgb10a2unorm 4, Rg11b10Ufloat rg11b10ufloat 4,
 }
 
 impl Format {
-    /// Every format.
-    pub(crate) const ALL: [Self; 11] = [
-        Self::R32Uint,
-        Self::R32Float,
-        Self::Rg32Float,
-        Self::Rgba32Float,
-        Self::R16Float,
-        Self::Rg16Float,
-        Self::Rgba16Float,
-        Self::R8Unorm,
-        Self::Rgba8Unorm,
-        Self::Rgb10a2Unorm,
-        Self::Rg11b10Ufloat,
-    ];
-
-    /// Returns its name in filter.toml and in WGSL, how many numbers a texel is passed as, and its formats as a
-    /// texture and as a storage texture.
-    fn describe(self) -> (&'static str, usize, TextureFormat, StorageFormat) {
-        use StorageFormat as S;
-        use TextureFormat as T;
-        match self {
-            Self::R32Uint => ("r32uint", 1, T::R32Uint, S::R32Uint),
-            Self::R32Float => ("r32float", 1, T::R32Float, S::R32Float),
-            Self::Rg32Float => ("rg32float", 2, T::Rg32Float, S::Rg32Float),
-            Self::Rgba32Float => ("rgba32float", 4, T::Rgba32Float, S::Rgba32Float),
-            Self::R16Float => ("r16float", 1, T::R16Float, S::R16Float),
-            Self::Rg16Float => ("rg16float", 2, T::Rg16Float, S::Rg16Float),
-            Self::Rgba16Float => ("rgba16float", 4, T::Rgba16Float, S::Rgba16Float),
-            Self::R8Unorm => ("r8unorm", 1, T::R8Unorm, S::R8Unorm),
-            Self::Rgba8Unorm => ("rgba8unorm", 4, T::Rgba8Unorm, S::Rgba8Unorm),
-            Self::Rgb10a2Unorm => ("rgb10a2unorm", 4, T::Rgb10a2Unorm, S::Rgb10a2Unorm),
-            Self::Rg11b10Ufloat => ("rg11b10ufloat", 4, T::Rg11b10Ufloat, S::Rg11b10Ufloat),
-        }
+    /// Lists the names of all formats.
+    pub(crate) fn list(separator: &str) -> String {
+        let names = Self::ALL.iter().map(|format| format.name());
+        names.collect::<Vec<_>>().join(separator)
     }
 
     /// Returns its name in filter.toml and in WGSL.
@@ -111,11 +96,8 @@ impl Format {
         matches!(self, Self::R32Float | Self::Rg32Float | Self::Rgba32Float)
     }
 
-    /// Returns the type of its numbers in shaders that read them: `u32` or `f32`.
+    /// Returns the kind of its numbers where a shader reads them.
     pub(crate) fn kind(self) -> ScalarKind {
-        match self {
-            Self::R32Uint => ScalarKind::Uint,
-            _ => ScalarKind::Float,
-        }
+        Scalar::from(self.stored()).kind
     }
 }

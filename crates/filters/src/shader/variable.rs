@@ -28,7 +28,7 @@ pub(crate) struct Variable {
 /// Use of a resource variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Role {
-    /// `texture_2d<f32>` or `texture_2d<u32>`.
+    /// `texture_2d` of `f32`, `u32` or `i32`.
     Read(ScalarKind),
     /// `texture_storage_2d<format, write>`.
     Write(Format),
@@ -72,8 +72,9 @@ pub(super) fn find_variable(
     };
     let role = role.ok_or_else(|| {
         refuse(format!(
-            "cannot be bound; allowed: var<uniform>, texture_2d<f32>, texture_2d<u32>, and texture_storage_2d<{}, write>",
-            Format::ALL.map(Format::name).join(" | ")
+            "cannot be bound; allowed: var<uniform>, texture_2d<f32>, texture_2d<u32>, texture_2d<i32>, and \
+             texture_storage_2d<{}, write>",
+            Format::list(" | ")
         ))
     })?;
     let resource = match role {
@@ -105,14 +106,13 @@ pub(crate) fn find_image_role(inner: &TypeInner) -> Option<Role> {
     };
     match *class {
         ImageClass::Sampled { kind, multi: false } => {
-            let is_known = matches!(kind, ScalarKind::Float | ScalarKind::Uint);
-            is_known.then_some(Role::Read(kind))
+            let known = [ScalarKind::Float, ScalarKind::Uint, ScalarKind::Sint];
+            known.contains(&kind).then_some(Role::Read(kind))
         }
         ImageClass::Storage { format, access } if access == StorageAccess::STORE => {
-            let mut known = Format::ALL.into_iter();
-            known
-                .find(|known| known.stored() == format)
-                .map(Role::Write)
+            let mut known = Format::ALL.iter();
+            let known = known.find(|known| known.stored() == format);
+            known.map(|format| Role::Write(*format))
         }
         _ => None,
     }

@@ -5,7 +5,10 @@ use std::path::Path;
 use std::sync::Arc;
 
 use wgpu::naga::compact::{KeepUnused, compact};
-use wgpu::naga::{AddressSpace, GlobalVariable, Handle, Module, ResourceBinding, TypeInner};
+use wgpu::naga::valid::GlobalUse;
+use wgpu::naga::{
+    AddressSpace, GlobalVariable, Handle, Module, ResourceBinding, StorageAccess, TypeInner,
+};
 
 use super::entry::{keep_entry_point, set_constants, validate};
 use super::members::fill_block;
@@ -44,6 +47,7 @@ pub(super) fn bind(
     keep_entry_point(shader, path, &mut module)?;
     set_constants(shader, path, &mut module, constants)?;
     compact(&mut module, KeepUnused::No);
+    narrow_buffers(path, &mut module)?;
     let mut binder = Binder {
         filter,
         shader,
@@ -72,6 +76,31 @@ pub(super) fn bind(
         entry_points,
         ..Shader::default()
     })
+}
+
+/// Makes storage buffers read-only; refuses those that the shader writes.
+fn narrow_buffers(path: &Path, module: &mut Module) -> Result<(), FilterError> {
+    let is_buffer = |it: &GlobalVariable| matches!(it.space, AddressSpace::Storage { .. });
+    if !(module.global_variables.iter()).any(|(_, variable)| is_buffer(variable)) {
+        return Ok(());
+    }
+    let info = validate(path, module)?;
+    let used = info.get_entry_point(0);
+    for (handle, variable) in module.global_variables.iter_mut() {
+        let is_written = used[handle].intersects(GlobalUse::WRITE | GlobalUse::ATOMIC);
+        if let (true, true, Some(place)) = (is_buffer(variable), is_written, find_place(variable)) {
+            let reason = format!(
+                "{}: is a storage buffer that the shader writes; allowed: buffers that it only reads, filled from `values`; \
+                 write a [[texture]] instead",
+                name_variable(variable, &place)
+            );
+            return Err(FilterError::in_file(path, None, reason));
+        }
+        if let AddressSpace::Storage { access } = &mut variable.space {
+            *access = StorageAccess::LOAD;
+        }
+    }
+    Ok(())
 }
 
 /// Refuses a binding of filter.toml that none of the stages of a pass has.
@@ -215,8 +244,10 @@ impl Binder<'_> {
         let name = variable.name.clone().unwrap_or_default();
         let inner = &module.types[variable.ty].inner;
         let (role, resource) = match (variable.space, inner) {
-            (AddressSpace::Uniform, _) => {
-                let block = fill_block(self.filter, module, variable.ty, binding, &self.by_rows)?;
+            (AddressSpace::Uniform | AddressSpace::Storage { .. }, _) => {
+                let mut block =
+                    fill_block(self.filter, module, variable.ty, binding, &self.by_rows)?;
+                block.is_storage = variable.space != AddressSpace::Uniform;
                 self.blocks.push(block);
                 (Role::Block(self.blocks.len() - 1), String::new())
             }
@@ -233,8 +264,7 @@ impl Binder<'_> {
             }
             _ => {
                 return Err(
-                    "is neither a texture, a sampler nor a uniform block; storage buffers and comparison samplers are not \
-                     bound"
+                    "is neither a texture, a sampler, a uniform block nor a storage buffer; comparison samplers are not bound"
                         .into(),
                 );
             }

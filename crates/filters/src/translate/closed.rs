@@ -36,6 +36,16 @@ pub(super) fn check_closed(
     hidden.next().map_or(Ok(()), Err)
 }
 
+/// Refuses a macro that could open a file, or hide what does.
+pub(crate) fn check_macro(name: &str, value: &str) -> Result<(), String> {
+    let line = format!("#define {name} {value}");
+    if line.contains('\n') {
+        return Err("has several lines; allowed: one".into());
+    }
+    // The rules of Slang hold those of the other languages.
+    check_closed(&line, Language::Slang, &[]).map_err(|(_, reason)| reason)
+}
+
 /// Finds what may hide a directive, or is one that was not resolved.
 fn find_hidden(line: &str, is_resolved: bool) -> Option<String> {
     let is_control = |c: char| c.is_control() && c != '\t';

@@ -76,11 +76,14 @@ pub(super) fn compile(
     shader: &PassShader,
     compiler: &Compiler,
 ) -> Result<Vec<u8>, FilterError> {
-    let sources = Sources::collect(folder, &shader.file, text, language)?;
-    let arguments = (compiler.arguments)(shader, text);
+    let sources = Sources::collect(folder, shader, text, language)?;
+    let words = (compiler.arguments)(shader, text);
+    let defines = shader.defines.iter().map(|define| format!("-D{define}"));
+    let words = words.split_whitespace().map(str::to_owned);
+    let arguments: Vec<String> = defines.chain(words).collect();
     let key = (
         format!(
-            "{} {arguments} {}",
+            "{} {arguments:?} {}",
             compiler.program,
             sources.shader.display()
         ),
@@ -111,7 +114,7 @@ type Outcome = Result<Vec<u8>, (Option<usize>, String)>;
 /// Runs a compiler on copies of the sources.
 fn run(
     program: &str,
-    arguments: &str,
+    arguments: &[String],
     folder: &Path,
     sources: &Sources,
     language: Language,
@@ -127,7 +130,7 @@ fn run(
     });
     let mut include = OsString::from("-I");
     include.push(input.parent().unwrap_or(&copies));
-    let words = arguments.split_whitespace().map(|word| match word {
+    let words = arguments.iter().map(|word| match &word[..] {
         "{in}" => input.clone().into_os_string(),
         "{out}" => output.clone().into_os_string(),
         "{include}" => include.clone(),

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use wgpu::naga::{Handle, Module, Type};
 
 use crate::filter::{Binding, MATRIX_NUMBERS};
-use crate::shader::{BlockNumber, Member, NumberKind, UniformBlock, list_members, name_element};
+use crate::shader::{BlockNumber, NumberKind, UniformBlock, list_members, name_element};
 use crate::{Expression, Filter};
 
 /// Name that stands for all members without a value of their own.
@@ -19,18 +19,19 @@ pub(super) fn fill_block(
     binding: Option<&Binding>,
     by_rows: &BTreeSet<(String, u32)>,
 ) -> Result<UniformBlock, String> {
-    let members = list_members(module, block)?;
     let given = binding.map_or(&[][..], |binding| &binding.values);
-    let is_called =
-        |member: &Member, name: &str| name == member.name || name == format!("@{}", member.offset);
-    let is_known =
-        |name: &str| name == OTHERS || members.iter().any(|member| is_called(member, name));
+    let others = given.iter().find(|(name, _)| name == OTHERS);
+    // An array without a length is as long as its list.
+    let find_length = |name: &str, offset| {
+        let values = find_given(given, name, offset).or(others);
+        values.map_or(0, |(_, values)| spell_out(filter, values, false).len())
+    };
+    let members = list_members(module, block, &find_length)?;
     let mut numbers = Vec::new();
     for member in &members {
-        let own = given.iter().find(|(name, _)| is_called(member, name));
-        let others = given.iter().find(|(name, _)| name == OTHERS);
         let is_named = filter.count_numbers(&member.name) == Some(member.numbers.len());
         let named = || vec![Expression::Name(member.name.clone())];
+        let own = find_given(given, &member.name, member.offset);
         let values = (own.map(|(_, values)| values.clone()))
             .or_else(|| is_named.then(named))
             .or_else(|| others.map(|(_, values)| values.clone()))
@@ -44,7 +45,8 @@ pub(super) fn fill_block(
                     filter.list_values()
                 )
             })?;
-        let is_by_rows = by_rows.contains(&(member.name.clone(), member.offset));
+        let own_name = member.name.rsplit('.').next().unwrap_or_default();
+        let is_by_rows = by_rows.contains(&(own_name.to_owned(), member.own_offset));
         let values = spell_out(filter, &values, is_by_rows);
         if values.len() != 1 && values.len() != member.numbers.len() {
             return Err(format!(
@@ -62,6 +64,10 @@ pub(super) fn fill_block(
             value: value.clone(),
         }));
     }
+    let is_known = |name: &str| {
+        let mut members = members.iter();
+        name == OTHERS || members.any(|it| is_meant(name, &it.name, it.offset))
+    };
     if let Some((name, _)) = given.iter().find(|(name, _)| !is_known(name)) {
         let names: Vec<&str> = members.iter().map(|member| &member.name[..]).collect();
         return Err(format!(
@@ -70,6 +76,25 @@ pub(super) fn fill_block(
         ));
     }
     UniformBlock::new(module, block, numbers)
+}
+
+/// Returns true if `values` means a member by this name: its own, its offset, or that of a struct or array around it.
+fn is_meant(name: &str, member: &str, offset: u32) -> bool {
+    let rest = member.strip_prefix(name);
+    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+        || name == format!("@{offset}")
+}
+
+/// Finds what `values` says about a member: under its own name, or else that of the innermost struct that it names.
+fn find_given<'a>(
+    given: &'a [(String, Vec<Expression>)],
+    member: &str,
+    offset: u32,
+) -> Option<&'a (String, Vec<Expression>)> {
+    let meant = given
+        .iter()
+        .filter(|(name, _)| is_meant(name, member, offset));
+    meant.max_by_key(|(name, _)| name.len())
 }
 
 /// Expands a value that stands for several numbers to one value each. Matrices come column by column, or row by row.

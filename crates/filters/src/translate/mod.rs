@@ -18,6 +18,7 @@ mod matrices;
 mod members;
 mod module;
 mod packages;
+mod sections;
 mod shader_lab;
 mod sources;
 mod storage;
@@ -35,6 +36,7 @@ use compile::list_installed;
 use compiler::Compiler;
 use module::{OpenModule, compile_shader, find_language, read};
 
+pub(crate) use closed::check_macro;
 pub(crate) use language::{Language, SHADER_LAB};
 pub(crate) use sources::{MAX_MODULE_BYTES, stays_below};
 pub(crate) use textures::check_texture;

@@ -64,17 +64,11 @@ pub(super) fn compile_shader(
     let is_known = |known: &&Compiler| compiler.is_some_and(|it| it.program == known.program);
     let compiler = installed.iter().copied().find(is_known);
     let compiler = compiler.unwrap_or(installed[0]);
-    let text = match language {
-        Language::Glsl => without_stage_line(text),
-        _ if shader
-            .file
-            .extension()
-            .is_some_and(|ending| ending == SHADER_LAB) =>
-        {
-            cut_hlsl(text, shader.shader_pass.as_ref())
-                .map_err(|reason| FilterError::in_file(path, None, reason))?
-        }
-        _ => text.to_owned(),
+    let ending = shader.file.extension();
+    let text = match ending.is_some_and(|ending| ending == SHADER_LAB) {
+        true => cut_hlsl(text, shader.shader_pass.as_ref())
+            .map_err(|reason| FilterError::in_file(path, None, reason))?,
+        false => text.to_owned(),
     };
     compile(folder, &text, language, shader, compiler)
 }
@@ -147,18 +141,6 @@ fn in_compiled(path: &Path, error: &FilterError) -> FilterError {
     };
     let reason = format!("after its imports and conditions: {reason}");
     FilterError::in_file(path, None, reason)
-}
-
-/// Blanks the line `#[compute]` that Godot puts before its shaders; line numbers stay valid.
-fn without_stage_line(text: &str) -> String {
-    let mark = ["#[compute]", "#[fragment]"];
-    match mark
-        .iter()
-        .find(|mark| text.trim_start().starts_with(**mark))
-    {
-        Some(mark) => text.replacen(mark, "", 1),
-        None => text.to_owned(),
-    }
 }
 
 /// Reads SPIR-V. `choose` finds the format that filter.toml has for the image at a place and with a name.

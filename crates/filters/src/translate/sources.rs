@@ -9,7 +9,9 @@ use super::closed::check_closed;
 use super::includes::{list_includes, make_plain};
 use super::language::Language;
 use super::packages::name_packages;
+use super::sections::{allow_includes, keep_section};
 use crate::FilterError;
+use crate::filter::{PassShader, Stage};
 
 /// Largest shader or module that is read, in bytes.
 pub(crate) const MAX_MODULE_BYTES: u64 = 4 << 20;
@@ -25,6 +27,7 @@ pub(super) struct Sources<'a> {
     /// The filter's folder.
     folder: &'a Path,
     language: Language,
+    stage: Stage,
     /// The shader itself.
     pub shader: PathBuf,
     /// Texts by their paths in the folder.
@@ -32,10 +35,10 @@ pub(super) struct Sources<'a> {
 }
 
 impl<'a> Sources<'a> {
-    /// Reads the shader in `file` of a filter's folder, with its `text`, and the files that it needs.
+    /// Reads a shader of a filter's folder, with its `text`, and the files that it needs.
     pub fn collect(
         folder: &'a Path,
-        file: &Path,
+        PassShader { file, stage, .. }: &PassShader,
         text: &str,
         language: Language,
     ) -> Result<Self, FilterError> {
@@ -45,6 +48,7 @@ impl<'a> Sources<'a> {
         let mut sources = Sources {
             folder,
             language,
+            stage: *stage,
             texts: BTreeMap::new(),
             shader: shader.clone(),
         };
@@ -77,8 +81,14 @@ impl<'a> Sources<'a> {
     fn resolve_all(&mut self, base: &Path) -> Result<(), FilterError> {
         let mut waiting: Vec<PathBuf> = self.texts.keys().cloned().collect();
         while let Some(file) = waiting.pop() {
-            let text = make_plain(&self.texts[&file]);
-            let (text, found) = self.resolve(&file, base, &text)?;
+            let mut text = make_plain(&self.texts[&file]);
+            if self.language == Language::Glsl {
+                text = keep_section(&text, self.stage);
+            }
+            let (mut text, found) = self.resolve(&file, base, &text)?;
+            if self.language == Language::Glsl && !found.is_empty() {
+                text = allow_includes(&text);
+            }
             self.texts.insert(file, text);
             for place in found {
                 if !self.texts.contains_key(&place) {

@@ -17,10 +17,17 @@ pub(crate) fn check_texture(filter: &Filter, role: Role, texture: &str) -> Resul
         (Role::Read(_), None) if texture == "output" => {
             Err("reads \"output\"; a pass reads what an earlier one wrote to a [[texture]]".into())
         }
-        (Role::Read(ScalarKind::Uint), None) => Err("holds floats: texture_2d<f32>".into()),
+        (Role::Read(ScalarKind::Uint | ScalarKind::Sint), None) => {
+            Err("holds floats: texture_2d<f32>".into())
+        }
         (Role::Read(kind), Some(format)) if format.kind() != kind => Err(format!(
-            "does not fit the declared format {}: r32uint is read as texture_2d<u32>, every other as texture_2d<f32>",
-            format.name()
+            "does not fit the declared format {}, which is read as texture_2d<{}>",
+            format.name(),
+            match format.kind() {
+                ScalarKind::Uint => "u32",
+                ScalarKind::Sint => "i32",
+                _ => "f32",
+            }
         )),
         (Role::Write(_), None) if texture != "output" => Err(format!(
             "writes \"{texture}\", which is an input; allowed: output, or a [[texture]]"
@@ -57,9 +64,8 @@ pub(super) fn describe_image(inner: &TypeInner) -> String {
             "is a depth texture or is sampled with a comparison; read depth through texture_2d<f32>".into()
         }
         _ => format!(
-            "cannot be bound; allowed: two-dimensional textures of floats or of unsigned numbers, and storage textures of \
-             {}",
-            Format::ALL.map(Format::name).join(", ")
+            "cannot be bound; allowed: two-dimensional textures of floats or of whole numbers, and storage textures of {}",
+            Format::list(", ")
         ),
     }
 }

@@ -5,7 +5,7 @@ use std::fmt::Display;
 use std::path::PathBuf;
 use std::str::FromStr;
 
-use crate::{FileError, Image, Plane, Raster};
+use crate::{FileError, Image, Plane, Raster, Vectors};
 
 /// The samples of one channel, row by row from the top left.
 #[derive(Clone, Debug, PartialEq)]
@@ -78,6 +78,13 @@ impl ExrFile {
     pub fn push_color(&mut self, layer: &str, image: &Image) {
         for (component, name) in ["R", "G", "B"].into_iter().enumerate() {
             self.push_owned_plane(&in_layer(layer, name), image.map(|pixel| pixel[component]));
+        }
+    }
+
+    /// Adds `X Y`, in a named layer.
+    pub fn push_vectors(&mut self, layer: &str, vectors: &Vectors) {
+        for (component, name) in ["X", "Y"].into_iter().enumerate() {
+            self.push_owned_plane(&in_layer(layer, name), vectors.map(|it| it[component]));
         }
     }
 
@@ -176,6 +183,21 @@ impl ExrFile {
         let [r, g, b] = ["R", "G", "B"].map(|name| self.plane(&in_layer(layer, name)));
         let red_green = r?.zip(&g?, |r, g| [*r, *g]);
         Ok(red_green.zip(&b?, |[r, g], b| [*r, *g, *b]))
+    }
+
+    /// Reads `X Y`, of a named layer.
+    pub fn vectors(&self, layer: &str) -> Result<Vectors, FileError> {
+        let [x, y] = ["X", "Y"].map(|name| self.plane(&in_layer(layer, name)));
+        Ok(x?.zip(&y?, |x, y| [*x, *y]))
+    }
+
+    /// Reads what a file may have; none where it lacks a channel.
+    pub fn optional<T>(
+        &self,
+        channel: &str,
+        read: impl FnOnce() -> Result<T, FileError>,
+    ) -> Result<Option<T>, FileError> {
+        (self.has_channel(channel).then(read)).transpose()
     }
 
     /// Reads the object names, the background's first: the attribute "objects".

@@ -35,7 +35,7 @@ pub enum Metric {
     Equivalent(EquivalentMetric),
     /// A score of a sequence: `flicker`.
     Sequence(SequenceMetric),
-    /// `bleed`: the largest of the bleeds beside, ahead of and behind a mover.
+    /// `bleed`: the largest of the bleeds to the sides of a mover, ahead of it and behind it.
     Bleed,
     /// `flip_common`, FLIP* in tables: FLIP against the shutter that all cases of a run are compared with.
     CommonFlip,
@@ -131,7 +131,7 @@ impl Metric {
                 name: "bleed",
                 unit: "px",
                 map: ErrorMap::Bleed,
-                meaning: "mover spilled where it never was: the largest of beside, ahead (>) and behind (<)",
+                meaning: "mover spilled where it never was: the largest of sideways, ahead (>) and behind (<)",
                 report_only: Some(
                     "is the largest of bleed_lateral, bleed_leading and bleed_trailing",
                 ),

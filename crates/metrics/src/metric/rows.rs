@@ -124,7 +124,7 @@ metrics! {
         displacement: [f64; 2],
     }
 
-    /// Bleed beside the support, in pixels.
+    /// Bleed to the sides of the support, in pixels.
     BleedLateral => bleed_lateral {
         name: "bleed_lateral", unit: "px", ideal: Ideal::Lowest, group: Group::Silhouette, map: ErrorMap::Bleed,
         meaning: "mover spilled to the sides of its path",

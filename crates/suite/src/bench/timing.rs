@@ -200,6 +200,8 @@ fn load<'b, 'g>(
     blur.load(&Input {
         color: &[&panels.color],
         velocity: &panels.velocity,
+        velocity_next: Some(&panels.velocity),
+        velocity_z: Some(&panels.depth.map(|_| 0.0)),
         depth: &panels.depth,
         reprojection: Some(panels.reprojection),
         camera: Some(panels.camera),

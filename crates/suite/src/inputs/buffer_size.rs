@@ -46,9 +46,15 @@ impl BufferSize {
             }
         });
         let velocity = places.map(|&[x, y]| *frame.velocity.at(x, y));
+        let next = frame.velocity_next.as_ref();
+        let velocity_next = next.map(|own| places.map(|&[x, y]| *own.at(x, y)));
+        let z = frame.velocity_z.as_ref();
+        let velocity_z = z.map(|own| places.map(|&[x, y]| *own.at(x, y)));
         let depth = places.map(|&[x, y]| *frame.depth.at(x, y));
         Frame {
             velocity,
+            velocity_next,
+            velocity_z,
             depth,
             ..frame
         }

@@ -40,29 +40,35 @@ impl CameraJitter {
             Self::Removed => render(),
             Self::LeftIn => {
                 let jittered = render()?;
-                let velocity = add_motion(&jittered, jitter_motion(index));
+                let add = |velocity, motion| add_motion(&jittered, velocity, motion);
+                let next = jittered.velocity_next.as_ref();
+                let velocity_next = next.map(|next| add(next, jitter_motion(index + 1)));
                 Ok(Frame {
-                    velocity,
+                    velocity: add(&jittered.velocity, jitter_motion(index)),
+                    velocity_next,
                     ..jittered
                 })
             }
             Self::Resolved => {
                 let motion = &PointMotion::RIGHT;
                 let points = trace_motion_on(renderer.scene, &settings, motion, &grid)?;
-                Ok(Frame {
+                let resolved = Frame {
                     velocity: points.velocity,
+                    velocity_next: None,
+                    velocity_z: None,
                     depth: points.depth,
                     object_id: points.object_id,
                     ..frame
-                })
+                };
+                renderer.complete(resolved, &settings, &grid)
             }
         }
     }
 }
 
 /// Adds a motion of the whole picture to all vectors, except those of a background without velocity.
-fn add_motion(frame: &Frame, motion: [f32; 2]) -> Vectors {
-    frame.velocity.zip(&frame.object_id, |velocity, object| {
+fn add_motion(frame: &Frame, velocity: &Vectors, motion: [f32; 2]) -> Vectors {
+    velocity.zip(&frame.object_id, |velocity, object| {
         match *object == 0 && !frame.options.sky_velocity {
             true => *velocity,
             false => [0, 1].map(|axis| velocity[axis] + motion[axis]),

@@ -45,10 +45,7 @@ impl DepthOfField {
                 let scene = scene.clone().pinhole();
                 let settings = settings_of(&frame);
                 let grid = PixelGrid::of_picture(settings.width, settings.height);
-                let renderer = Renderer {
-                    scene: &scene,
-                    monitor,
-                };
+                let renderer = Renderer::of(&frame, &scene, monitor);
                 let frame = renderer.frame("frame of a pinhole", &settings, &grid)?;
                 Ok((frame, Cow::Owned(scene)))
             }
@@ -66,7 +63,7 @@ impl DepthOfField {
             return Ok(None);
         }
         let settings = settings_of(frame);
-        let pass = Renderer { scene, monitor }.watch("depth of field", |watch| {
+        let pass = Renderer::of(frame, scene, monitor).watch("depth of field", |watch| {
             trace_defocus(scene, &settings, watch)
         })?;
         Ok(Some(pass))

@@ -1,6 +1,6 @@
 //! Forms of the input that an engine gives its motion blur.
 
-use frame::{Frame, VelocityKind};
+use frame::{Frame, Vectors, VelocityKind};
 use serde::{Deserialize, Serialize};
 use tracer::Scene;
 
@@ -137,17 +137,17 @@ impl InputFormat {
         if let Some(scene) = scene {
             self.depth_of_field.check(scene)?;
             let (seen, scene) = self.depth_of_field.apply(stored, scene, monitor)?;
-            let renderer = Renderer {
-                scene: &scene,
-                monitor,
-            };
+            let renderer = Renderer::of(frame, &scene, monitor);
             stored = self.msaa.apply(seen, &renderer)?;
             stored = self.jitter.apply(stored, &renderer)?;
             stored = self.scale.apply(stored, &renderer)?;
             stored = self.rule.apply(stored, &scene);
         }
         stored.velocity = self.defect.apply(&stored, scene)?;
-        stored.velocity = self.velocity.apply(&stored);
+        let store = |velocity: &Vectors| self.velocity.apply(&stored, velocity);
+        let next = stored.velocity_next.as_ref().map(store);
+        stored.velocity = store(&stored.velocity);
+        stored.velocity_next = next;
         stored.depth = self.depth.apply(&stored.depth);
         stored = self.buffers.apply(stored);
         Ok(match self.border {

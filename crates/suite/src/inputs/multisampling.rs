@@ -65,6 +65,8 @@ impl Multisampling {
             }),
             coverage: coverage.collect(),
             velocity: Raster::from_fn(width, height, |x, y| *each(x, y).velocity.at(x, y)),
+            velocity_next: take_further(&taken, samples, |own| own.velocity_next.as_ref()),
+            velocity_z: take_further(&taken, samples, |own| own.velocity_z.as_ref()),
             depth: Raster::from_fn(width, height, |x, y| *each(x, y).depth.at(x, y)),
             object_id: Raster::from_fn(width, height, |x, y| *each(x, y).object_id.at(x, y)),
             ..frame
@@ -82,6 +84,18 @@ impl Multisampling {
             });
         chosen.map_or(0, |(index, _)| index)
     }
+}
+
+/// Takes a raster that few frames have, of the chosen samples; none if a sample lacks it.
+fn take_further<T: Copy>(
+    taken: &Raster<usize>,
+    samples: &[Frame],
+    raster: fn(&Frame) -> Option<&Raster<T>>,
+) -> Option<Raster<T>> {
+    let rasters: Option<Vec<&Raster<T>>> = samples.iter().map(raster).collect();
+    let rasters = rasters?;
+    let at = |x, y| *rasters[*taken.at(x, y)].at(x, y);
+    Some(Raster::from_fn(taken.width, taken.height, at))
 }
 
 /// Lists the settings of the four samples: each has a quarter of the frame's rays, at one offset, and its own random numbers.

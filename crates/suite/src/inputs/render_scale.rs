@@ -1,6 +1,6 @@
 //! Frames that are rendered small and upscaled.
 
-use frame::{Frame, Image};
+use frame::{Frame, Image, Vectors};
 use tracer::{PixelGrid, RenderSettings};
 
 use super::renderer::Renderer;
@@ -88,14 +88,19 @@ impl RenderScale {
 /// Upscales a small frame to the size of the whole one.
 fn upscale(frame: Frame, small: &Frame, from: Extent, to: Extent) -> Frame {
     let step = [0, 1].map(|axis| to.picture[axis] as f32 / from.picture[axis] as f32);
-    let velocity = read_nearest(&small.velocity, from, to);
+    let read_velocity = |own: &Vectors| {
+        let velocity = read_nearest(own, from, to);
+        velocity.map(|velocity| [0, 1].map(|axis| velocity[axis] * step[axis]))
+    };
     let coverage = small.coverage.iter();
     Frame {
         color: read_bilinear(&small.color, from, to, mix_colors),
         coverage: coverage
             .map(|plane| read_bilinear(plane, from, to, mix))
             .collect(),
-        velocity: velocity.map(|velocity| [0, 1].map(|axis| velocity[axis] * step[axis])),
+        velocity: read_velocity(&small.velocity),
+        velocity_next: small.velocity_next.as_ref().map(read_velocity),
+        velocity_z: (small.velocity_z.as_ref()).map(|own| read_nearest(own, from, to)),
         depth: read_nearest(&small.depth, from, to),
         object_id: read_nearest(&small.object_id, from, to),
         ..frame

@@ -16,6 +16,8 @@ pub(crate) fn test_frame(width: u32, height: u32) -> Frame {
         objects: vec!["background".to_owned()],
         color: Raster::filled(width, height, [0.0; 3]),
         velocity: Raster::filled(width, height, [0.0; 2]),
+        velocity_next: None,
+        velocity_z: None,
         depth: Raster::filled(width, height, FAR_DEPTH),
         object_id: Raster::filled(width, height, 0),
         coverage: vec![Raster::filled(width, height, 1.0)],

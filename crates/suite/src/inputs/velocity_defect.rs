@@ -1,6 +1,8 @@
 //! Defects of a velocity buffer that engines have had.
 
-use frame::{Frame, Vectors, VelocityKind};
+use std::collections::BTreeMap;
+
+use frame::{Frame, Raster, Vectors, VelocityKind};
 use tracer::{PointMotion, Scene, trace_motion};
 
 use super::camera_jitter::jitter_motion;
@@ -34,6 +36,12 @@ named! {
         NoCamera = "no_camera",
         /// With the jitter of temporal anti-aliasing left in: a quarter of a pixel to the left, a third down.
         Jittered = "jittered",
+        /// With movers in front of what hides them, as if drawn without a depth test.
+        ThroughWalls = "through_walls",
+        /// With one object's motion missing: the camera's alone on the mover that shows most.
+        OneMissing = "one_missing",
+        /// One picture up and left wherever nothing moves, and half as long at the edges of movers, as FSR 2 leaves Godot's buffer.
+        Unresolved = "unresolved",
     }
 }
 
@@ -42,9 +50,14 @@ impl VelocityDefect {
     pub(crate) fn apply(self, frame: &Frame, scene: Option<&Scene>) -> Result<Vectors, Error> {
         let each = |change: fn([f32; 2]) -> [f32; 2]| Ok(frame.velocity.map(|it| change(*it)));
         if let (Some(motion), Some(scene)) = (self.motion(), scene) {
-            return Ok(trace_motion(scene, &settings_of(frame), &motion)?.velocity);
+            let traced = trace_motion(scene, &settings_of(frame), &motion)?.velocity;
+            return Ok(match self {
+                Self::OneMissing => lose_largest_mover(frame, &traced),
+                _ => traced,
+            });
         }
         match self {
+            Self::Unresolved => Ok(mark_still(&frame.velocity)),
             Self::Zero => each(|_| [0.0; 2]),
             Self::Double => each(|[x, y]| [2.0 * x, 2.0 * y]),
             Self::Half => each(|[x, y]| [0.5 * x, 0.5 * y]),
@@ -64,7 +77,8 @@ impl VelocityDefect {
             Self::Stale => Some(PointMotion::PREVIOUS_BUFFER),
             Self::PreviousPixel => Some(PointMotion::PREVIOUS_PIXEL),
             Self::FirstFrame => Some(PointMotion::MATRIX_NEVER_SET),
-            Self::NoObject => Some(PointMotion::WITHOUT_OBJECTS),
+            Self::NoObject | Self::OneMissing => Some(PointMotion::WITHOUT_OBJECTS),
+            Self::ThroughWalls => Some(PointMotion::THROUGH_WALLS),
             Self::NoCamera => Some(PointMotion::WITHOUT_CAMERA),
             _ => None,
         }
@@ -88,5 +102,73 @@ impl VelocityDefect {
             self.name(),
             names.join(", ")
         )))
+    }
+}
+
+/// Gives the object that moves most, summed over its pixels, the camera's motion alone.
+fn lose_largest_mover(frame: &Frame, camera: &Vectors) -> Vectors {
+    let mut moved = BTreeMap::<u32, f64>::new();
+    let pixels = frame.object_id.pixels.iter().zip(&frame.velocity.pixels);
+    for ((object, own), camera) in pixels.zip(&camera.pixels) {
+        let apart = (own[0] - camera[0]).hypot(own[1] - camera[1]);
+        *moved.entry(*object).or_default() += f64::from(apart);
+    }
+    let largest = moved.into_iter().max_by(|a, b| a.1.total_cmp(&b.1));
+    let lost = largest.map(|(object, _)| object);
+    Raster::from_fn(camera.width, camera.height, |x, y| {
+        match lost == Some(*frame.object_id.at(x, y)) {
+            true => *camera.at(x, y),
+            false => *frame.velocity.at(x, y),
+        }
+    })
+}
+
+/// Marks still pixels with the motion of one picture up and left. Pixels next to them keep half of their own motion.
+fn mark_still(velocity: &Vectors) -> Vectors {
+    let (width, height) = (velocity.width, velocity.height);
+    let is_still = |x: u32, y: u32| *velocity.at(x, y) == [0.0; 2];
+    Raster::from_fn(width, height, |x, y| {
+        if is_still(x, y) {
+            return [-(width as f32), -(height as f32)];
+        }
+        let beside = [
+            (x.saturating_sub(1), y),
+            ((x + 1).min(width - 1), y),
+            (x, y.saturating_sub(1)),
+            (x, (y + 1).min(height - 1)),
+        ];
+        match beside.into_iter().any(|(x, y)| is_still(x, y)) {
+            true => velocity.at(x, y).map(|part| 0.5 * part),
+            false => *velocity.at(x, y),
+        }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::inputs::test_frame::test_frame;
+
+    #[test]
+    fn still_pixels_are_marked_and_edges_halved() {
+        let moving = Raster::from_fn(4, 1, |x, _| [if x < 2 { 0.0 } else { 6.0 }, 0.0]);
+        let marked = mark_still(&moving);
+        let still = [-4.0, -1.0];
+        assert_eq!(marked.pixels, [still, still, [3.0, 0.0], [6.0, 0.0]]);
+    }
+
+    #[test]
+    fn the_object_that_moves_most_gets_the_camera_s_motion() {
+        // Object 1 is faster, object 2 larger.
+        let objects = [1, 2, 2, 2, 0];
+        let speeds = [5.0, 3.0, 3.0, 3.0, 1.0];
+        let frame = Frame {
+            object_id: Raster::from_fn(5, 1, |x, _| objects[x as usize]),
+            velocity: Raster::from_fn(5, 1, |x, _| [speeds[x as usize], 0.0]),
+            ..test_frame(5, 1)
+        };
+        let camera = Raster::filled(5, 1, [1.0, 0.0]);
+        let lost = lose_largest_mover(&frame, &camera);
+        assert_eq!(lost.map(|own| own[0]).pixels, [5.0, 1.0, 1.0, 1.0, 1.0]);
     }
 }

@@ -35,24 +35,24 @@ named! {
 type Store = fn([f64; 2]) -> [f64; 2];
 
 impl VelocityFormat {
-    /// Returns the frame's velocity as read from this buffer.
-    pub(crate) fn apply(self, frame: &Frame) -> Vectors {
+    /// Returns a velocity of the frame as read from this buffer.
+    pub(crate) fn apply(self, frame: &Frame, velocity: &Vectors) -> Vectors {
         let (width, height) = frame.size();
         let [width, height] = [width, height].map(|side| f64::from(side - 2 * frame.guard_band));
         let to_border = [0.5 * width, 0.5 * height];
         let half_smear = 0.5 * frame.exposure;
         let (unit, store): ([f64; 2], Store) = match self {
-            Self::Float32 => return frame.velocity.clone(),
+            Self::Float32 => return velocity.clone(),
             Self::Float16 => {
                 let store = |part| f16::from_f32(part).to_f32();
-                return frame.velocity.map(|velocity| velocity.map(store));
+                return velocity.map(|velocity| velocity.map(store));
             }
             Self::Linear8 => (to_border, linear8),
             Self::PolarSqrt8 => (to_border, polar_sqrt8),
             Self::Kino10 => ([KINO_RADIUS * height / half_smear; 2], kino10),
             Self::TileClamped => ([1.0 / half_smear; 2], tile_clamped),
         };
-        frame.velocity.map(|velocity| {
+        velocity.map(|velocity| {
             let stored = store([0, 1].map(|axis| f64::from(velocity[axis]) / unit[axis]));
             [0, 1].map(|axis| (stored[axis] * unit[axis]) as f32)
         })

@@ -2,6 +2,7 @@
 
 use frame::Alignment;
 use store::refuse_long_names;
+use tracer::check_next_frame;
 
 use super::plan::RunPlan;
 use super::planned_case::PlannedCase;
@@ -29,6 +30,9 @@ impl RunPlan {
             for frame in 0..self.frames.count {
                 let scene = &scene.at_frame(frame);
                 frame_settings(&self.render).check_frame(scene)?;
+                if self.reads_further_velocities() {
+                    check_next_frame(scene)?;
+                }
                 for alignment in self.traced_alignments(frame) {
                     self.render.check_truth(scene, alignment)?;
                 }

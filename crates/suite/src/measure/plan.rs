@@ -104,6 +104,12 @@ impl RunPlan {
         }
     }
 
+    /// Tells whether a filter reads velocities that few filters read.
+    pub(crate) fn reads_further_velocities(&self) -> bool {
+        let mut filters = self.filters.iter();
+        filters.any(|choice| !choice.filter.further_inputs().is_empty())
+    }
+
     /// Lists the scenes that are rendered, then those that engines drew.
     pub(crate) fn all_scenes(&self) -> Vec<RunScene<'_>> {
         let traced = self.scenes.iter().map(RunScene::Traced);

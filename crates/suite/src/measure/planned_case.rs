@@ -60,7 +60,10 @@ impl<'a> PlannedCase<'a> {
         };
         let is_measured = |choice: &&FilterChoice| {
             alignments.contains(&choice.filter.alignment)
-                && !(scene.drawn().is_some() && choice.filter.reads_camera())
+                && match scene {
+                    RunScene::Traced(_) => true,
+                    RunScene::Drawn(scene) => scene.find_lacking(&choice.filter).is_none(),
+                }
         };
         let picture = [plan.render.width, plan.render.height];
         let filters = plan.filters.iter().filter(is_measured).flat_map(|choice| {

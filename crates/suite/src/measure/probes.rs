@@ -145,6 +145,8 @@ pub fn filter_input<'a>(frame: &'a Frame, color: &'a [&'a Image]) -> Input<'a> {
     Input {
         color,
         velocity: &frame.velocity,
+        velocity_next: frame.velocity_next.as_ref(),
+        velocity_z: frame.velocity_z.as_ref(),
         depth: &frame.depth,
         // Engines do not record how their camera moved.
         reprojection: (frame.provenance.engine.is_none())

@@ -23,6 +23,8 @@ pub(super) fn store_frames(
     formats: &[InputFormat],
     frame: &Frame,
 ) -> Result<Vec<StoredFrame>, Error> {
+    let whole = read_further_velocities(plan, scene)?;
+    let frame = whole.as_ref().unwrap_or(frame);
     let before = read_frame_before(plan, scene)?;
     let store = |format: &InputFormat, frame: &Frame, scene: Option<&Scene>| {
         format.apply(frame, scene, plan.monitor)
@@ -40,6 +42,13 @@ pub(super) fn store_frames(
         .collect()
 }
 
+/// Reads the frame with the velocities that few filters read; none if no filter of the plan does, and of an engine's scene.
+fn read_further_velocities(plan: &RunPlan, scene: RunScene) -> Result<Option<Frame>, Error> {
+    let scene = (scene.traced()).filter(|_| plan.reads_further_velocities());
+    let read = |scene| plan.rendering(scene).frame_with_further_velocities();
+    scene.map(read).transpose()
+}
+
 /// Reads the frame before a later frame, with its scene.
 fn read_frame_before(plan: &RunPlan, scene: RunScene) -> Result<Option<(Scene, Frame)>, Error> {
     let mut filters = plan.filters.iter();
@@ -53,6 +62,9 @@ fn read_frame_before(plan: &RunPlan, scene: RunScene) -> Result<Option<(Scene, F
     let is_own = |scene: &&Scene| scene.id == later.id.at_frame(0);
     let first = plan.scenes.iter().find(is_own).expect("it is in the plan");
     let before = first.at_frame(later.id.frame - 1);
-    let frame = plan.rendering(&before).frame()?;
+    let frame = match read_further_velocities(plan, RunScene::Traced(&before))? {
+        Some(whole) => whole,
+        None => plan.rendering(&before).frame()?,
+    };
     Ok(Some((before, frame)))
 }

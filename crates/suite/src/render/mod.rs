@@ -8,3 +8,4 @@ pub mod rendering;
 pub mod replicates;
 pub mod settings;
 pub mod truths;
+pub mod velocities;

@@ -4,10 +4,11 @@ use std::path::{Path, PathBuf};
 
 use frame::{Alignment, Frame};
 use store::{RenderFile, refuse_scene, scene_folder};
-use tracer::{RenderSettings, Scene};
+use tracer::{PixelGrid, RenderSettings, Scene};
 
 use super::memory::check_memory;
 use super::settings::frame_settings;
+use super::velocities::add_further_velocities;
 use crate::{Error, Monitor};
 
 /// A scene, its render settings, and the run's folder for its files.
@@ -46,6 +47,19 @@ impl Rendering<'_> {
         );
         frame.write(&path)?;
         Ok(frame)
+    }
+
+    /// Renders the frame as [`Rendering::frame`] does, with the velocities that few filters read, which its file need not have.
+    pub fn frame_with_further_velocities(&self) -> Result<Frame, Error> {
+        let settings = frame_settings(&self.settings);
+        let grid = PixelGrid::of_picture(settings.width, settings.height);
+        add_further_velocities(self.frame()?, self.scene, &settings, &grid)
+    }
+
+    /// Renders that frame and writes all of it to its file.
+    pub fn write_further_velocities(&self) -> Result<(), Error> {
+        let frame = self.frame_with_further_velocities()?;
+        Ok(frame.write(&self.path(RenderFile::Frame))?)
     }
 
     /// Names a file of the scene.

@@ -87,8 +87,7 @@ fn collect_layers(
     for map in MAPS {
         file.push_plane(map.name(), &errors.plane(map.name())?);
     }
-    file.push_plane("velocity.X", &frame.velocity.map(|velocity| velocity[0]));
-    file.push_plane("velocity.Y", &frame.velocity.map(|velocity| velocity[1]));
+    file.push_vectors("velocity", &frame.velocity);
     file.push_plane("depth.Z", &frame.depth);
     for (object, plane) in truth.objects.iter().zip(&mean.coverage) {
         file.push_plane(&format!("coverage.{object}"), plane);

@@ -13,7 +13,8 @@ impl Run {
         let is_scaled =
             |case: &&Case| (case.reference_width).is_some_and(|width| width != self.render.width);
         let scaled = list_names(filters().filter(is_scaled));
-        let is_own = |case: &&Case| !builtin.contains(&case.filter);
+        // A picture that an engine drew has no preset, and no filter.toml that could name a width.
+        let is_own = |case: &&Case| !builtin.contains(&case.filter) && !case.preset.is_empty();
         let written = filters().filter(|case| is_own(case) && case.reference_width.is_none());
         let written = list_names(written);
         if scaled.is_empty() || written.is_empty() {

@@ -7,7 +7,10 @@ use frame::{
     Alignment, Frame, Provenance, Replicate, Shutter, Tile, Truth, read_attribute, read_exr,
 };
 use store::{LADDER, RenderFile};
-use tracer::{LadderTracer, PixelGrid, RenderSettings, Scene, TruthTracer, trace_frame_part};
+use tracer::{
+    LadderTracer, PixelGrid, RenderSettings, Scene, TruthTracer, trace_frame_part,
+    trace_further_velocities,
+};
 
 use super::difference::find_difference;
 use super::scene_renders::SceneRenders;
@@ -92,8 +95,14 @@ fn verify_frame(work: &Work) -> Result<Vec<(PathBuf, Tile)>, Error> {
     let own = tracer::frame_hash(work.scene, &settings);
     work.expect_hash(RenderFile::Frame, &frame.provenance.content_hash, &own)?;
     let grid = PixelGrid::of_picture(settings.width, settings.height);
+    let has_further = frame.velocity_next.is_some() || frame.velocity_z.is_some();
+    let further = has_further.then(|| trace_further_velocities(work.scene, &settings, &grid));
+    let further = further.transpose()?;
     work.trace_tiles(&[RenderFile::Frame], frame.size(), |_, tile, watch| {
-        Ok(trace_frame_part(work.scene, &settings, &grid, Some(tile), watch)?.to_exr())
+        let mut made = trace_frame_part(work.scene, &settings, &grid, Some(tile), watch)?;
+        made.velocity_next = further.as_ref().map(|(next, _)| next.part(tile));
+        made.velocity_z = further.as_ref().map(|(_, z)| z.part(tile));
+        Ok(made.to_exr())
     })
 }
 

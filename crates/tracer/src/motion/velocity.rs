@@ -18,12 +18,14 @@ pub struct PointMotion {
     pub seen_at: f64,
     /// Time of the motion, in frames.
     pub moved_at: f64,
-    /// Time since the place before, in frames.
+    /// Time since the place before, in frames; below 0 up to the place after.
     pub over: f64,
     /// True if the camera stands still.
     pub camera_stands: bool,
     /// Place of the objects one frame earlier.
     pub objects_before: ObjectsBefore,
+    /// True if movers show through everything that stands still, as without a depth test.
+    pub through_walls: bool,
 }
 
 impl PointMotion {
@@ -34,6 +36,12 @@ impl PointMotion {
         over: 1.0,
         camera_stands: false,
         objects_before: ObjectsBefore::Own,
+        through_walls: false,
+    };
+    /// The right motion, with movers in front of what hides them.
+    pub const THROUGH_WALLS: Self = Self {
+        through_walls: true,
+        ..Self::RIGHT
     };
     /// Each point's motion from two frames ago to one frame ago.
     pub const FRAME_LATE: Self = Self {
@@ -43,6 +51,11 @@ impl PointMotion {
     /// Each point's motion to the next frame.
     pub const FRAME_EARLY: Self = Self {
         moved_at: 1.0,
+        ..Self::RIGHT
+    };
+    /// The motion to the next frame, of points that are followed from now.
+    pub(crate) const TO_NEXT: Self = Self {
+        over: -1.0,
         ..Self::RIGHT
     };
     /// The whole buffer of the frame before.
@@ -97,21 +110,25 @@ impl TrackedPoint {
         hit.map_or(TrackedPoint::Infinity(direction), TrackedPoint::Surface)
     }
 
-    /// Pixels per frame at the time of the motion, +x right, +y down.
+    /// Pixels per frame at the time of the motion, +x right, +y down; then metres per frame away from the camera.
     ///
     /// The derivative is taken from the left. At a key on that time, where a motion may have a corner, that is the side that
-    /// an engine sees, which compares with the frame before. A point that was behind the camera one frame ago has no
-    /// previous position and gets the derivative. A point that was behind it just before gets zero.
+    /// an engine sees, which compares with the frame before. A point that is behind the camera at the other frame has no
+    /// position there and gets the derivative. A point that was behind it just before gets zero. The motion to a place after is a
+    /// difference for every kind.
     pub fn velocity(
         &self,
         scene: &Scene,
         size: [u32; 2],
         kind: VelocityKind,
         motion: &PointMotion,
-    ) -> [f64; 2] {
+    ) -> [f64; 3] {
         let now = motion.moved_at;
         let at = |time: f64| self.project(scene, size, time, motion);
-        let frame_difference = || Some(difference(at(now)?, at(now - motion.over)?));
+        let frame_difference = || {
+            let passed = difference(at(now)?, at(now - motion.over)?);
+            Some(passed.map(|part| part * motion.over.signum()))
+        };
         let derivative = || {
             let [now, then, before] = [at(now)?, at(now - STEP)?, at(now - 2.0 * STEP)?];
             Some(std::array::from_fn(|axis| {
@@ -121,26 +138,24 @@ impl TrackedPoint {
         // Matrices that were never set make a jump, which has no derivative.
         match (kind, motion.objects_before) {
             (_, ObjectsBefore::Identity) => frame_difference(),
-            (VelocityKind::Instantaneous, _) => derivative(),
-            (VelocityKind::PreviousFrame | VelocityKind::CameraOnly, _) => {
-                frame_difference().or_else(derivative)
-            }
+            (VelocityKind::Instantaneous, _) if motion.over > 0.0 => derivative(),
+            _ => frame_difference().or_else(derivative),
         }
-        .unwrap_or([0.0, 0.0])
+        .unwrap_or([0.0; 3])
     }
 
-    /// The place in the picture at `time` (frames), in pixels; none behind the camera.
+    /// The place in the picture at `time` (frames), in pixels, and the depth in metres, 0 at infinity; none behind the camera.
     fn project(
         &self,
         scene: &Scene,
         [width, height]: [u32; 2],
         time: f64,
         motion: &PointMotion,
-    ) -> Option<[f64; 2]> {
+    ) -> Option<[f64; 3]> {
         let now = motion.moved_at;
         let camera_time = if motion.camera_stands { now } else { time };
         let view = scene.camera.view(camera_time, width, height);
-        match *self {
+        let (target, depth) = match *self {
             TrackedPoint::Surface(hit) => {
                 let object_time = match motion.objects_before {
                     ObjectsBefore::Now => now,
@@ -150,13 +165,16 @@ impl TrackedPoint {
                 let point = mesh.at(object_time).point(hit.triangle, hit.weights);
                 let is_unset = motion.objects_before == ObjectsBefore::Identity && time < now;
                 let to_world = || scene.object_to_world(hit.object, object_time);
-                view.project(Target::Point(match is_unset {
+                let point = match is_unset {
                     true => point,
                     false => to_world().transform_point3(point),
-                }))
+                };
+                (Target::Point(point), view.depth(point))
             }
-            TrackedPoint::Infinity(direction) => view.project(Target::Infinity(direction)),
-        }
+            TrackedPoint::Infinity(direction) => (Target::Infinity(direction), 0.0),
+        };
+        let [x, y] = view.project(target)?;
+        Some([x, y, depth])
     }
 }
 
@@ -194,6 +212,6 @@ pub(crate) fn earliest_time(kind: VelocityKind) -> f64 {
     }
 }
 
-fn difference(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
-    [a[0] - b[0], a[1] - b[1]]
+fn difference<const N: usize>(a: [f64; N], b: [f64; N]) -> [f64; N] {
+    std::array::from_fn(|axis| a[axis] - b[axis])
 }
