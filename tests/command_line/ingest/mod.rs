@@ -138,7 +138,7 @@ fn a_run_on_a_capture_scores_near_our_own_scene_and_ranks_the_engine() {
     assert!(
         row("jump_flood:paper")[1..]
             .iter()
-            .all(|cell| *cell < row("identity")[1])
+            .all(|cell| *cell < row("[identity]")[1])
     );
     // The filter is scaled; the engine's picture has no filter.toml to name a width in.
     assert!(!printed.contains("reference_width"), "{printed}");
