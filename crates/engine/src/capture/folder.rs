@@ -68,11 +68,7 @@ impl Capture {
         let mut notes = Vec::new();
         notes.extend(is_png(&color_path).then(|| png_note("color.png")));
 
-        let path = require(
-            folder,
-            ["velocity", "velocity.X"],
-            "the motion of every pixel",
-        )?;
+        let path = require(folder, ["velocity", "velocity.X"], "every pixel's motion")?;
         let velocity = read_velocity(&path, &description, "velocity")?;
         check_size(&path, &velocity, &color)?;
         let is_half = are_halves(velocity.pixels.iter().flatten().copied());
