@@ -69,9 +69,11 @@ pub fn place_taps(filter: &str, preset: &str, steady: &Steady, noise: f64) -> Ve
         // The packed flood paints the same pixels.
         "jump_flood" | "jump_flood_packed" => gathers::jump_flood(preset, steady, noise),
         "bevy" => gathers::bevy(preset, steady, noise),
+        "blender" => gathers::blender(preset, steady, noise),
         "babylon" => babylon::by_object(steady),
         "babylon_screen" => babylon::by_camera(steady),
         "three" => gathers::three(preset, steady),
+        "centred_gather" => gathers::centred(preset, steady),
         "realism_effects" => gathers::realism_effects(preset, steady, noise),
         "jimenez" => jimenez::place_taps(preset, steady, noise),
         "kino" => kino::place_taps(steady, noise),

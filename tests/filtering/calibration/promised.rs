@@ -60,6 +60,8 @@ pub fn stated_lengths(filter: &str, preset: &str) -> RangeInclusive<f64> {
         ("mcguire", "tuned") => 0.86..=1.04,
         ("guertin", _) => 0.65..=0.87,
         ("three", _) => 1.03..=1.05,
+        ("centred_gather", "armory") => 1.07..=1.09,
+        ("centred_gather", "spartan_2024") => 0.98..=1.00,
         ("babylon", _) => 0.79..=0.96,
         // Noise adds its own length, on each axis separately: least on diagonals.
         ("realism_effects", _) => 1.29..=1.51,

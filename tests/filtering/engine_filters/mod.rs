@@ -2,6 +2,7 @@
 
 mod babylon;
 mod bevy;
+mod blender;
 mod hdrp;
 mod hdrp_tiles;
 mod jimenez;
