@@ -1,7 +1,8 @@
 #!/bin/sh
-# Fetches the engine shaders that the filters here bind, each at a fixed commit, unchanged. GODOT_GUERTIN,
-# GODOT_JUMP_FLOOD, BEVY, KINO, PPV2 and URP may name other locations of the repositories: addresses, or clones on this machine. Lists
-# what cannot be fetched, fetches the others all the same, and exits with 1. Existing files with the right content stay.
+# Fetches the engine shaders that the filters here bind, each at a fixed commit, unchanged. GODOT_GUERTIN, GODOT_JUMP_FLOOD, BEVY, KINO,
+# PPV2, URP and FLAX may name other locations of the repositories: addresses, or clones on this machine. Lists what cannot be fetched,
+# fetches the others all the same, and exits with 1. Existing files with the right content stay.
+# Flax's licence is its own (https://flaxengine.com/licensing): read it before you use these files.
 set -u
 cd "$(dirname "$0")"
 missing=
@@ -95,8 +96,14 @@ fetch "${URP:-https://github.com/Unity-Technologies/Graphics}" \
     CameraMotionBlur.shader \
     urp
 
+flax=${FLAX:-https://github.com/FlaxEngine/FlaxEngine}
+commit=1146620d4f965f106ff25f3a08b7fbec1a33b45b
+fetch "$flax" $commit Source/Shaders MotionBlur.shader flax
+# The folder that it includes files from.
+fetch "$flax" $commit Source/Shaders "Common.hlsl GBuffer.hlsl GBufferCommon.hlsl" flax/Flax
+
 if [ -n "$missing" ]; then
     echo "not fetched:$missing
-Is git installed, and the network there? GODOT_GUERTIN, GODOT_JUMP_FLOOD, BEVY, KINO, PPV2 and URP may name clones on this machine." >&2
+Is git installed, and the network there? GODOT_GUERTIN, GODOT_JUMP_FLOOD, BEVY, KINO, PPV2, URP and FLAX may name clones on this machine." >&2
     exit 1
 fi

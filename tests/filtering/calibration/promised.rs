@@ -26,6 +26,9 @@ pub fn promised_smear(filter: &str, preset: &str, steady: &Steady) -> f64 {
         ("mcguire", "motion_blur_demo") => trail.min(20.0),
         ("mcguire", "g3d") => trail.min(2.0 * 64.0),
         ("guertin", _) => trail.min(2.0 * 40.0),
+        // In the middle of the picture.
+        ("dagor", "default") => 0.16 * trail.min(2.0 * 32.0),
+        ("dagor", _) => trail.min(2.0 * 32.0),
         // Whole pixels of 5 % of the rows on either side; nothing below 2.
         ("kino", _) => match (0.05 * f64::from(HEIGHT)).floor() {
             _ if trail < 4.0 => 0.0,
@@ -60,6 +63,7 @@ pub fn stated_lengths(filter: &str, preset: &str) -> RangeInclusive<f64> {
         ("mcguire", "g3d") => 1.02..=1.09,
         ("mcguire", "tuned") => 0.86..=1.04,
         ("guertin", _) => 0.65..=0.87,
+        ("dagor", "default") => 0.79..=1.08,
         ("three", _) => 1.03..=1.05,
         ("centred_gather", "armory") => 1.07..=1.09,
         ("centred_gather", "spartan_2024") => 0.98..=1.00,
