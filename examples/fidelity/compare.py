@@ -8,6 +8,7 @@ per preset as Markdown. It ends with 1 where a preset is farther from its origin
 
 import argparse
 import importlib.util
+import inspect
 import json
 import subprocess
 import sys
@@ -133,7 +134,8 @@ class Frame:
             plane = {name: channel.pixels.astype(np.float32) for name, channel in file.channels().items()}
             self.exposure = float(text(file.header()["exposure"]))
         self.color = np.stack([plane["R"], plane["G"], plane["B"]], -1)
-        self.velocity = np.stack([plane["velocity.X"], plane["velocity.Y"]], -1)
+        self.velocity, self.velocity_next = (
+            np.stack([plane[f"{name}.X"], plane[f"{name}.Y"]], -1) for name in ("velocity", "velocity_next"))
         self.depth = plane["Z"]
 
 
@@ -144,7 +146,7 @@ def text(value):
 def render(arguments, scenes=SCENES):
     shuttertruth(arguments, [
         "truths", "render", "--quiet", "--scenes", ",".join(scenes), "--scenes-dir", arguments.scenes_dir, "--size", arguments.size,
-        "--samples-per-pixel", "8", "--replicates", "2", "--out", str(arguments.out)])
+        "--samples-per-pixel", "8", "--replicates", "2", "--further-velocities", "--out", str(arguments.out)])
     return [Frame(arguments.out / scene / "frame.exr") for scene in scenes]
 
 
@@ -178,8 +180,13 @@ class Difference:
 
 
 def compared(original, frames, pictures, parameters):
-    theirs = [original(f.color, f.velocity, f.depth, f.exposure, 0, parameters) for f in frames]
-    return Difference(zip(pictures, theirs))
+    has_next = "velocity_next" in inspect.signature(original).parameters
+
+    def blur(frame):
+        further = {"velocity_next": frame.velocity_next} if has_next else {}
+        return original(frame.color, frame.velocity, frame.depth, frame.exposure, 0, parameters, **further)
+
+    return Difference(zip(pictures, map(blur, frames)))
 
 
 def judged(limits, found, listed):

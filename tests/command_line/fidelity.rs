@@ -90,6 +90,8 @@ fn a_changed_filter_does_not_match_its_original() {
         ("bevy:default", "metric=pixel"),
         ("jimenez:o3de", "tile_lookup=nearest"),
         ("three:default", "divisor=fetches"),
+        ("centred_gather:armory", "taps=middles"),
+        ("centred_gather:spartan_2024", "smoothing=none"),
         ("babylon:default", "storage=exact"),
         ("kino:default", "least_motion=1"),
         ("jump_flood:july_2024", "map=float32"),

@@ -19,7 +19,7 @@ impl Field {
         Input {
             color,
             velocity: &self.velocity,
-            velocity_next: None,
+            velocity_next: Some(&self.velocity),
             velocity_z: None,
             depth: &self.depth,
             reprojection: self.reprojection,

@@ -111,7 +111,7 @@ impl Picture {
         Input {
             color,
             velocity: &self.velocity,
-            velocity_next: None,
+            velocity_next: Some(&self.velocity),
             velocity_z: None,
             depth: &self.depth,
             exposure: self.exposure,
@@ -168,7 +168,7 @@ pub fn frame_input<'a>(frame: &'a Frame, color: &'a [&'a Image]) -> Input<'a> {
     Input {
         color,
         velocity: &frame.velocity,
-        velocity_next: frame.velocity_next.as_ref(),
+        velocity_next: frame.velocity_next.as_ref().or(Some(&frame.velocity)),
         velocity_z: frame.velocity_z.as_ref(),
         depth: &frame.depth,
         reprojection: Some(frame.reprojection.moved(f64::from(frame.guard_band))),

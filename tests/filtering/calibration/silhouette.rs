@@ -71,9 +71,11 @@ fn expected_light(outcome: &Outcome) -> [Option<f64>; 4] {
     match (outcome.filter.as_str(), outcome.preset.as_str()) {
         ("identity" | "camera_gather" | "babylon_screen", _) => [Some(0.0); 4],
         // Nothing leaves the silhouette; within it, all taps count.
-        ("velocity_gather" | "bevy" | "three" | "babylon" | "realism_effects", _) => {
-            [Some(0.0), Some(backward), Some(forward), Some(0.0)]
-        }
+        (
+            "velocity_gather" | "centred_gather" | "bevy" | "three" | "babylon" | "realism_effects"
+            | "urp",
+            _,
+        ) => [Some(0.0), Some(backward), Some(forward), Some(0.0)],
         // The light that the panel loses at its front is behind it.
         ("jump_flood" | "jump_flood_packed", "corrected") => {
             [Some(forward), Some(0.0), Some(forward), Some(0.0)]

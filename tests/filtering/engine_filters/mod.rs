@@ -2,6 +2,7 @@
 
 mod babylon;
 mod bevy;
+mod blender;
 mod dagor;
 mod hdrp;
 mod hdrp_tiles;

@@ -59,7 +59,10 @@ fn shaders_read_them_by_name_and_in_the_convention_of_velocity() {
 fn frames_without_them_are_refused() {
     let picture = busy_picture();
     let colors = [&picture.color];
-    let without = picture.input(&colors);
+    let without = Input {
+        velocity_next: None,
+        ..picture.input(&colors)
+    };
     let mut broken = picture.velocity.clone();
     broken.pixels[62] = [0.0, f32::NAN];
     let next = Some(&picture.velocity);

@@ -216,6 +216,13 @@ fn members_of_structs_and_storage_buffers_have_their_values() {
         (", weights = [1, 2, 3, 4, 80]", "", &["group 0, binding 2", "member \"weights\" (f32 at byte 8) has no value"]),
         ("first = [0, \"10 * exposure\"]", "first = [1, 2, 3]", &["member \"first\" holds 2 x f32, and `values` has 3"]),
     ]);
+    // Buffers of HLSL that are read have the registers of textures.
+    let pass = "[[pass]]\nshader = \"table.hlsl\"\nstage = \"fragment\"\n\
+                [[pass.binding]]\nbinding = 103\nvalues = { \"*\" = [1, 2, 3, 4] }\n";
+    let hlsl = "StructuredBuffer<float> table : register(t3);\nfloat4 main(float4 position : SV_Position) : SV_Target\n\
+                { return float4(table[1], table[3], 0.0, 1.0); }\n";
+    let shown = blur_busy(&make("resources", pass).with("table.hlsl", hlsl));
+    assert_eq!(*shown.at(30, 20), [2.0, 4.0, 0.0]);
     let written = files.changed("table.comp", "readonly buffer", "buffer");
     blur_busy(&written);
     let parts = [

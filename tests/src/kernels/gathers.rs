@@ -5,14 +5,34 @@ use crate::vector::{length, scaled};
 
 /// Places the taps at i/N of the trail: Ctrl-Alt-Test 2011, and the blur by the camera's motion.
 pub fn plain(preset: &str, steady: &Steady) -> Vec<Tap> {
-    let count = match preset {
-        "departure" => 10,
-        "coarse" | "default" => 8,
-        "fine" => 20,
+    let (count, end) = match preset {
+        "departure" => (10, 1.0),
+        "coarse" | "default" => (8, 1.0),
+        "fine" => (20, 1.0),
+        // The last tap is at 0.4.
+        "armory" => (9, 0.45),
         _ => panic!("say here how many taps {preset} has"),
     };
-    let parts = (0..count).map(|i| f64::from(i) / f64::from(count));
+    let parts = (0..count).map(|i| end * f64::from(i) / f64::from(count));
     on_trail(steady.trail(), parts)
+}
+
+/// Places the taps on both sides of the pixel: in the middles of steps, or from end to end with the pixel itself.
+pub fn centred(preset: &str, steady: &Steady) -> Vec<Tap> {
+    let has_own = matches!(preset, "armory" | "spartan_2024");
+    let (first, last, count) = match preset {
+        "even" | "smoothed" => (0.5, 15.5, 16.0),
+        "armory" => (0.0, 7.0, 7.0),
+        "spartan_2024" => (1.0, 31.0, 31.0),
+        _ => panic!("say here where the taps of {preset} are"),
+    };
+    let taps = (0..64).map(|i| first + f64::from(i));
+    let parts = taps
+        .take_while(|tap| *tap <= last)
+        .map(|tap| tap / count - 0.5);
+    let mut taps = on_trail(steady.trail(), parts);
+    taps.extend(has_own.then(|| own(1.0)));
+    taps
 }
 
 /// Places the taps of Golan's demo of 2024, and of the version two days later.
@@ -72,6 +92,32 @@ pub fn bevy(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     }
 }
 
+/// Places the taps of Blender: from the pixel to both ends of the trail, in even steps. Those along the longest motion nearby are the
+/// same.
+pub fn blender(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
+    let half = scaled(steady.trail(), 0.5);
+    if length(half) < 0.5 {
+        return vec![own(1.0)];
+    }
+    let samples = match preset {
+        "compositor" | "compositor_mended" => 32,
+        _ => 8,
+    };
+    let parts = (0..samples).flat_map(|i| {
+        let part = (f64::from(i) + noise) / f64::from(samples);
+        [part, -part]
+    });
+    match samples {
+        8 => parts
+            .map(|part| Tap {
+                offset: scaled(half, part).map(nearest),
+                weight: 1.0,
+            })
+            .collect(),
+        _ => on_trail(half, parts),
+    }
+}
+
 /// Places the taps of three.js: the pixel itself, and sixteen from one fifteenth after the trail's end to one beyond its
 /// other end.
 pub fn three(preset: &str, steady: &Steady) -> Vec<Tap> {
@@ -107,4 +153,23 @@ pub fn realism_effects(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
         bilinear(offset, 1.0)
     });
     taps.chain([own(1.0)]).collect()
+}
+
+/// Places the taps of Unity's URP, at the nearest pixels: even steps, all shifted back by noise.
+pub fn urp(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
+    let pairs = match preset {
+        "default" | "mended" => 2,
+        "medium" => 3,
+        "high" => 4,
+        _ => panic!("say here how many taps {preset} has"),
+    };
+    let strength = if preset == "mended" { 1.0 } else { 2.0 };
+    let trail = scaled(steady.trail(), strength);
+    let parts = (1 - pairs..=pairs).map(|i| (f64::from(i) - noise) / f64::from(2 * pairs));
+    parts
+        .map(|part| Tap {
+            offset: scaled(trail, part).map(nearest),
+            weight: 1.0,
+        })
+        .collect()
 }

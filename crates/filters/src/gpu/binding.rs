@@ -102,13 +102,7 @@ fn create_layout(
                 false => wgpu::BufferBindingType::Uniform,
             }),
             Role::Read(kind) => wgpu::BindingType::Texture {
-                sample_type: match kind {
-                    ScalarKind::Uint => wgpu::TextureSampleType::Uint,
-                    ScalarKind::Sint => wgpu::TextureSampleType::Sint,
-                    _ => wgpu::TextureSampleType::Float {
-                        filterable: entry.interpolated.contains(index),
-                    },
-                },
+                sample_type: find_sample_type(kind, entry.interpolated.contains(index)),
                 view_dimension: wgpu::TextureViewDimension::D2,
                 multisampled: false,
             },
@@ -138,6 +132,15 @@ fn create_layout(
             label: Some(&entry.name),
             entries: &entries,
         })
+}
+
+/// Returns what shaders read a texture as.
+fn find_sample_type(kind: ScalarKind, filterable: bool) -> wgpu::TextureSampleType {
+    match kind {
+        ScalarKind::Uint => wgpu::TextureSampleType::Uint,
+        ScalarKind::Sint => wgpu::TextureSampleType::Sint,
+        _ => wgpu::TextureSampleType::Float { filterable },
+    }
 }
 
 /// Creates the pipeline of a kernel, or of a fragment shader with its vertex stage if there is one.

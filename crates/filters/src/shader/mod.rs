@@ -22,7 +22,7 @@ pub(crate) use compiled_by::try_each;
 pub(crate) use declarations::{Shader, engine_validator, parse_wgsl};
 pub(crate) use entry_point::{EntryPoint, find_entry_points};
 pub(crate) use loop_counter::count_loop_iterations;
-pub(crate) use member::{NumberKind, list_members, name_element};
+pub(crate) use member::{Member, NumberKind, list_members, name_element};
 pub(crate) use sampling::{SamplerFilter, Sampling, Wrap};
 pub(crate) use source::tidy;
 pub(crate) use stack::{guard, run_on_large_stack};

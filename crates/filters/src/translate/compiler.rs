@@ -61,7 +61,7 @@ static OF_HLSL: [Compiler; 3] = [
             // The shifts are those of `REGISTERS`.
             format!(
                 "-D -V --target-env vulkan1.1 -S {short} -e {entry} --auto-map-bindings --auto-map-locations --stb 100 \
-                 --sib 200 --ssb 300 -o {{out}} {{in}}"
+                 --sbb 100 --sib 200 --ssb 300 -o {{out}} {{in}}"
             )
         },
         way_out: GLSLANG_WAY_OUT,

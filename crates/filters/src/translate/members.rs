@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use wgpu::naga::{Handle, Module, Type};
 
 use crate::filter::{Binding, MATRIX_NUMBERS};
-use crate::shader::{BlockNumber, NumberKind, UniformBlock, list_members, name_element};
+use crate::shader::{BlockNumber, Member, NumberKind, UniformBlock, list_members, name_element};
 use crate::{Expression, Filter};
 
 /// Name that stands for all members without a value of their own.
@@ -29,22 +29,7 @@ pub(super) fn fill_block(
     let members = list_members(module, block, &find_length)?;
     let mut numbers = Vec::new();
     for member in &members {
-        let is_named = filter.count_numbers(&member.name) == Some(member.numbers.len());
-        let named = || vec![Expression::Name(member.name.clone())];
-        let own = find_given(given, &member.name, member.offset);
-        let values = (own.map(|(_, values)| values.clone()))
-            .or_else(|| is_named.then(named))
-            .or_else(|| others.map(|(_, values)| values.clone()))
-            .ok_or_else(|| {
-                format!(
-                    "its member \"{}\" ({} at byte {}) has no value; add it to `values` of its [[pass.binding]], as a \
-                     number, a parameter, an expression, or one of {}; 0 for padding, and \"*\" = 0 for all others",
-                    member.name,
-                    describe(&member.numbers),
-                    member.offset,
-                    filter.list_values()
-                )
-            })?;
+        let values = find_values(filter, given, member)?;
         let own_name = member.name.rsplit('.').next().unwrap_or_default();
         let is_by_rows = by_rows.contains(&(own_name.to_owned(), member.own_offset));
         let values = spell_out(filter, &values, is_by_rows);
@@ -76,6 +61,33 @@ pub(super) fn fill_block(
         ));
     }
     UniformBlock::new(module, block, numbers)
+}
+
+/// Finds the values of a member: its own, those that it is called after, or those of all others.
+fn find_values(
+    filter: &Filter,
+    given: &[(String, Vec<Expression>)],
+    member: &Member,
+) -> Result<Vec<Expression>, String> {
+    let Member {
+        name,
+        offset,
+        numbers,
+        ..
+    } = member;
+    let is_named = filter.count_numbers(name) == Some(numbers.len());
+    let others = given.iter().find(|(name, _)| name == OTHERS);
+    (find_given(given, name, *offset).map(|(_, values)| values.clone()))
+        .or_else(|| is_named.then(|| vec![Expression::Name(name.clone())]))
+        .or_else(|| others.map(|(_, values)| values.clone()))
+        .ok_or_else(|| {
+            format!(
+                "its member \"{name}\" ({} at byte {offset}) has no value; add it to `values` of its [[pass.binding]], as a \
+                 number, a parameter, an expression, or one of {}; 0 for padding, and \"*\" = 0 for all others",
+                describe(numbers),
+                filter.list_values()
+            )
+        })
 }
 
 /// Returns true if `values` means a member by this name: its own, its offset, or that of a struct or array around it.
