@@ -5,10 +5,10 @@
 # All look for a Vulkan driver first and, on Debian and Ubuntu, install the software one where there is none. The tests need Python:
 # Optuna drives the tuning service, Snakemake runs the jobs of a plan, and numpy and OpenEXR compare presets with their originals.
 # They need Chromium to open reports and to draw scenes with three.js, node to install three.js and to drive it, and glslang to compile
-# shaders in GLSL.
+# shaders in GLSL. `make prove` needs Blender, too.
 # On macOS and Windows plain cargo commands work.
 
-.PHONY: run test prove breadth guides fuzz mutants growth archive action image publish vulkan software_vulkan python chromium node glslang
+.PHONY: run test prove breadth guides fuzz mutants growth archive action image publish vulkan software_vulkan python chromium node glslang blender
 
 # Mesa complains on every start where a login session has not set it, as in containers; nothing is written there.
 export XDG_RUNTIME_DIR ?= /tmp
@@ -41,7 +41,7 @@ prove:
 	printf "$$took"; exit $$failed
 
 # Tests that `make test` leaves out. The guides are a part of their own.
-breadth: software_vulkan python chromium node glslang
+breadth: software_vulkan python chromium node glslang blender
 	$(TEST) --tests --no-fail-fast -- --ignored --skip guides::
 
 # Runs every command of every page, and prints each with its time.
@@ -179,3 +179,12 @@ glslang:
 	command -v glslangValidator >/dev/null && exit 0; \
 	$(call INSTALL,compiler of GLSL,glslang-tools,$(GLSLANG_WAY_OUT)); \
 	command -v glslangValidator >/dev/null || { echo "still no glslangValidator after the installation; $(GLSLANG_WAY_OUT)" >&2; exit 1; }
+
+BLENDER_WAY_OUT := install it, for example: apt-get install blender python3-numpy (Debian, Ubuntu), dnf install blender (Fedora), pacman -S blender python-numpy (Arch)
+
+# Debian's Blender uses the system's Python, whose numpy the importer of glTF needs.
+blender:
+	@[ "$$(uname -s)" = Linux ] || exit 0; \
+	command -v blender >/dev/null && exit 0; \
+	$(call INSTALL,Blender,blender python3-numpy,$(BLENDER_WAY_OUT)); \
+	command -v blender >/dev/null || { echo "still no blender after the installation; $(BLENDER_WAY_OUT)" >&2; exit 1; }

@@ -1,7 +1,8 @@
 #!/bin/sh
-# Fetches the engine shaders that the filters here bind, each at a fixed commit, unchanged. GODOT_GUERTIN,
-# GODOT_JUMP_FLOOD, BEVY and KINO may name other locations of the repositories: addresses, or clones on this machine. Lists what cannot be
-# fetched, fetches the others all the same, and exits with 1. Existing files with the right content stay.
+# Fetches the engine shaders that the filters here bind, each at a fixed commit, unchanged. GODOT_GUERTIN, GODOT_JUMP_FLOOD, BEVY, KINO,
+# PPV2, URP and FLAX may name other locations of the repositories: addresses, or clones on this machine. Lists what cannot be fetched,
+# fetches the others all the same, and exits with 1. Existing files with the right content stay.
+# Flax's licence is its own (https://flaxengine.com/licensing): read it before you use these files.
 set -u
 cd "$(dirname "$0")"
 missing=
@@ -78,8 +79,31 @@ fetch "${KINO:-https://github.com/keijiro/KinoMotion}" \
     "Common.cginc Prefilter.cginc Reconstruction.cginc" \
     kino
 
+ppv2=${PPV2:-https://github.com/Unity-Technologies/PostProcessing}
+commit=ea3f7dd8959105aa0e00ffa3fe6980f1464a5a09
+fetch "$ppv2" $commit PostProcessing/Shaders "StdLib.hlsl xRLib.hlsl API/Vulkan.hlsl" ppv2
+fetch "$ppv2" $commit PostProcessing/Shaders/Builtins MotionBlur.shader ppv2
+# Its passes and textures are KinoMotion's, under other names; it has ten samples, and texel sizes of two numbers.
+sed -e 's/"unity_kino"/"unity_ppv2"/; s/^summary = .*/summary = "Post Processing Stack v2 for Unity: its HLSL, as it is."/' \
+    -e 's/^source = .*/source = "Unity-Technologies\/PostProcessing; fetch.sh says which commit."/; s/^default = 8/default = 10/' \
+    -e 's/^shader = .*/shader = "MotionBlur.shader"\nshader_pass = 0/; s/"frag_/"Frag/' \
+    -e '/^_VelocityTex_TexelSize/s/, "width", "height"//; /^_NeighborMaxTex_TexelSize/,/^]/{/"max/d}' \
+    kino/filter.toml > ppv2/filter.toml
+
+fetch "${URP:-https://github.com/Unity-Technologies/Graphics}" \
+    438e5869f41f3920e7d1c4ee52ad273c0b9f82a6 \
+    Packages/com.unity.render-pipelines.universal/Shaders/PostProcessing \
+    CameraMotionBlur.shader \
+    urp
+
+flax=${FLAX:-https://github.com/FlaxEngine/FlaxEngine}
+commit=1146620d4f965f106ff25f3a08b7fbec1a33b45b
+fetch "$flax" $commit Source/Shaders MotionBlur.shader flax
+# The folder that it includes files from.
+fetch "$flax" $commit Source/Shaders "Common.hlsl GBuffer.hlsl GBufferCommon.hlsl" flax/Flax
+
 if [ -n "$missing" ]; then
     echo "not fetched:$missing
-Is git installed, and the network there? GODOT_GUERTIN, GODOT_JUMP_FLOOD, BEVY and KINO may name clones on this machine." >&2
+Is git installed, and the network there? GODOT_GUERTIN, GODOT_JUMP_FLOOD, BEVY, KINO, PPV2, URP and FLAX may name clones on this machine." >&2
     exit 1
 fi

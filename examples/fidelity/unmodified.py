@@ -27,6 +27,9 @@ PAIRS = [
     ("bevy", "bevy:default", []),
     ("bevy", "bevy:high", ["bevy_motion_blur.samples=8"]),
     ("kino", "kino:default", []),
+    ("ppv2", "kino:ppv2", []),
+    ("urp", "urp:default", []),
+    ("urp", "urp:mended", ["unity_urp.intensity=0.5"]),
     ("godot_jump_flood_paper", "jump_flood:paper", []),
     ("godot_jump_flood_paper", "jump_flood:paper", ["jump_flood.map=float16"]),
     ("godot_jump_flood_july_2024", "jump_flood:july_2024", []),
@@ -63,24 +66,26 @@ def main():
         moved = Difference(zip(ours, [frames[scene].color for scene in scenes]))
         differences = [Difference(zip(ours, theirs[kind])) for kind in filters]
         cells = [cell for found in differences for cell in (f"{found.largest:.0e}", f"{found.mean:.1e}", str(found.large))]
-        with_values = "".join(f" {value.split('.')[1]}" for value in values)
+        with_values = "".join(f" {value.split('.', 1)[1]}" for value in values)
         rows.append([f"`{folder}`", f"`{preset}`{with_values}", *cells, f"{moved.mean:.4f}"])
     head = ["shader", "preset", "largest", "mean", "> 0.02", "largest, 32 bits", "mean", "> 0.02", "mean of the blur"]
     print(table(head, rows))
     frames = [frames[scene] for scene in SCENES]
     print(f"\n{', '.join(SCENES)} at {arguments.size}: {frames[0].depth.size * len(SCENES)} pixels; babylon_screen on {', '.join(CAMERA_SCENES)}.")
-    if not arguments.only or "kino" in arguments.only:
-        found = explained_kino(arguments, frames)
-        print(f"\nkino and its transcription on what the driver packed: largest {found.largest:.0e}, {found.small} pixels above 0.001.")
+    for folder, samples in {"kino": kino.SAMPLES, "ppv2": kino.SAMPLES_PPV2}.items():
+        if arguments.only and folder not in arguments.only:
+            continue
+        found = explained_kino(arguments, frames, folder, samples)
+        print(f"\n{folder} and its transcription on what the driver packed: largest {found.largest:.0e}, {found.small} pixels above 0.001.")
     if not arguments.only or "three" in arguments.only:
         found = transcribed_three(arguments, frames)
         print(f"\nthree and its transcription: largest {found.largest:.0e}.")
 
 
-def explained_kino(arguments, frames):
+def explained_kino(arguments, frames, folder, samples):
     """The transcription, on velocity and depth as packed by the driver, and with tiles of halves that it rounds towards zero."""
-    wide = arguments.out / "wide" / "kino"
-    packing = wide.parent / "kino_packing"
+    wide = arguments.out / "wide" / folder
+    packing = wide.parent / f"{folder}_packing"
     shutil.rmtree(packing, ignore_errors=True)
     shutil.copytree(wide, packing)
     head, first, *_ = (packing / "filter.toml").read_text().split("[[pass]]\n")
@@ -95,7 +100,7 @@ def explained_kino(arguments, frames):
         radius = np.float32(kino.MAX_BLUR_PERCENT * frame.depth.shape[0] // 100)
         packed = blur_with(arguments, str(packing.resolve()), scene, [])
         kino.packed = lambda *_: ((packed[..., :2] * 2 - 1) * radius, packed[..., 2])
-        theirs = kino.blur(frame.color, frame.velocity, frame.depth, frame.exposure, stored=jump_flood.halved)
+        theirs = kino.blur(frame.color, frame.velocity, frame.depth, frame.exposure, jump_flood.halved, samples)
         pairs.append((blur_with(arguments, str(wide.resolve()), scene, []), theirs))
     return Difference(pairs)
 

@@ -10,6 +10,7 @@ struct Parameters {
     jitter: u32,
     least_motion: f32,
     tiles: u32,
+    window: u32,
 }
 
 @group(0) @binding(1) var<uniform> parameters: Parameters;
@@ -28,14 +29,16 @@ struct Parameters {
 
 const STORAGE_PACKED = 0u;
 const JITTER_NOISE = 0u;
+const JITTER_NONE = 2u;
 const TILES_STRETCHED = 0u;
+const WINDOW_FALLING = 0u;
 
 const TAU = 6.2831853;
 // A tile's own motion counts for this much more than its neighbours'.
 const OWN_TILE = 1.01;
 // A tap is wholly foreground where it is nearer than the pixel by one part in this many of the pixel's depth.
 const FOREGROUND_SHARPNESS = 20.0;
-// Weight of a tap at the pixel; it falls by 1 to the end of the trail.
+// Weight of a tap at the pixel; a falling one loses 1 up to the end of the trail.
 const WINDOW = 1.2;
 
 // Longest half of a trail, in whole pixels.
@@ -203,20 +206,26 @@ fn tile_extent() -> vec2<f32> {
     return vec2<f32>(f32(tile_size()));
 }
 
-// In [0, 1). The original drives its noise by the clock; here it walks a cycle of 64 frames.
+// In [0, 1). The original drives its noise by the clock; here it walks a cycle of 64 frames, or stands still.
 fn noise(position: vec2<f32>) -> f32 {
-    return interleaved_gradient_noise(position + 5.588238 * f32(frame.frame_index % 64u));
+    let walked = select(0u, frame.frame_index % 64u, parameters.jitter == JITTER_NOISE);
+    return interleaved_gradient_noise(position + 5.588238 * f32(walked));
 }
 
 // The longest motion near a pixel; noise blurs where one tile ends and the next begins.
 fn longest_near(pixel: vec2<i32>) -> vec2<f32> {
     var position = centre(pixel);
-    if parameters.jitter == JITTER_NOISE {
+    if parameters.jitter != JITTER_NONE {
         let angle = TAU * noise(vec2<f32>(pixel) + vec2<f32>(2.0 * f32(frame.size.x), 0.0));
         position += 0.25 * tile_extent() * vec2<f32>(cos(angle), sin(angle));
     }
     let tile = vec2<i32>(floor(position / tile_extent()));
     return textureLoad(neighbor_max, clamp(tile, vec2<i32>(0), tile_count() - 1), 0).xy;
+}
+
+// Weight of a tap by its place, from 0 at the pixel to 1 at the end of the trail.
+fn window(along: f32) -> f32 {
+    return select(1.0, WINDOW - along, parameters.window == WINDOW_FALLING);
 }
 
 // How much a tap counts as foreground: 1 where it is nearer by a twentieth of the pixel's depth or more.
@@ -248,7 +257,7 @@ fn reconstruct(@builtin(global_invocation_id) id: vec3<u32>) {
 
     let pairs = i32(min(f32(parameters.samples / 2), reach / parameters.least_motion));
     let step = 1.0 / f32(pairs);
-    let shift = select(0.0, (noise(vec2<f32>(pixel)) - 0.5) * step, parameters.jitter == JITTER_NOISE);
+    let shift = select(0.0, (noise(vec2<f32>(pixel)) - 0.5) * step, parameters.jitter != JITTER_NONE);
     // How far the background moves, as far as the taps so far know.
     var background_length = max(own_length, 1.0);
     var mean = vec4<f32>(0.0);
@@ -267,14 +276,14 @@ fn reconstruct(@builtin(global_invocation_id) id: vec3<u32>) {
         let distance = reach * abs(signed_along);
         let arrives = saturate(tap_length - distance);
         // A tap of no length reaches nothing.
-        let weight = arrives / max(tap_length, 1e-6) * (WINDOW - along);
+        let weight = arrives / max(tap_length, 1e-6) * window(along);
         background_length = max(background_length, tap_length);
         if weight > 0.0 {
             total += weight;
             mean += (bilinear(color, position) - mean) * (weight / total);
         }
     }
-    let own_weight = WINDOW * step / (2.0 * background_length);
+    let own_weight = window(0.0) * step / (2.0 * background_length);
     mean += (here - mean) * (own_weight / (total + own_weight));
     textureStore(output, pixel, mean);
 }

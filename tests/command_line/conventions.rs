@@ -197,8 +197,8 @@ fn run_json_says_what_a_filter_s_shaders_got() {
 fn textures_between_the_passes_are_shown_with_their_numbers() {
     let sandbox = Sandbox::new();
     let frame = render(&sandbox);
-    let words = "engine blur --filter kino --frame r/plate/frame.exr --out b.exr";
-    let said = sandbox.done(&format!("{words} --show velocity,tile_max,output"));
+    let words = "engine blur --filter mcguire:paper --frame r/plate/frame.exr --out b.exr";
+    let said = sandbox.done(&format!("{words} --show velocity,tiles,output"));
     let read = |name: &str| read_exr(&sandbox.path(&format!("b_{name}.exr"))).unwrap();
     let shown = read("velocity");
     for (channel, component) in [("R", 0), ("G", 1)] {
@@ -207,10 +207,10 @@ fn textures_between_the_passes_are_shown_with_their_numbers() {
     }
     let picture = sandbox.read_color("b.exr");
     assert_eq!(read("output").color("").unwrap(), picture);
-    let tiles = read("tile_max");
+    let tiles = read("tiles");
     assert!(tiles.width < frame.color.width, "{}", tiles.width);
-    let size = format!("tile_max: {}x{}, R ", tiles.width, tiles.height);
-    assert_contains(&said, &["b_tile_max.exr", "b_tile_max.png", &size]);
+    let size = format!("tiles: {}x{}, R ", tiles.width, tiles.height);
+    assert_contains(&said, &["b_tiles.exr", "b_tiles.png", &size]);
     let png = read_png(&sandbox.path("b_velocity.png")).unwrap();
     let values = || png.pixels.iter().flat_map(|pixel| &pixel[..2]).copied();
     let (least, most) = (values().fold(1.0, f32::min), values().fold(0.0, f32::max));
@@ -219,7 +219,7 @@ fn textures_between_the_passes_are_shown_with_their_numbers() {
         (0.0, 1.0),
         "from the least number to the greatest"
     );
-    let allowed = "kino has no such texture; allowed: ";
+    let allowed = "mcguire has no such texture; allowed: ";
     sandbox.refuse(
         &format!("{words} --show tile"),
         &["--show tile", allowed, "color, velocity, depth, output"],

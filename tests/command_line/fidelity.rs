@@ -108,6 +108,7 @@ fn no_change_of_a_filter_matches_its_original() {
         ("jimenez:kajiya", "noise=shift"),
         ("jimenez:wicked", "border=clamp"),
         ("realism_effects:default", "jitter=0.5"),
+        ("dagor:default", "vignette=0.5"),
         ("bevy:msaa", "fetch=filtered"),
         ("three:default", "coordinates=texture"),
         ("mcguire:g3d", "neighbor_rule=all"),

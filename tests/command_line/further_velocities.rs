@@ -52,7 +52,9 @@ fn run_hands_them_to_filters_that_read_them_and_leaves_the_frame_s_file_as_it_is
     );
     let quick = "--quiet --scenes plate --size 64x32 --samples-per-pixel 16 --further-velocities";
     sandbox.done(&format!("truths render {quick} --out more"));
-    sandbox.done(&format!("{blur} more/plate/frame.exr"));
+    sandbox.done(&format!(
+        "{blur} more/plate/frame.exr --show velocity_next,velocity_z"
+    ));
     assert!(sandbox.read_color("next.exr") == outputs[0]);
     sandbox.done("truths verify more");
     let whole = Frame::read(&sandbox.path("more/plate/frame.exr")).unwrap();

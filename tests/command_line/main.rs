@@ -3,6 +3,8 @@
 mod arguments;
 mod audit;
 mod baseline;
+#[cfg(unix)]
+mod blender;
 mod check;
 #[cfg(unix)]
 mod command_filter;

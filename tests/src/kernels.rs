@@ -3,6 +3,7 @@
 //! All taps are on one surface there, so a filter consists only of the positions and weights of its taps.
 
 mod babylon;
+mod dagor;
 mod gathers;
 mod jimenez;
 mod kino;
@@ -76,7 +77,9 @@ pub fn place_taps(filter: &str, preset: &str, steady: &Steady, noise: f64) -> Ve
         "centred_gather" => gathers::centred(preset, steady),
         "realism_effects" => gathers::realism_effects(preset, steady, noise),
         "jimenez" => jimenez::place_taps(preset, steady, noise),
-        "kino" => kino::place_taps(steady, noise),
+        "kino" => kino::place_taps(preset, steady, noise),
+        "urp" => gathers::urp(preset, steady, noise),
+        "dagor" => dagor::place_taps(preset, steady, noise),
         "mcguire" => tiles::mcguire(preset, steady, noise),
         "guertin" => tiles::guertin(steady, noise),
         _ => panic!("say here what {filter} averages"),

@@ -16,4 +16,4 @@ pub use capture::description::CaptureDescription;
 pub use capture::folder::Capture;
 pub use export::{FRAMES_PER_SECOND, Manifest, Timeline, export_gltf};
 pub use import::{ImportPlan, Imported, Motions, Up, import};
-pub use ingest::{Ingested, ingest};
+pub use ingest::{Ingested, check_subframe_count, ingest};

@@ -1,8 +1,8 @@
-"""KinoMotion, in numpy, from ReconstructionFilter.cs, Prefilter.cginc and Reconstruction.cginc at 35d5d51.
+"""KinoMotion, in numpy, from ReconstructionFilter.cs, Prefilter.cginc and Reconstruction.cginc at 35d5d51; and the motion blur of Unity's
+Post Processing Stack, from MotionBlur.cs, MotionBlur.shader and StdLib.hlsl at ea3f7dd: the same with ten samples, and without the clock.
 
 Textures between the passes are sampled at points, at UV: where the picture's sides are no multiples of a tile, the original has
-fewer tiles and stretches them. The clock stands at 0. `default_as_listed` has what the preset lists as different: tiles of
-32-bit floats.
+fewer tiles and stretches them. The clock stands at 0. What the presets list as different: tiles of 32-bit floats.
 """
 
 import numpy as np
@@ -11,7 +11,7 @@ from sampling import linear
 F = np.float32
 
 MAX_BLUR_PERCENT = 5
-SAMPLES = 8
+SAMPLES, SAMPLES_PPV2 = 8, 10
 FAR_PLANE = F(1000)
 
 
@@ -85,7 +85,7 @@ def gradient_noise(x, y):
     return (F(52.9829189) * inner) % F(1)
 
 
-def blur(color, velocity, depth, exposure, stored):
+def blur(color, velocity, depth, exposure, stored, samples=SAMPLES):
     height, width = depth.shape
     size = np.array([width, height], F)
     radius = MAX_BLUR_PERCENT * height // 100
@@ -106,12 +106,12 @@ def blur(color, velocity, depth, exposure, stored):
     still = l_v_max < 2
     l_v_max = np.maximum(l_v_max, F(2))
     v_alt = np.where((l_v_p * 2 > l_v_max)[..., None], motion * (l_v_max / l_v_p)[..., None], v_max)
-    sc = np.floor(np.minimum(F(SAMPLES // 2), l_v_max / 2))
+    sc = np.floor(np.minimum(F(samples // 2), l_v_max / 2))
     dt = 1 / sc
     t_offs = (gradient_noise(columns, rows) - F(0.5)) * dt
     l_v_bg = np.maximum(l_v_p, F(1))
     acc, total = np.zeros((height, width, 3), F), np.zeros((height, width), F)
-    for count in range(SAMPLES):
+    for count in range(samples):
         t = 1 - dt / 2 - (count // 2) * dt
         runs = t > dt / 4
         v_s = v_alt if count % 4 >= 2 else v_max
@@ -131,13 +131,10 @@ def blur(color, velocity, depth, exposure, stored):
     return np.where(still[..., None], color, mixed)
 
 
-def default(color, velocity, depth, exposure, frame_index, parameters):
-    return blur(color, velocity, depth, exposure, stored=lambda v: v.astype(np.float16).astype(F))
+def with_samples(samples, stored):
+    return lambda color, velocity, depth, exposure, frame_index, parameters: blur(color, velocity, depth, exposure, stored, samples)
 
 
-def default_as_listed(color, velocity, depth, exposure, frame_index, parameters):
-    return blur(color, velocity, depth, exposure, stored=lambda v: v)
-
-
-ORIGINALS = {"kino:default": default}
-AS_LISTED = {"kino:default": default_as_listed}
+PRESETS = {"kino:default": SAMPLES, "kino:ppv2": SAMPLES_PPV2}
+ORIGINALS = {name: with_samples(samples, lambda v: v.astype(np.float16).astype(F)) for name, samples in PRESETS.items()}
+AS_LISTED = {name: with_samples(samples, lambda v: v) for name, samples in PRESETS.items()}

@@ -1,6 +1,7 @@
 //! `ingest`: an engine's pictures, measured like our own scenes.
 
 pub mod capture;
+mod forms;
 mod picture;
 mod refusals;
 mod use_of_folders;
@@ -125,6 +126,20 @@ fn a_run_on_a_capture_scores_near_our_own_scene_and_ranks_the_engine() {
                  --input velocity=float32";
     let printed = sandbox.done(words);
     assert_contains(&printed, &["Test_Engine_1.2"]);
+    // The same filters on both frames, and the engine's own blur on its own.
+    let twins = printed.split("whose frames").nth(1).unwrap();
+    let row = |name: &str| -> Vec<&str> {
+        let mut lines = twins.lines().map(|line| line.split_whitespace());
+        let row = lines.find(|words| words.clone().next() == Some(name));
+        row.unwrap_or_else(|| panic!("{name}: {printed}")).collect()
+    };
+    assert_eq!(row("ours"), ["ours", "Test_Engine_1.2"]);
+    assert_eq!(row("Test_Engine_1.2")[1], "n/a");
+    assert!(
+        row("jump_flood:paper")[1..]
+            .iter()
+            .all(|cell| *cell < row("[identity]")[1])
+    );
     // The filter is scaled; the engine's picture has no filter.toml to name a width in.
     assert!(!printed.contains("reference_width"), "{printed}");
     let run = sandbox.read_run();

@@ -92,6 +92,8 @@ fn check_ramp(outcome: &Outcome) -> Option<String> {
         // Noise in a band of 33 pixels, mostly with two taps. Of two equally near pixels, all rows may read the same one: half a pixel for
         // the middle.
         _ if filter == "babylon" => 0.7,
+        // Smears of 4 pixels: their length changes with the place, and so does that of the longest near. The largest measured error is 0.7.
+        "default" if filter == "dagor" => 0.75,
         _ => 0.2 + 0.01 * trail,
     };
     let off = (found.length - expected.length).abs();

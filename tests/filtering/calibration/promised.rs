@@ -17,6 +17,7 @@ pub fn promised_smear(filter: &str, preset: &str, steady: &Steady) -> f64 {
         ("three", _) => along_motion(steady, three_trail(preset, steady)).abs(),
         ("babylon", _) => along_motion(steady, babylon_trail(steady)),
         ("realism_effects", "default") => 0.6 * trail,
+        ("urp", "default" | "medium" | "high") => 2.0 * trail,
         ("jump_flood" | "jump_flood_packed", preset) => {
             along_motion(steady, jump_flood_trail(preset, steady))
         }
@@ -25,6 +26,9 @@ pub fn promised_smear(filter: &str, preset: &str, steady: &Steady) -> f64 {
         ("mcguire", "motion_blur_demo") => trail.min(20.0),
         ("mcguire", "g3d") => trail.min(2.0 * 64.0),
         ("guertin", _) => trail.min(2.0 * 40.0),
+        // In the middle of the picture.
+        ("dagor", "default") => 0.16 * trail.min(2.0 * 32.0),
+        ("dagor", _) => trail.min(2.0 * 32.0),
         // Whole pixels of 5 % of the rows on either side; nothing below 2.
         ("kino", _) => match (0.05 * f64::from(HEIGHT)).floor() {
             _ if trail < 4.0 => 0.0,
@@ -59,6 +63,7 @@ pub fn stated_lengths(filter: &str, preset: &str) -> RangeInclusive<f64> {
         ("mcguire", "g3d") => 1.02..=1.09,
         ("mcguire", "tuned") => 0.86..=1.04,
         ("guertin", _) => 0.65..=0.87,
+        ("dagor", "default") => 0.79..=1.08,
         ("three", _) => 1.03..=1.05,
         ("centred_gather", "armory") => 1.07..=1.09,
         ("centred_gather", "spartan_2024") => 0.98..=1.00,
@@ -66,6 +71,8 @@ pub fn stated_lengths(filter: &str, preset: &str) -> RangeInclusive<f64> {
         // Noise adds its own length, on each axis separately: least on diagonals.
         ("realism_effects", _) => 1.29..=1.51,
         ("bevy", "msaa") => 0.955..=1.025,
+        ("urp", _) => 0.995..=1.045,
+        ("kino", "mended") => 0.775..=0.925,
         ("kino", _) => 0.72..=0.78,
         ("jimenez", "hdrp" | "hdrp_mirrored") => 1.00..=1.03,
         ("jimenez", "kajiya") => 1.00..=1.08,

@@ -3,6 +3,7 @@
 mod babylon;
 mod bevy;
 mod blender;
+mod dagor;
 mod hdrp;
 mod hdrp_tiles;
 mod jimenez;

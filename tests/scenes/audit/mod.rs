@@ -56,6 +56,7 @@ fn draw(scene: &Scene, time: f64) -> Capture {
     Capture {
         folder: PathBuf::from("capture"),
         description: CaptureDescription {
+            raw: Default::default(),
             engine: "test".to_owned(),
             scene: None,
             exposure: None,

@@ -144,6 +144,33 @@ fn an_unlit_scene_is_exported_with_colours_alone() {
     }
 }
 
+#[test]
+fn a_colored_emissive_texture_is_one_texture_without_a_factor() {
+    let scene = load_shipped("fence@unlit");
+    let folder = export(&scene).unwrap();
+    let document = read_document(&folder);
+    let own = scene
+        .materials
+        .iter()
+        .find(|own| own.name == "red")
+        .unwrap();
+    let mut materials = document["materials"].as_array().unwrap().iter();
+    let red = materials.find(|own| own["name"] == "red").unwrap();
+    assert_eq!(red["emissiveFactor"], serde_json::json!([1.0, 1.0, 1.0]));
+    let texture = red["emissiveTexture"]["index"].as_u64().unwrap() as usize;
+    let name = document["images"][texture]["uri"].as_str().unwrap();
+    let tinted = frame::read_png(&folder.path().join(name)).unwrap();
+    let original = &scene.textures[own.emission_texture.unwrap()];
+    let tinted = frame::scene_linear(&tinted, 0.0);
+    for (tinted, texel) in tinted.pixels.iter().zip(&original.texels) {
+        for channel in 0..3 {
+            let error = tinted[channel] - texel[channel] * own.emission[channel];
+            // Half of the widest of 255 steps.
+            assert!(error.abs() < 0.005, "{tinted:?} {texel:?}");
+        }
+    }
+}
+
 /// Reads the description of an exported scene.
 fn read_document(folder: &TempDir) -> Value {
     let text = std::fs::read(folder.path().join("scene.gltf")).unwrap();
@@ -153,7 +180,7 @@ fn read_document(folder: &TempDir) -> Value {
 /// Exports a scene to a folder, or returns why not.
 fn export(scene: &Scene) -> Result<TempDir, String> {
     let folder = tempfile::tempdir().unwrap();
-    match export_gltf(scene, &tests::scenes().into(), "test", folder.path()) {
+    match export_gltf(scene, &tests::scenes().into(), "test", folder.path(), 4) {
         Ok(_) => Ok(folder),
         Err(error) => Err(error.to_string()),
     }
@@ -163,6 +190,7 @@ fn export(scene: &Scene) -> Result<TempDir, String> {
 fn assert_plays(scene: &Scene) {
     let folder = export(scene).unwrap_or_else(|error| panic!("{error}"));
     let played = Played::read(folder.path());
+    let by_components = Played::read(folder.path()).by_components();
     let timeline = Timeline::of(scene);
     let mut random = Random::new(7);
     for _ in 0..TIMES {
@@ -173,6 +201,8 @@ fn assert_plays(scene: &Scene) {
         for (index, object) in scene.objects.iter().enumerate() {
             let own = scene.object_to_world(index, time);
             let found = played.to_world(index + 1, seconds);
+            assert_close(scene, &object.name, time, own, found);
+            let found = by_components.to_world(index + 1, seconds);
             assert_close(scene, &object.name, time, own, found);
         }
     }

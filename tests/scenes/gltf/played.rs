@@ -10,6 +10,8 @@ use gltf::{Gltf, Node};
 pub struct Played {
     document: Gltf,
     buffer: Vec<u8>,
+    /// True for turns by components, as in Blender; false for turns at a constant angular velocity, as the format demands.
+    by_components: bool,
 }
 
 /// Keys of one channel.
@@ -28,6 +30,15 @@ impl Played {
         Self {
             document,
             buffer: std::fs::read(folder.join("scene.bin")).unwrap(),
+            by_components: false,
+        }
+    }
+
+    /// Interpolates the components of quaternions one by one.
+    pub fn by_components(self) -> Self {
+        Self {
+            by_components: true,
+            ..self
         }
     }
 
@@ -93,7 +104,7 @@ impl Played {
             None => glam::Vec3::from(still).as_dvec3(),
         };
         let rotation = match self.keys(node, Property::Rotation) {
-            Some(keys) => DVec4::from_slice(&keys.at(seconds, 4, true)),
+            Some(keys) => DVec4::from_slice(&keys.at(seconds, 4, !self.by_components)),
             None => glam::Vec4::from(rotation).as_dvec4(),
         };
         DAffine3::from_scale_rotation_translation(

@@ -19,8 +19,9 @@ pub fn plain(preset: &str, steady: &Steady) -> Vec<Tap> {
 
 /// Places the taps on both sides of the pixel: in the middles of steps, or from end to end with the pixel itself.
 pub fn centred(preset: &str, steady: &Steady) -> Vec<Tap> {
+    let has_own = matches!(preset, "armory" | "spartan_2024");
     let (first, last, count) = match preset {
-        "even" => (0.5, 15.5, 16.0),
+        "even" | "smoothed" => (0.5, 15.5, 16.0),
         "armory" => (0.0, 7.0, 7.0),
         "spartan_2024" => (1.0, 31.0, 31.0),
         _ => panic!("say here where the taps of {preset} are"),
@@ -30,7 +31,7 @@ pub fn centred(preset: &str, steady: &Steady) -> Vec<Tap> {
         .take_while(|tap| *tap <= last)
         .map(|tap| tap / count - 0.5);
     let mut taps = on_trail(steady.trail(), parts);
-    taps.extend((preset != "even").then(|| own(1.0)));
+    taps.extend(has_own.then(|| own(1.0)));
     taps
 }
 
@@ -152,4 +153,23 @@ pub fn realism_effects(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
         bilinear(offset, 1.0)
     });
     taps.chain([own(1.0)]).collect()
+}
+
+/// Places the taps of Unity's URP, at the nearest pixels: even steps, all shifted back by noise.
+pub fn urp(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
+    let pairs = match preset {
+        "default" | "mended" => 2,
+        "medium" => 3,
+        "high" => 4,
+        _ => panic!("say here how many taps {preset} has"),
+    };
+    let strength = if preset == "mended" { 1.0 } else { 2.0 };
+    let trail = scaled(steady.trail(), strength);
+    let parts = (1 - pairs..=pairs).map(|i| (f64::from(i) - noise) / f64::from(2 * pairs));
+    parts
+        .map(|part| Tap {
+            offset: scaled(trail, part).map(nearest),
+            weight: 1.0,
+        })
+        .collect()
 }

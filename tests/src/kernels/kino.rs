@@ -3,23 +3,29 @@
 use super::{Steady, Tap, bilinear, own};
 use crate::vector::{length, scaled};
 
-/// Returns the taps of its preset.
-pub fn place_taps(steady: &Steady, noise: f64) -> Vec<Tap> {
+/// Returns the taps of its presets.
+pub fn place_taps(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     let motion = packed(steady);
     let reach = length(motion);
     if reach < 2.0 {
         return vec![own(1.0)];
     }
-    let pairs = (0.5 * reach).min(4.0).floor();
+    let most: f64 = match preset {
+        "default" => 4.0,
+        "ppv2" | "mended" => 5.0,
+        _ => panic!("say here how many taps {preset} has"),
+    };
+    let pairs = most.min(0.5 * reach).floor();
     let step = 1.0 / pairs;
     let shift = (noise - 0.5) * step;
-    let mut taps = vec![own(1.2 * step / (2.0 * reach))];
+    let window = |along: f64| if preset == "mended" { 1.0 } else { 1.2 - along };
+    let mut taps = vec![own(window(0.0) * step / (2.0 * reach))];
     for pair in 0..pairs as u32 {
         let along = 1.0 - (f64::from(pair) + 0.5) * step;
         for place in [along + shift, -along + shift] {
-            // The weight is 1 up to the last pixel, times a window that falls to a sixth.
+            // The weight is 1 up to the last pixel, times a window that may fall to a sixth.
             let arrives = (reach - reach * place.abs()).clamp(0.0, 1.0);
-            let weight = arrives / reach * (1.2 - along);
+            let weight = arrives / reach * window(along);
             taps.extend(bilinear(scaled(motion, place), weight));
         }
     }

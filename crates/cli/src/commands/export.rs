@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use engine::{Manifest, export_gltf};
+use engine::{Manifest, check_subframe_count, export_gltf};
 use store::printable_path;
 use suite::{Error, PROGRAM};
 
@@ -24,10 +24,17 @@ pub struct ExportArgs {
     /// Write SCENE@unlit: flat emissive colours and no lights. An engine's picture of it can be compared with the truth directly.
     #[arg(long)]
     pub unlit: bool,
+    /// Sub-frames to draw; manifest.json has their times.
+    #[arg(long, value_name = "N", default_value_t = 32)]
+    pub subframes: u32,
 }
 
 /// Writes each scene as glTF, and prints its path and the frame's time in the animation.
 pub fn execute(args: &ExportArgs) -> Result<(), Error> {
+    let subframes = args.subframes;
+    if let Err(allowed) = check_subframe_count(subframes as usize) {
+        refuse!("--subframes {subframes}: allowed: {allowed}; 32 are usual");
+    }
     let names = match args.unlit {
         true => (args.scenes.iter())
             .map(|name| unlit_name(name))
@@ -38,7 +45,7 @@ pub fn execute(args: &ExportArgs) -> Result<(), Error> {
     let mut text = String::new();
     for choice in &choices {
         let folder = args.gltf.join(choice.scene.id.folder());
-        let manifest = export_gltf(&choice.scene, &choice.folder, PROGRAM, &folder)?;
+        let manifest = export_gltf(&choice.scene, &choice.folder, PROGRAM, &folder, subframes)?;
         text += &describe(&manifest, &printable_path(&folder));
     }
     print(&text)
@@ -58,7 +65,7 @@ fn describe(manifest: &Manifest, folder: &str) -> String {
     let [open, close] = manifest.shutter["centred"];
     format!(
         "{}: {} objects; the frame is at {:.6} s, the one before at {:.6} s, a centred shutter is open from {open:.6} to \
-         {close:.6} s\nwritten: {folder}/scene.gltf, scene.bin, sky.exr, manifest.json\n",
+         {close:.6} s\nwritten: {folder}/scene.gltf, scene.bin, sky.exr, manifest.json, capture.toml\n",
         manifest.scene,
         manifest.objects.len() - 1,
         manifest.instant,

@@ -21,7 +21,8 @@ pub fn check_shown(filter: &Filter, names: &[String]) -> Result<(), Error> {
         );
     }
     let own = filter.textures.iter().map(|texture| &texture.name[..]);
-    let known: Vec<&str> = own.chain(BUILT_IN).collect();
+    let known = own.chain(BUILT_IN).chain(filter.further_inputs());
+    let known: Vec<&str> = known.collect();
     match names.iter().find(|name| !known.contains(&&name[..])) {
         None => Ok(()),
         Some(name) => refuse!(
@@ -46,8 +47,8 @@ pub fn show_texture(
     let declared = filter.textures.iter().find(|texture| texture.name == name);
     let format = declared.map_or(Format::Rgba32Float, |texture| texture.format);
     let components = match name {
-        "depth" => 1,
-        "velocity" => 2,
+        "depth" | "velocity_z" => 1,
+        "velocity" | "velocity_next" => 2,
         "color" | "output" => 3,
         _ => format.components(),
     };

@@ -1,11 +1,11 @@
-//! Tables of filters side by side: scores at each frame rate, and the cost of each input form.
+//! Tables of filters side by side: scores at each frame rate and on each engine's frames, and the cost of each input form.
 
-use judge::list_summarized;
+use judge::{RankedFilter, list_summarized};
 use metrics::Metric;
-use suite::{Case, InputFormat};
-use tracer::FrameRate;
+use suite::{Case, FilterId, InputFormat};
+use tracer::{FrameRate, SceneId};
 
-use super::{Table, legend_text, list_once, mean_text};
+use super::{Table, bracket_name, cell, legend_text, list_once, mean_text};
 
 /// Columns side by side in a table with many.
 const ABREAST: usize = 3;
@@ -82,6 +82,69 @@ pub fn frame_rates_text(cases: &[Case]) -> String {
     let legend = "Mean FLIP at each frame rate, against the truths of that rate. [identity] is doing nothing. Compare the filters of one \
                   row, and each with the identity of its shutter.";
     abreast_text("frame rate", &columns, &rows, Row::title, flip, legend)
+}
+
+/// Title of the column of our own frames.
+const OURS: &str = "ours";
+
+/// Makes a row per ranked filter, best on the engines' frames first, and a column for our frames and for each engine's: mean FLIP over
+/// the scenes that the run has in both. Empty if there is none.
+pub fn twins_text(cases: &[Case], ranked: &[Vec<RankedFilter>]) -> String {
+    let full: Vec<&Case> = (list_summarized(cases).into_iter())
+        .filter(|case| case.input == InputFormat::default())
+        .collect();
+    let is_ours = |scene: &SceneId| {
+        let mut ours = full.iter().filter(|case| case.drawn.is_none());
+        ours.any(|case| case.scene == *scene)
+    };
+    let twin = |case: &Case| {
+        case.drawn
+            .as_ref()?
+            .scene
+            .clone()
+            .filter(|scene| is_ours(scene))
+    };
+    let drawn = || full.iter().filter(|case| twin(case).is_some());
+    let scenes = list_once(drawn().filter_map(|case| twin(case)));
+    let engines = list_once(drawn().filter_map(|case| case.scene.variant.clone()));
+    let is_row = |case: &Case| match case.is_reference {
+        true => case.filter == suite::IDENTITY,
+        false => (ranked.iter().flatten()).any(|own| own.name == case.name()),
+    };
+    let mut rows = list_once((drawn().filter(|case| is_row(case))).map(|case| case.filter_id()));
+    if rows.is_empty() {
+        return String::new();
+    }
+    let mean = |row: &FilterId, column: &String| {
+        let is_in = |case: &Case| match column == OURS {
+            true => case.drawn.is_none() && scenes.contains(&case.scene),
+            false => twin(case).is_some() && case.scene.variant.as_ref() == Some(column),
+        };
+        let own = full.iter().filter(|case| is_in(case));
+        let own = own.filter(|case| case.filter_id() == *row);
+        let flips: Vec<f64> = own.filter_map(|it| it.estimate(Metric::FLIP)).collect();
+        (!flips.is_empty()).then(|| flips.iter().sum::<f64>() / flips.len() as f64)
+    };
+    let best = |row: &FilterId| {
+        let means = engines.iter().filter_map(|engine| mean(row, engine));
+        means.fold(f64::INFINITY, f64::min)
+    };
+    rows.sort_by(|a, b| best(a).total_cmp(&best(b)));
+    let columns = [vec![OURS.to_owned()], engines.clone()].concat();
+    let count = scenes.len();
+    let legend = format!(
+        "Mean FLIP over {count} scene{}, on frames traced here and on the engine's own. Compare the filters of one column; an \
+         engine's own blur is in its column only.",
+        if count == 1 { "" } else { "s" }
+    );
+    abreast_text(
+        "whose frames",
+        &columns,
+        &rows,
+        |row| bracket_name(&row.name, row.is_reference),
+        |row, column| cell(mean(row, column), |mean| Metric::FLIP.number(mean)),
+        &legend,
+    )
 }
 
 /// A row of the table.

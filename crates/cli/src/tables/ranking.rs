@@ -8,6 +8,7 @@ use tracer::FrameRate;
 
 use super::{
     Table, frame_rates_text, input_forms_text, legend_text, list_once, mean_text, range_text,
+    twins_text,
 };
 
 /// Makes the summary of cases, in at most 40 lines: filters ranked within each shutter, then references.
@@ -35,6 +36,7 @@ pub fn ranking_text(cases: &[Case]) -> String {
     if hidden > 0 {
         text += &legend_text(&format!("And {hidden} more: --table shows all."));
     }
+    text += &twins_text(cases, &groups);
     text + &input_forms_text(cases) + &frame_rates_text(cases)
 }
 

@@ -9,6 +9,7 @@ use frame::{
 use store::printable;
 use suite::{Error, SIDES};
 
+use crate::capture::description::{CAPTURE_FILE, CaptureDescription};
 use crate::files::refuse;
 
 /// Largest rounding of a number beyond the range of a depth buffer.
@@ -18,31 +19,77 @@ const NO_OBJECT: u32 = u32::MAX;
 /// Upper limit on an object's id.
 const LARGEST_ID: f32 = 65535.0;
 
-/// Finds the one file of a picture that may be OpenEXR or PNG; none if there is neither.
+/// Endings of colours' files.
+pub const COLOR_ENDINGS: [&str; 3] = ["exr", "png", "raw"];
+/// Endings of other buffers' files.
+const BUFFER_ENDINGS: [&str; 2] = ["exr", "raw"];
+/// Files that may hold several buffers.
+const SHARED_FILES: [&str; 2] = ["buffers.exr", "color.exr"];
+/// Channels of Blender's passes, after the name of a view layer, and their names elsewhere.
+const PASSES: [(&str, &str); 9] = [
+    ("Combined.R", "R"),
+    ("Combined.G", "G"),
+    ("Combined.B", "B"),
+    ("Vector.X", "velocity.X"),
+    ("Vector.Y", "velocity.Y"),
+    ("Vector.Z", "velocity_next.X"),
+    ("Vector.W", "velocity_next.Y"),
+    ("Depth.Z", "Z"),
+    ("IndexOB.X", "object"),
+];
+
+/// Finds the file of a picture, whatever its ending; none if there is none.
 pub fn find_picture(folder: &Path, stem: &str) -> Result<Option<PathBuf>, Error> {
-    let [exr, png] = ["exr", "png"].map(|ending| folder.join(format!("{stem}.{ending}")));
-    match (exr.is_file(), png.is_file()) {
-        (true, true) => refuse!(
-            png,
-            "is in one folder with an OpenEXR file of the same name; remove one of them"
+    find_file(folder, stem, &COLOR_ENDINGS)
+}
+
+/// Finds the file of another buffer: its own, or one of several buffers that has its channel. None if there is neither.
+pub fn find_buffer(folder: &Path, stem: &str, channel: &str) -> Result<Option<PathBuf>, Error> {
+    let own = find_file(folder, stem, &BUFFER_ENDINGS)?;
+    if own.is_some() {
+        return Ok(own);
+    }
+    let shared = SHARED_FILES.map(|name| folder.join(name));
+    for path in shared.into_iter().filter(|path| path.is_file()) {
+        if read_passes(&path)?.has_channel(channel) {
+            return Ok(Some(path));
+        }
+    }
+    Ok(None)
+}
+
+fn find_file(folder: &Path, stem: &str, endings: &[&str]) -> Result<Option<PathBuf>, Error> {
+    let paths = endings.iter().map(|it| folder.join(format!("{stem}.{it}")));
+    let mut found = paths.filter(|path| path.is_file());
+    match (found.next(), found.next()) {
+        (Some(one), Some(other)) => refuse!(
+            other,
+            "is in one folder with {}; remove one of them",
+            one.display()
         ),
-        (true, false) => Ok(Some(exr)),
-        (false, true) => Ok(Some(png)),
-        (false, false) => Ok(None),
+        (one, _) => Ok(one),
     }
 }
 
 /// Returns whether a picture is a PNG, which has 8 bits or 16, and nothing above display white.
 pub fn is_png(path: &Path) -> bool {
-    path.extension().is_some_and(|ending| ending == "png")
+    has_ending(path, "png")
 }
 
-/// Reads colour as scene-linear radiance. A PNG is decoded from sRGB, and the display exposure of `stops` undone.
-pub fn read_color(path: &Path, convention: &Convention, stops: f32) -> Result<Image, Error> {
+fn has_ending(path: &Path, ending: &str) -> bool {
+    path.extension().is_some_and(|own| own == ending)
+}
+
+/// Reads colour as scene-linear radiance. A PNG is decoded from sRGB, and the capture's display exposure undone.
+pub fn read_color(
+    path: &Path,
+    convention: &Convention,
+    description: &CaptureDescription,
+) -> Result<Image, Error> {
     let color = match is_png(path) {
-        true => scene_linear(&read_png(path)?, stops),
+        true => scene_linear(&read_png(path)?, description.stops.unwrap_or(0.0)),
         false => {
-            let file = open(path)?;
+            let file = open(path, description, "color")?;
             let names = ["R", "G", "B"];
             check_finite(&file, &names)?;
             file.color("")?
@@ -52,10 +99,20 @@ pub fn read_color(path: &Path, convention: &Convention, stops: f32) -> Result<Im
     Ok(convention.restore_color(&color))
 }
 
-/// Reads velocity as the engine stores it.
-pub fn read_velocity(path: &Path) -> Result<Vectors, Error> {
-    let file = open(path)?;
-    let pairs = [["velocity.X", "velocity.Y"], ["X", "Y"], ["R", "G"]];
+/// Reads velocity, or `velocity_next`, as the engine stores it.
+pub fn read_velocity(
+    path: &Path,
+    description: &CaptureDescription,
+    buffer: &str,
+) -> Result<Vectors, Error> {
+    let file = open(path, description, buffer)?;
+    let own = ["X", "Y"].map(|axis| format!("{buffer}.{axis}"));
+    let pairs = [
+        own.each_ref().map(String::as_str),
+        ["velocity.X", "velocity.Y"],
+        ["X", "Y"],
+        ["R", "G"],
+    ];
     let has_both = |pair: &&[&str; 2]| pair.iter().all(|name| file.has_channel(name));
     let Some(names) = pairs.iter().find(has_both) else {
         return refuse_channels(&file, "velocity.X and velocity.Y, X and Y, or R and G");
@@ -66,16 +123,20 @@ pub fn read_velocity(path: &Path) -> Result<Vectors, Error> {
 }
 
 /// Reads the change of depth, in metres per frame.
-pub fn read_velocity_z(path: &Path) -> Result<Plane, Error> {
-    let file = open(path)?;
+pub fn read_velocity_z(path: &Path, description: &CaptureDescription) -> Result<Plane, Error> {
+    let file = open(path, description, "velocity_z")?;
     let name = find_channel(&file, &["velocity_z", "Z", "R"])?;
     check_finite(&file, &[name])?;
     Ok(file.plane(name)?)
 }
 
 /// Reads depth as the engine stores it; infinite linear depth becomes the background's.
-pub fn read_depth(path: &Path, convention: &Convention) -> Result<Plane, Error> {
-    let file = open(path)?;
+pub fn read_depth(
+    path: &Path,
+    convention: &Convention,
+    description: &CaptureDescription,
+) -> Result<Plane, Error> {
+    let file = open(path, description, "depth")?;
     let name = find_channel(&file, &["Z", "R", "depth"])?;
     let depth = file.plane(name)?;
     let from_0 = -RANGE_ROUNDING..=1.0 + RANGE_ROUNDING;
@@ -105,8 +166,8 @@ pub fn read_depth(path: &Path, convention: &Convention) -> Result<Plane, Error> 
 const OBJECT_CHANNELS: [&str; 2] = ["object", "object.id"];
 
 /// Reads object ids; 0 is the background, which the file may store as 0, as -1, or as the largest unsigned integer.
-pub fn read_objects(path: &Path) -> Result<Raster<u32>, Error> {
-    let file = open(path)?;
+pub fn read_objects(path: &Path, description: &CaptureDescription) -> Result<Raster<u32>, Error> {
+    let file = open(path, description, "object")?;
     let names = [OBJECT_CHANNELS[0], OBJECT_CHANNELS[1], "R"];
     let name = find_channel(&file, &names)?;
     take_objects(&file, name)
@@ -114,10 +175,10 @@ pub fn read_objects(path: &Path) -> Result<Raster<u32>, Error> {
 
 /// Reads the object ids of a picture's file; none if it has none.
 pub fn read_objects_beside_color(path: &Path) -> Result<Option<Raster<u32>>, Error> {
-    if is_png(path) {
+    if !has_ending(path, "exr") {
         return Ok(None);
     }
-    let file = open(path)?;
+    let file = read_passes(path)?;
     let name = OBJECT_CHANNELS.iter().find(|name| file.has_channel(name));
     name.map(|name| take_objects(&file, name)).transpose()
 }
@@ -152,9 +213,41 @@ pub fn check_size<T>(path: &Path, raster: &Raster<T>, color: &Image) -> Result<(
     }
 }
 
-fn open(path: &Path) -> Result<ExrFile, Error> {
-    let file = read_exr(path)?;
+/// Opens the file of a buffer, whose name finds the layout of a raw dump in `capture.toml`.
+fn open(path: &Path, description: &CaptureDescription, buffer: &str) -> Result<ExrFile, Error> {
+    match (has_ending(path, "raw"), description.raw.get(buffer)) {
+        (false, _) => read_passes(path),
+        (true, Some(layout)) => layout.read(path),
+        (true, None) => refuse!(
+            path,
+            "is a raw dump without a layout; add [raw.{buffer}] with width, height, components and type to {CAPTURE_FILE}"
+        ),
+    }
+}
+
+/// Reads an OpenEXR file. Blender's passes get the names of other engines' channels.
+fn read_passes(path: &Path) -> Result<ExrFile, Error> {
+    let mut file = read_exr(path)?;
     file.expect_no_padding()?;
+    for (pass, own) in PASSES {
+        let is_pass = |name: &str| {
+            let layer = name.strip_suffix(pass);
+            layer.is_some_and(|layer| layer.is_empty() || layer.ends_with('.'))
+        };
+        let mut found = file.channels.iter_mut().filter(|it| is_pass(&it.name));
+        match (found.next(), found.next()) {
+            (Some(one), Some(other)) => {
+                let names = format!("{} and {}", one.name, other.name);
+                return refuse!(
+                    path,
+                    "has the channels {}; allowed: one view layer; save only the one that the capture shows",
+                    printable(&names)
+                );
+            }
+            (Some(one), None) => one.name = own.to_owned(),
+            (None, _) => {}
+        }
+    }
     Ok(file)
 }
 

@@ -1,5 +1,6 @@
 //! `capture.toml`: the subject of an engine's pictures.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use frame::{Alignment, MAX_STOPS, is_hidden};
@@ -8,12 +9,22 @@ use store::read_text;
 use suite::Error;
 use tracer::SceneId;
 
+use crate::capture::raw::RawLayout;
 use crate::files::refuse;
 
 /// Name of the file.
 pub const CAPTURE_FILE: &str = "capture.toml";
 /// Upper limit on the characters of an engine's name.
 const LONGEST_ENGINE: usize = 160;
+/// Names of the buffers that can be raw dumps.
+const RAW_BUFFERS: [&str; 6] = [
+    "color",
+    "velocity",
+    "velocity_next",
+    "velocity_z",
+    "depth",
+    "object",
+];
 
 /// Contents of `capture.toml`.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -36,6 +47,9 @@ pub struct CaptureDescription {
     pub subframes: Option<usize>,
     /// Display exposure of the pictures, in stops; by default the scene's, or 0.
     pub stops: Option<f32>,
+    /// Layouts of raw dumps by buffer; that of `color` is for the blurred picture and the sub-frames too.
+    #[serde(default)]
+    pub raw: BTreeMap<String, RawLayout>,
 }
 
 impl CaptureDescription {
@@ -90,6 +104,15 @@ impl CaptureDescription {
             return Err(format!(
                 "stops = {stops}; allowed: -{MAX_STOPS} to {MAX_STOPS}"
             ));
+        }
+        for (buffer, layout) in &self.raw {
+            if !RAW_BUFFERS.contains(&buffer.as_str()) {
+                return Err(format!(
+                    "[raw.{buffer}]; allowed: {}",
+                    RAW_BUFFERS.join(", ")
+                ));
+            }
+            (layout.check()).map_err(|error| format!("[raw.{buffer}] {error}"))?;
         }
         Ok(())
     }

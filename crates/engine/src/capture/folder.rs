@@ -9,8 +9,8 @@ use store::read_text;
 use suite::Error;
 
 use crate::capture::buffers::{
-    check_size, find_picture, is_png, read_color, read_depth, read_objects,
-    read_objects_beside_color, read_velocity, read_velocity_z,
+    COLOR_ENDINGS, check_size, find_buffer, find_picture, is_png, read_color, read_depth,
+    read_objects, read_objects_beside_color, read_velocity, read_velocity_z,
 };
 use crate::capture::description::{CAPTURE_FILE, CaptureDescription};
 use crate::capture::half_floats::{are_halves, rounding_of};
@@ -64,39 +64,42 @@ impl Capture {
         let Some(color_path) = find_picture(folder, "color")? else {
             return refuse_missing(&folder.join("color.exr"), "the radiance of one instant");
         };
-        let stops = description.stops.unwrap_or(0.0);
-        let color = read_color(&color_path, &convention, stops)?;
+        let color = read_color(&color_path, &convention, &description)?;
         let mut notes = Vec::new();
         notes.extend(is_png(&color_path).then(|| png_note("color.png")));
 
-        let path = require(folder, "velocity.exr", "the motion of every pixel")?;
-        let velocity = read_velocity(&path)?;
+        let path = require(folder, ["velocity", "velocity.X"], "every pixel's motion")?;
+        let velocity = read_velocity(&path, &description, "velocity")?;
         check_size(&path, &velocity, &color)?;
         let is_half = are_halves(velocity.pixels.iter().flatten().copied());
         let exposure = find_velocity_exposure(folder, &description, &convention)?;
         let velocity = convention.restore_velocity(&velocity, exposure);
-        notes.extend(is_half.then(|| velocity_note(&velocity)));
-        let next = read_optional(folder, "velocity_next.exr", &color, read_velocity)?;
+        notes.extend(is_half.then(|| velocity_note(&path, &velocity)));
+        let read_next = |path: &Path| read_velocity(path, &description, "velocity_next");
+        let names = ["velocity_next", "velocity_next.X"];
+        let next = read_optional(folder, names, &color, read_next)?;
         let velocity_next = next.map(|next| convention.restore_velocity(&next, exposure));
 
-        let path = require(folder, "depth.exr", "the distance of every pixel")?;
-        let depth = read_depth(&path, &convention)?;
+        let path = require(folder, ["depth", "Z"], "the distance of every pixel")?;
+        let depth = read_depth(&path, &convention, &description)?;
         check_size(&path, &depth, &color)?;
         let is_half = are_halves(depth.pixels.iter().copied());
-        notes.extend(is_half.then(|| depth_note(&convention)).flatten());
+        notes.extend(is_half.then(|| depth_note(&path, &convention)).flatten());
         let depth = convention.restore_depth(&depth);
 
+        let read_z = |path: &Path| read_velocity_z(path, &description);
+        let read_ids = |path: &Path| read_objects(path, &description);
         let mut blurred = None;
         if let Some(path) = find_picture(folder, "blurred")? {
-            let picture = read_color(&path, &convention, stops)?;
+            let picture = read_color(&path, &convention, &description)?;
             check_size(&path, &picture, &color)?;
             notes.extend(is_png(&path).then(|| png_note("blurred.png")));
             blurred = Some(picture);
         }
         Ok(Self {
-            subframes: list_subframes(folder, &description, &color_path)?,
-            velocity_z: read_optional(folder, "velocity_z.exr", &color, read_velocity_z)?,
-            object_id: read_optional(folder, "object.exr", &color, read_objects)?,
+            subframes: list_subframes(folder, &color_path)?,
+            velocity_z: read_optional(folder, ["velocity_z"; 2], &color, read_z)?,
+            object_id: read_optional(folder, ["object"; 2], &color, read_ids)?,
             folder: folder.to_owned(),
             description,
             convention,
@@ -112,8 +115,7 @@ impl Capture {
     /// Reads one of the sub-frames as scene-linear radiance.
     pub fn read_subframe(&self, index: usize) -> Result<Image, Error> {
         let path = &self.subframes[index];
-        let stops = self.description.stops.unwrap_or(0.0);
-        let subframe = read_color(path, &self.convention, stops)?;
+        let subframe = read_color(path, &self.convention, &self.description)?;
         check_size(path, &subframe, &self.color)?;
         Ok(subframe)
     }
@@ -121,6 +123,18 @@ impl Capture {
     /// Reads the object ids of one of the sub-frames; none if its file has no such channel.
     pub fn read_subframe_objects(&self, index: usize) -> Result<Option<Raster<u32>>, Error> {
         read_objects_beside_color(&self.subframes[index])
+    }
+
+    /// Refuses another number of sub-frames than `capture.toml` says.
+    pub fn check_subframes(&self) -> Result<(), Error> {
+        let count = self.subframes.len();
+        match self.description.subframes {
+            Some(expected) if expected != count => refuse!(
+                self.folder.join(SUBFRAMES),
+                "holds {count} sub-frames, {CAPTURE_FILE} says {expected}; capture all of them, or correct subframes = {expected}"
+            ),
+            _ => Ok(()),
+        }
     }
 
     /// Returns exposure and alignment of the shutter of the sub-frames and the blurred picture.
@@ -170,25 +184,24 @@ fn find_velocity_exposure(
     }
 }
 
-fn require(folder: &Path, name: &str, holds: &str) -> Result<PathBuf, Error> {
-    let path = folder.join(name);
-    match path.is_file() {
-        true => Ok(path),
-        false => refuse_missing(&path, holds),
+/// Finds the file of a buffer by its name, or by a channel in a file of several buffers.
+fn require(folder: &Path, [stem, channel]: [&str; 2], holds: &str) -> Result<PathBuf, Error> {
+    match find_buffer(folder, stem, channel)? {
+        Some(path) => Ok(path),
+        None => refuse_missing(&folder.join(format!("{stem}.exr")), holds),
     }
 }
 
 /// Reads a picture that a capture need not have, of the colour's size.
 fn read_optional<T>(
     folder: &Path,
-    name: &str,
+    [stem, channel]: [&str; 2],
     color: &Image,
     read: impl Fn(&Path) -> Result<Raster<T>, Error>,
 ) -> Result<Option<Raster<T>>, Error> {
-    let path = folder.join(name);
-    if !path.is_file() {
+    let Some(path) = find_buffer(folder, stem, channel)? else {
         return Ok(None);
-    }
+    };
     let picture = read(&path)?;
     check_size(&path, &picture, color)?;
     Ok(Some(picture))
@@ -209,21 +222,17 @@ fn refuse_key<T>(folder: &Path, key: &str, about: &str) -> Result<T, Error> {
 }
 
 /// Lists the sub-frames by their numbers from 0; none without a folder of them.
-fn list_subframes(
-    folder: &Path,
-    description: &CaptureDescription,
-    color: &Path,
-) -> Result<Vec<PathBuf>, Error> {
+fn list_subframes(folder: &Path, color: &Path) -> Result<Vec<PathBuf>, Error> {
     let own = folder.join(SUBFRAMES);
-    let ending = if is_png(color) { "png" } else { "exr" };
+    let ending = color.extension().and_then(|ending| ending.to_str());
+    let ending = ending.unwrap_or_default();
     let mut paths = Vec::new();
     if own.is_dir() {
         let fail = |source| FileError::io(&own, "read", source);
         for entry in fs::read_dir(&own).map_err(fail)? {
             let path = entry.map_err(fail)?.path();
             let found = path.extension().and_then(|found| found.to_str());
-            if let Some(found) = found.filter(|own| *own != ending && ["exr", "png"].contains(own))
-            {
+            if let Some(found) = found.filter(|own| *own != ending && COLOR_ENDINGS.contains(own)) {
                 return refuse!(
                     path,
                     "is a .{found}, the colour a .{ending}; allowed: sub-frames in the form of the colour"
@@ -242,16 +251,11 @@ fn list_subframes(
             );
         }
     }
-    match description.subframes {
-        Some(expected) if expected != paths.len() => {
-            refuse!(
-                own,
-                "holds {} sub-frames, {CAPTURE_FILE} says {expected}; capture all of them, or correct subframes = {expected}",
-                paths.len()
-            )
-        }
-        _ => Ok(paths),
-    }
+    Ok(paths)
+}
+
+fn name_of(path: &Path) -> std::path::Display<'_> {
+    Path::new(path.file_name().unwrap_or_default()).display()
 }
 
 fn png_note(name: &str) -> String {
@@ -261,17 +265,18 @@ fn png_note(name: &str) -> String {
     )
 }
 
-fn velocity_note(velocity: &Vectors) -> String {
+fn velocity_note(path: &Path, velocity: &Vectors) -> String {
     let speeds = velocity.pixels.iter().map(|[x, y]| x.hypot(*y));
     let fastest = speeds.fold(0.0, f32::max);
     format!(
-        "velocity.exr holds half floats: the fastest velocity, {fastest:.1} pixels per frame, is rounded by up to {:.4} pixels",
+        "{} holds half floats: the fastest velocity, {fastest:.1} pixels per frame, is rounded by up to {:.4} pixels",
+        name_of(path),
         rounding_of(fastest)
     )
 }
 
 /// Describes the precision that depth loses to half floats; none if that is little.
-fn depth_note(convention: &Convention) -> Option<String> {
+fn depth_note(path: &Path, convention: &Convention) -> Option<String> {
     let near = convention.near.unwrap_or(1.0);
     let kind = match convention.depth {
         DepthKind::Linear | DepthKind::Reversed => return None,
@@ -280,8 +285,9 @@ fn depth_note(convention: &Convention) -> Option<String> {
     };
     // Below 1 a half has steps of 1/2048, and all far surfaces have such a depth.
     Some(format!(
-        "depth.exr holds half floats of depth = \"{kind}\": {:.0} m and everything beyond it is off by a tenth or more; save 32 \
+        "{} holds half floats of depth = \"{kind}\": {:.0} m and everything beyond it is off by a tenth or more; save 32 \
          bits, or reversed depth",
+        name_of(path),
         0.1 * 2.0 * 2048.0 * near
     ))
 }

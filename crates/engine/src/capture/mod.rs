@@ -4,3 +4,4 @@ pub mod buffers;
 pub mod description;
 pub mod folder;
 pub mod half_floats;
+mod raw;

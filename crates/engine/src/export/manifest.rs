@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use frame::Alignment;
+use frame::{Alignment, Shutter};
 use serde::Serialize;
 use tracer::{Background, Lens, Scene};
 
@@ -39,6 +39,8 @@ pub struct Manifest {
     pub exposure: f64,
     /// Animation times of the shutter's opening and closing, by its alignment.
     pub shutter: BTreeMap<&'static str, [f64; 2]>,
+    /// Animation times of the sub-frames, by the shutter's alignment: the midpoints of equal parts of it.
+    pub subframes: BTreeMap<&'static str, Vec<f64>>,
     /// True if the shutter does not open and close at once in all rows together, as the shutter's times assume.
     pub has_shutter_profile: bool,
     /// Vertical field of view in degrees.
@@ -77,13 +79,19 @@ const CONVENTIONS: [&str; 8] = [
 ];
 
 impl Manifest {
-    /// Describes a scene on its timeline.
-    pub fn of(scene: &Scene, program: &str, timeline: &Timeline) -> Self {
-        let shutter = |alignment: Alignment| {
+    /// Describes a scene on its timeline, with a number of sub-frames.
+    pub fn of(scene: &Scene, program: &str, timeline: &Timeline, subframes: u32) -> Self {
+        let shutters = Alignment::ALL.map(|alignment| {
             let shutter = alignment.shutter(scene.exposure);
             let shutter = shutter.expect("a scene's exposure was checked when it was read");
-            let times = [shutter.open, shutter.close].map(|time| timeline.seconds(time));
-            (alignment.name(), times)
+            (alignment.name(), shutter)
+        });
+        let ends = |shutter: Shutter| [shutter.open, shutter.close].map(|it| timeline.seconds(it));
+        let midpoints = |shutter: Shutter| -> Vec<f64> {
+            let parts = (0..subframes).map(|at| (f64::from(at) + 0.5) / f64::from(subframes));
+            parts
+                .map(|part| timeline.seconds(shutter.at(part)))
+                .collect()
         };
         Self {
             format: MANIFEST_FORMAT,
@@ -96,7 +104,8 @@ impl Manifest {
             previous: timeline.seconds(-1.0),
             next: timeline.seconds(1.0),
             exposure: scene.exposure,
-            shutter: Alignment::ALL.into_iter().map(shutter).collect(),
+            shutter: shutters.map(|(name, own)| (name, ends(own))).into(),
+            subframes: shutters.map(|(name, own)| (name, midpoints(own))).into(),
             has_shutter_profile: scene.shutter_profile != frame::ShutterProfile::default(),
             vertical_fov: scene.camera.vertical_fov_at(0.0).to_degrees(),
             lens: scene.camera.lens,
@@ -111,5 +120,20 @@ impl Manifest {
             objects: scene.object_names(),
             conventions: CONVENTIONS.to_vec(),
         }
+    }
+
+    /// Writes the `capture.toml` of a capture of this scene, except for the engine's name.
+    pub fn capture_template(&self) -> String {
+        format!(
+            "# Copy this file to the folder of the engine's pictures, and name the engine.\n\
+             engine = \"my engine 1.0\"\n\
+             scene = \"{}\"\n\
+             exposure = {:?}\n\
+             alignment = \"trailing\"  # or centred, leading\n\
+             subframes = {}  # manifest.json has their times\n",
+            self.scene,
+            self.exposure,
+            self.subframes[Alignment::Trailing.name()].len()
+        )
     }
 }

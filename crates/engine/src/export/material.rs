@@ -22,13 +22,24 @@ pub fn push_material(
     let mode = alpha_mode(material);
     let base_color_texture = match clear {
         Some(_) => None,
-        None => textures.add(document, material.diffuse_texture, material.opacity_texture)?,
+        None => textures.add(
+            document,
+            [material.diffuse_texture, material.opacity_texture],
+            Vec3::ONE,
+        )?,
     };
     // A fully transparent surface emits nothing.
     let emission = clear.map_or(material.emission, |_| Vec3::ZERO);
     let strength = emission.max_element().max(1.0);
     let emissive_texture = material.emission_texture.filter(|_| emission != Vec3::ZERO);
-    let emissive_texture = textures.add(document, emissive_texture, None)?;
+    // Blender 3.4 reads black where a texture is multiplied by a colour.
+    let factor = emission / strength;
+    let is_gray = factor.min_element() == factor.max_element();
+    let (tint, factor) = match emissive_texture {
+        Some(_) if !is_gray => (factor, Vec3::ONE),
+        _ => (Vec3::ONE, factor),
+    };
+    let emissive_texture = textures.add(document, [emissive_texture, None], tint)?;
     let color = clear.map_or(material.diffuse, |clear| clear.filter);
     let alpha = clear.map_or(material.opacity, |_| 1.0);
     let [metallic, roughness] = match (clear, material.finish) {
@@ -42,7 +53,7 @@ pub fn push_material(
         "alphaCutoff": (mode == "MASK").then_some(HOLE),
         "alphaMode": mode,
         "doubleSided": true,
-        "emissiveFactor": (emission / strength).to_array().map(widen),
+        "emissiveFactor": factor.to_array().map(widen),
         "emissiveTexture": texture(emissive_texture),
         "extensions": describe_extensions(material, clear, strength),
         "name": material.name,

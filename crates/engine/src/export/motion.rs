@@ -1,4 +1,4 @@
-//! Motions as keys for glTF: positions and scales exactly, turns to a millionth of a radian.
+//! Motions as keys for glTF: positions and scales exactly, turns to a few millionths of a radian.
 
 use glam::{DQuat, DVec3};
 use tracer::{Interpolation, Motion};
@@ -7,7 +7,7 @@ use crate::export::timeline::{FRAMES_PER_SECOND, Timeline};
 
 /// Largest turn between two keys, in radians: from half a turn on, the shorter way is wrong.
 const WIDEST_TURN: f64 = 75.0 * std::f64::consts::PI / 180.0;
-/// Upper limit on the angle between a turn and its keys' interpolation, in radians.
+/// Upper limit on the angle between a turn and its keys' interpolation by components, in radians.
 const TOLERANCE: f64 = 1e-6;
 /// Upper limit on halvings of the time between two keys.
 const MAX_HALVINGS: u32 = 12;
@@ -97,8 +97,9 @@ fn follow_cubic(times: &[f64], value: &dyn Fn(f64) -> DVec3) -> Track<3> {
     }
 }
 
-/// Samples a turn with keys such that the shorter way between them at a constant angular velocity is the turn's own. The turn is at most
-/// as fast as `fastest`, in radians per frame.
+/// Samples a turn with keys so dense that both ways of players are the turn's own: the shorter way at a constant angular velocity, as
+/// glTF says, and quaternions interpolated by components, as in Blender. The turn is at most as fast as `fastest`, in radians per
+/// frame.
 fn follow_turns(times: &[f64], rotation: &dyn Fn(f64) -> DQuat, fastest: f64) -> Track<4> {
     let mut keys = vec![(times[0], rotation(times[0]))];
     for span in times.windows(2) {
@@ -143,7 +144,7 @@ fn refine(
     let ends = [from, to].map(rotation);
     let strays = [0.25, 0.5, 0.75].into_iter().any(|part| {
         let own = rotation(from + part * (to - from));
-        own.angle_between(ends[0].slerp(ends[1], part)) > TOLERANCE
+        own.angle_between(ends[0].lerp(ends[1], part)) > TOLERANCE
     });
     if strays && halvings > 0 {
         let middle = 0.5 * (from + to);

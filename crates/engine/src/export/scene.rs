@@ -3,10 +3,12 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
+use frame::write_atomically;
 use serde_json::json;
 use suite::Error;
 use tracer::{Location, Parent, Scene};
 
+use crate::capture::description::CAPTURE_FILE;
 use crate::export::animation::Channels;
 use crate::export::document::{Document, widen};
 use crate::export::light::{SKY, SUN_EXTENSION, push_sun, sun_light, write_sky};
@@ -21,7 +23,7 @@ use crate::files::write_json;
 const NEAR: f64 = 0.01;
 
 /// Exports a scene to a folder, which is created if missing. `origin` is the folder that the scene was loaded from, or one next to it, and
-/// `program` names the writer.
+/// `program` names the writer. The manifest lists the times of so many `subframes`.
 ///
 /// Node 0 is the camera, node `id` the object with this id, and the last one the sun, if there is one. The animation plays
 /// 24 frames per second; [`Timeline`] contains the time of the instant.
@@ -30,6 +32,7 @@ pub fn export_gltf(
     origin: &Location,
     program: &str,
     folder: &Path,
+    subframes: u32,
 ) -> Result<Manifest, Error> {
     let timeline = Timeline::of(scene);
     refuse_zoom(scene, &timeline)?;
@@ -54,8 +57,10 @@ pub fn export_gltf(
     });
     document.write(fields, folder)?;
     write_sky(&scene.background, &folder.join(SKY))?;
-    let manifest = Manifest::of(scene, program, &timeline);
+    let manifest = Manifest::of(scene, program, &timeline, subframes);
     write_json(&folder.join(MANIFEST), &manifest)?;
+    let template = manifest.capture_template();
+    write_atomically(&folder.join(CAPTURE_FILE), template.as_bytes())?;
     Ok(manifest)
 }
 

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use frame::{FileError, display_srgb, write_atomically};
+use glam::Vec3;
 use serde_json::json;
 use tracer::limits::LARGEST_IMAGE_FILE;
 use tracer::{Location, Scene, Texture};
@@ -19,8 +20,8 @@ pub struct Textures<'a> {
     /// Origin of the scene: on disk, or in the program.
     origin: &'a Location,
     folder: PathBuf,
-    /// Textures of the document: the scene's files, and joins of a colour with an opacity.
-    known: BTreeMap<[Option<usize>; 2], usize>,
+    /// Textures of the document: the scene's files, and joins of a colour, an opacity and a tint.
+    known: BTreeMap<([Option<usize>; 2], [u32; 3]), usize>,
 }
 
 impl<'a> Textures<'a> {
@@ -34,21 +35,22 @@ impl<'a> Textures<'a> {
         }
     }
 
-    /// Adds the texture of a colour, an opacity or both; returns its index in the document, or none for neither.
+    /// Adds the texture of a colour, multiplied by a tint, of an opacity or of both; returns its index in the document, or none for
+    /// neither.
     pub fn add(
         &mut self,
         document: &mut Document,
-        color: Option<usize>,
-        opacity: Option<usize>,
+        textures: [Option<usize>; 2],
+        tint: Vec3,
     ) -> Result<Option<usize>, FileError> {
-        let key = [color, opacity];
+        let key = (textures, tint.to_array().map(f32::to_bits));
         if let Some(known) = self.known.get(&key) {
             return Ok(Some(*known));
         }
-        let (name, bytes) = match key {
+        let (name, bytes) = match textures {
             [None, None] => return Ok(None),
-            [Some(color), None] => self.read_file(color)?,
-            [color, Some(opacity)] => self.join(color, opacity),
+            [Some(color), None] if tint == Vec3::ONE => self.read_file(color)?,
+            _ => self.join(textures, tint),
         };
         write_atomically(&self.folder.join(FOLDER).join(&name), &bytes)?;
         let texture = push_texture(document, &name);
@@ -64,35 +66,30 @@ impl<'a> Textures<'a> {
         Ok((format!("{texture}_{}", plain_name(&name)), bytes))
     }
 
-    /// Makes the file of a texture from one file's colour and another's alpha, since glTF has one file for both. It has the size of the
-    /// larger one; the smaller one is sampled at the nearest texel.
-    fn join(&self, color: Option<usize>, opacity: usize) -> (String, Vec<u8>) {
-        let color_texture = color.map(|index| &self.scene.textures[index]);
-        let opacity_texture = &self.scene.textures[opacity];
-        let sides = |texture: &Texture| [texture.width, texture.height];
-        let [width, height] = match color_texture.map(sides) {
-            None => sides(opacity_texture),
-            Some(own) => [0, 1].map(|side| own[side].max(sides(opacity_texture)[side])),
-        };
+    /// Makes the file of a texture from one file's colour and another's alpha, since glTF has one file for both, and from a tint. It has
+    /// the size of the larger one; the smaller one is sampled at the nearest texel.
+    fn join(&self, textures: [Option<usize>; 2], tint: Vec3) -> (String, Vec<u8>) {
+        let [color, opacity] = textures.map(|it| it.map(|index| &self.scene.textures[index]));
+        let both = || [color, opacity].into_iter().flatten();
+        let width = both().map(|own| own.width).max().unwrap_or(1);
+        let height = both().map(|own| own.height).max().unwrap_or(1);
         let place = |x: u32, y: u32| {
             [(x, width), (y, height)].map(|(at, side)| (f64::from(at) + 0.5) / f64::from(side))
         };
-        let linear = frame::Image::from_fn(width, height, |x, y| match color_texture {
-            None => [1.0; 3],
-            Some(texture) => {
-                let [red, green, blue, _] = nearest(texture, place(x, y));
-                [red, green, blue]
-            }
+        let linear = frame::Image::from_fn(width, height, |x, y| {
+            let texel = color.map_or([1.0; 4], |texture| nearest(texture, place(x, y)));
+            (Vec3::from_slice(&texel) * tint).to_array()
         });
         let encoded = display_srgb(&linear, 0.0);
         let picture = image::RgbaImage::from_fn(width, height, |x, y| {
             let [red, green, blue] = encoded.at(x, y).map(to_byte);
-            let alpha = to_byte(nearest(opacity_texture, place(x, y))[3]);
-            image::Rgba([red, green, blue, alpha])
+            let alpha = opacity.map_or(1.0, |texture| nearest(texture, place(x, y))[3]);
+            image::Rgba([red, green, blue, to_byte(alpha)])
         });
-        let name = match color {
-            Some(color) => format!("{color}_with_opacity_{opacity}.png"),
-            None => format!("opacity_{opacity}.png"),
+        let name = match textures {
+            [Some(color), Some(opacity)] => format!("{color}_with_opacity_{opacity}.png"),
+            [Some(color), None] => format!("{color}_tinted_{}.png", self.known.len()),
+            [None, opacity] => format!("opacity_{}.png", opacity.unwrap_or_default()),
         };
         let mut bytes = std::io::Cursor::new(Vec::new());
         (picture.write_to(&mut bytes, image::ImageFormat::Png))

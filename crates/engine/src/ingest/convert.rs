@@ -46,6 +46,7 @@ pub fn ingest(
 ) -> Result<Ingested, Error> {
     refuse_scene(out)?;
     refuse_other_files(out)?;
+    capture.check_subframes()?;
     let mut scene = describe_scene(capture, out)?;
     let provenance = Provenance {
         scene: scene.id.to_string(),

@@ -98,14 +98,22 @@ pub fn average_subframes(
 /// Refuses numbers of sub-frames that make no truth with two halves.
 fn check_count(capture: &Capture) -> Result<(), Error> {
     let count = capture.subframes.len();
+    check_subframe_count(count).or_else(|allowed| {
+        refuse!(
+            capture.folder.join(SUBFRAMES),
+            "holds {count} sub-frames; allowed: {allowed}, at the midpoints of equal parts of the shutter that {CAPTURE_FILE} \
+             names: half of them show the noise of the others; capture 32, for instance"
+        )
+    })
+}
+
+/// Checks a number of sub-frames; names the allowed ones if it is none of them.
+pub fn check_subframe_count(count: usize) -> Result<(), String> {
     match count.is_multiple_of(2) && (MIN_SUBFRAMES..=MAX_SUBFRAMES).contains(&count) {
         true => Ok(()),
-        false => refuse!(
-            capture.folder.join(SUBFRAMES),
-            "holds {count} sub-frames; allowed: even numbers from {MIN_SUBFRAMES} to {MAX_SUBFRAMES}, at the midpoints of \
-                 equal parts of the shutter that {CAPTURE_FILE} names: half of them show the noise of the others; capture 32, for \
-                 instance"
-        ),
+        false => Err(format!(
+            "even numbers from {MIN_SUBFRAMES} to {MAX_SUBFRAMES}"
+        )),
     }
 }
 

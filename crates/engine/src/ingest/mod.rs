@@ -6,3 +6,4 @@ mod moving;
 mod objects;
 
 pub use convert::{Ingested, ingest};
+pub use engine_truth::check_subframe_count;

@@ -1,23 +1,23 @@
-"""Draws an exported scene in Blender and compares it with the frame that the tracer rendered.
+"""Draws an exported scene in Blender as a capture: the instant, its buffers, its sub-frames, and Blender's own blur.
 
     shuttertruth engine export railing --gltf out/gltf
-    shuttertruth truths render --scenes railing --size 160x90 --out out/render
-    blender -b --python examples/export/blender.py -- out/gltf/railing out/blender.exr 160 90
-    python3 examples/export/compare.py out/blender.exr out/render/railing/frame.exr
+    blender -b --python examples/blender/blender.py -- out/gltf/railing captures/railing --size 160x90
+    shuttertruth engine audit captures/railing
+    shuttertruth engine ingest captures/railing
+    shuttertruth run --scenes railing,out/engine/railing
 
-With a shutter as the last word, trailing or centred, Cycles blurs as its own motion blur does, and the picture is compared with the truth:
-
-    blender -b --python examples/export/blender.py -- out/gltf/railing out/blurred.exr 160 90 centred
-    python3 examples/export/compare.py out/blurred.exr out/render/railing/truth_centred.exr
-
-With the word vectors instead, the compositor's Vector Blur blurs the sharp frame along its vectors, centred on the frame.
+The blur is the compositor's Vector Blur, which reads the vector pass as a real-time blur reads its velocity buffer, or with
+`--blur cycles` the motion blur of Cycles, which opens a shutter. `--blur none` draws neither blur nor sub-frames.
 
 The importer keeps places, motion, colours and the sun. The script adds what glTF cannot say: the lens, the sky, light without limits on
-bounces, and diffuse surfaces without Blender's own gloss. Tried with Blender 3.4.1 and 4.2.0.
+bounces, and diffuse surfaces without Blender's own gloss. Tried with Blender 3.4.1.
 """
 
+import argparse
 import json
 import math
+import os
+import re
 import sys
 
 import numpy
@@ -29,8 +29,23 @@ import bpy  # noqa: E402
 
 # Blender 4.0 renamed this and some inputs of surfaces.
 LINEAR = "Linear" if bpy.app.version < (4, 0) else "Linear Rec.709"
+# Vectors lead back to the frame before, in pixels with y up; depth is in metres.
+CONVENTION = """[convention]
+velocity_sign = "previous_minus_current"
+velocity_y = "up"
+"""
 
-folder, picture, width, height, *shutter = sys.argv[sys.argv.index("--") + 1 :]
+parser = argparse.ArgumentParser(prog="blender -b --python blender.py --")
+parser.add_argument("folder", help="folder of an exported scene")
+parser.add_argument("out", help="folder to write: the capture")
+parser.add_argument("--size", default="160x90", help="columns x rows")
+parser.add_argument("--samples", type=int, default=64, help="samples per pixel of every picture")
+parser.add_argument("--blur", choices=["vectors", "cycles", "none"], default="vectors")
+parser.add_argument("--alignment", choices=["centred", "trailing", "leading"], default="centred", help="shutter of Cycles")
+options = parser.parse_args(sys.argv[sys.argv.index("--") + 1 :])
+if options.blur == "vectors" and options.alignment != "centred":
+    parser.error("Vector Blur is centred; allowed for another shutter: --blur cycles")
+folder = options.folder
 with open(f"{folder}/manifest.json") as file:
     manifest = json.load(file)
 
@@ -38,7 +53,6 @@ bpy.ops.wm.read_factory_settings(use_empty=True)
 bpy.context.scene.render.fps = round(1 / manifest["seconds_per_frame"])
 bpy.ops.import_scene.gltf(filepath=f"{folder}/scene.gltf")
 scene = bpy.context.scene
-scene.frame_set(round(manifest["instant"] / manifest["seconds_per_frame"]))
 scene.camera = next(o for o in bpy.data.objects if o.type == "CAMERA")
 
 
@@ -196,45 +210,100 @@ def blur_vectors():
 
     The factor of Vector Blur is the shutter's time in frames in Blender 3.4, and half of it in Blender 4.2.
     """
-    layer = scene.view_layers[0]
-    layer.use_pass_z = layer.use_pass_vector = True
     scene.use_nodes = True
     nodes, links = scene.node_tree.nodes, scene.node_tree.links
     nodes.clear()
     drawn = nodes.new("CompositorNodeRLayers")
     blur = nodes.new("CompositorNodeVecBlur")
     blur.factor = manifest["exposure"] / (1 if bpy.app.version < (4, 0) else 2)
-    blur.samples = 64
     for output, socket in (("Image", "Image"), ("Depth", "Z"), ("Vector", "Speed")):
         links.new(drawn.outputs[output], blur.inputs[socket])
     links.new(blur.outputs["Image"], nodes.new("CompositorNodeComposite").inputs["Image"])
 
 
+def set_quality():
+    """Draws light without limits, and the mean over a pixel's square. The seed is the same in every picture."""
+    scene.render.engine = "CYCLES"
+    scene.cycles.samples = options.samples
+    scene.cycles.seed = 0
+    scene.cycles.use_adaptive_sampling = False
+    scene.cycles.use_denoising = False
+    scene.cycles.max_bounces = scene.cycles.diffuse_bounces = 16
+    scene.cycles.transparent_max_bounces = 64
+    scene.cycles.pixel_filter_type = "BOX"
+    scene.cycles.sample_clamp_indirect = 0
+    scene.view_settings.view_transform = "Raw"
+    scene.render.resolution_x, scene.render.resolution_y = map(int, options.size.split("x"))
+    scene.render.resolution_percentage = 100
+
+
+def number_objects():
+    """Numbers the objects as the manifest does; the background is 0."""
+    for number, name in enumerate(manifest["objects"][1:], 1):
+        bpy.data.objects[name].pass_index = number
+
+
+def render(name, seconds, *passes):
+    """Renders a time of the animation to a file, with passes in layers if there are any."""
+    frame = seconds / manifest["seconds_per_frame"]
+    whole = math.floor(frame + 1e-6)
+    scene.frame_set(whole, subframe=max(frame - whole, 0))
+    layer = scene.view_layers[0]
+    for one in ("z", "vector", "object_index"):
+        setattr(layer, f"use_pass_{one}", one in passes)
+    settings = scene.render.image_settings
+    settings.file_format = "OPEN_EXR_MULTILAYER" if passes and not scene.use_nodes else "OPEN_EXR"
+    settings.color_depth = "32"
+    scene.render.filepath = os.path.abspath(f"{options.out}/{name}.exr")
+    bpy.ops.render.render(write_still=True)
+
+
+def render_buffers():
+    """Renders vectors, depth and ids at the pixels' centres, as a rasteriser does, through a pinhole."""
+    has_lens = scene.camera.data.dof.use_dof
+    scene.camera.data.dof.use_dof = False
+    scene.cycles.samples = 1
+    scene.cycles.pixel_filter_type = "BLACKMAN_HARRIS"
+    scene.cycles.filter_width = 0.01
+    render("buffers", manifest["instant"], "z", "vector", "object_index")
+    scene.camera.data.dof.use_dof = has_lens
+    set_quality()
+
+
+def describe():
+    """Writes engine.toml and capture.toml, the latter from the export's template."""
+    blur = {"vectors": " Vector Blur", "cycles": " Cycles", "none": ""}[options.blur]
+    lines = {"engine": f"Blender {bpy.app.version_string}{blur}", "alignment": options.alignment}
+    with open(f"{folder}/capture.toml") as file:
+        text = file.read().split("\n", 1)[1]
+    for key, value in lines.items():
+        text = re.sub(f"(?m)^{key} = .*$", f'{key} = "{value}"', text)
+    for name, content in (("capture", text), ("engine", CONVENTION)):
+        with open(f"{options.out}/{name}.toml", "w") as file:
+            file.write(content)
+
+
+os.makedirs(options.out, exist_ok=True)
 for image in bpy.data.images:
     image.update()
 decode_textures()
 add_sky()
 set_lens()
 set_sun()
+number_objects()
 for material in [m for m in bpy.data.materials if m.use_nodes]:
     make_diffuse(material)
-scene.render.engine = "CYCLES"
-scene.cycles.samples = 256 if shutter else 64
-scene.cycles.use_adaptive_sampling = False
-scene.cycles.use_denoising = False
-scene.cycles.max_bounces = scene.cycles.diffuse_bounces = 16
-scene.cycles.transparent_max_bounces = 64
-scene.cycles.pixel_filter_type = "BOX"
-scene.cycles.sample_clamp_indirect = 0
-for word in shutter:
-    if word == "vectors":
-        blur_vectors()
-    else:
-        open_shutter(word)
-scene.view_settings.view_transform = "Raw"
-scene.render.resolution_x, scene.render.resolution_y = int(width), int(height)
-scene.render.resolution_percentage = 100
-scene.render.image_settings.file_format = "OPEN_EXR"
-scene.render.image_settings.color_depth = "32"
-scene.render.filepath = picture
-bpy.ops.render.render(write_still=True)
+set_quality()
+render("color", manifest["instant"])
+render_buffers()
+if options.blur != "none":
+    for index, seconds in enumerate(manifest["subframes"][options.alignment]):
+        render(f"subframes/{index:04}", seconds, "object_index")
+if options.blur == "vectors":
+    blur_vectors()
+    render("blurred", manifest["instant"], "z", "vector")
+if options.blur == "cycles":
+    open_shutter(options.alignment)
+    scene.cycles.samples = 4 * options.samples
+    render("blurred", manifest["instant"])
+describe()

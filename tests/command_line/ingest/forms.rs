@@ -1,0 +1,123 @@
+//! Forms of an engine's files: one file of Blender's passes, and raw dumps.
+
+use std::fs;
+
+use frame::{ExrFile, Frame, Image, Plane, Raster, Vectors, read_exr, write_exr};
+use half::f16;
+use tests::text::read_rows;
+
+use super::capture::{Capture, DESCRIPTION, HEIGHT, WIDTH};
+use super::{OUT, ingest};
+use crate::sandbox::{Sandbox, split};
+
+const INGEST: &str = "engine ingest capture -o out/engine/mine";
+/// Names of the buffers' files, and of Blender's passes.
+const BUFFERS: [(&str, &str); 4] = [
+    ("color", "Combined.R Combined.G Combined.B"),
+    ("velocity", "Vector.X Vector.Y"),
+    ("depth", "Depth.Z"),
+    ("object", "IndexOB.X"),
+];
+
+/// Takes the buffers out of a capture, and removes their files.
+fn take_buffers(capture: &Capture) -> [Vec<Plane>; 4] {
+    BUFFERS.map(|(name, passes)| {
+        let path = capture.path(&format!("{name}.exr"));
+        let file = read_exr(&path).unwrap();
+        fs::remove_file(path).unwrap();
+        let channels = ["R", "G", "B"].iter().take(split(passes).len());
+        match name {
+            "object" => vec![capture.frame.object_id.map(|id| *id as f32)],
+            _ => channels.map(|it| file.plane(it).unwrap()).collect(),
+        }
+    })
+}
+
+/// Ingests the capture; returns what the frame shows.
+fn show(sandbox: &Sandbox) -> (Image, Vectors, Plane, Raster<u32>) {
+    ingest(sandbox);
+    let frame = Frame::read(&sandbox.path(OUT).join("frame.exr")).unwrap();
+    assert!(frame.object_id.pixels.contains(&1), "the plate");
+    (frame.color, frame.velocity, frame.depth, frame.object_id)
+}
+
+#[test]
+fn one_file_of_blender_s_passes_gives_the_same_frame() {
+    let sandbox = Sandbox::new();
+    let capture = Capture::new(&sandbox);
+    let expected = show(&sandbox);
+    let mut file = ExrFile::new(WIDTH, HEIGHT);
+    for (planes, (_, passes)) in take_buffers(&capture).iter().zip(BUFFERS) {
+        for (plane, pass) in planes.iter().zip(split(passes)) {
+            file.push_plane(&format!("ViewLayer.{pass}"), plane);
+        }
+    }
+    write_exr(&capture.path("color.exr"), &file).unwrap();
+    assert_eq!(show(&sandbox), expected);
+    // A render of its own for colour.
+    fs::rename(capture.path("color.exr"), capture.path("buffers.exr")).unwrap();
+    capture.write_color("color.exr", &capture.frame.color);
+    assert_eq!(show(&sandbox), expected);
+    file.push_plane("Other.Depth.Z", &expected.2);
+    write_exr(&capture.path("buffers.exr"), &file).unwrap();
+    let parts = [
+        "buffers.exr: has the channels Other.Depth.Z and ViewLayer.Depth.Z",
+        "allowed: one view layer",
+    ];
+    sandbox.refuse(INGEST, &parts);
+}
+
+/// Writes the numbers of planes pixel by pixel, as halves from the top row or as floats from the bottom row.
+fn dump(planes: &[Plane], is_half: bool) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    for row in 0..HEIGHT {
+        let y = if is_half { row } else { HEIGHT - 1 - row };
+        for (x, plane) in (0..WIDTH).flat_map(|x| planes.iter().map(move |plane| (x, plane))) {
+            let value = *plane.at(x, y);
+            match is_half {
+                true => bytes.extend(f16::from_f32(value).to_le_bytes()),
+                false => bytes.extend(value.to_le_bytes()),
+            }
+        }
+    }
+    bytes
+}
+
+#[test]
+fn raw_dumps_give_the_same_frame_and_need_their_layout() {
+    let sandbox = Sandbox::new();
+    let capture = Capture::new(&sandbox);
+    let expected = show(&sandbox);
+    let mut described = DESCRIPTION.to_owned();
+    for (planes, (name, _)) in take_buffers(&capture).iter().zip(BUFFERS) {
+        let is_half = name == "color";
+        let form = match is_half {
+            true => "type = \"f16\"",
+            false => "type = \"f32\"\nfirst_row = \"bottom\"",
+        };
+        let count = planes.len();
+        described +=
+            &format!("[raw.{name}]\nwidth = 96\nheight = 54\ncomponents = {count}\n{form}\n");
+        fs::write(capture.path(&format!("{name}.raw")), dump(planes, is_half)).unwrap();
+    }
+    capture.write("capture.toml", &described);
+    assert_eq!(show(&sandbox), expected);
+    for (change, parts) in read_rows(
+        "
+        height = 54/height = 53 => color.raw: has 31104 bytes; 96x53 pixels of 3 f16 have 30528 | its layout in capture.toml
+        components = 2/components = 5 => [raw.velocity] 96x54 pixels of 5 components; allowed: 16 to 16384 | 1 to 4
+        raw.depth/raw.normal => [raw.normal]; allowed: color, velocity, velocity_next, velocity_z, depth, object
+        raw.color/extra.color => capture.toml:5: unknown field `extra`
+        \"f32\"/\"f64\" => capture.toml: | unknown variant `f64`",
+    ) {
+        let (from, to) = change.split_once('/').unwrap();
+        capture.write("capture.toml", &described.replace(from, to));
+        sandbox.refuse(INGEST, &parts);
+    }
+    capture.write("capture.toml", DESCRIPTION);
+    let parts = [
+        "color.raw: is a raw dump without a layout",
+        "add [raw.color]",
+    ];
+    sandbox.refuse(INGEST, &parts);
+}
