@@ -27,6 +27,8 @@ pub struct Engine {
     wrong: String,
     /// The smallest measured change that improves most.
     change: Option<Change>,
+    /// Page below results/findings with its code.
+    finding: Option<String>,
 }
 
 #[derive(Deserialize)]
@@ -143,7 +145,7 @@ These commands make the scores, the pictures and this page. Each run announces t
     cargo run -p cli --example results -- out/results_{SIZE}/run.json
     cargo run -p cli --example results -- out/sealed_{SIZE}/run.json
 
-To add a filter, put its folder into `shaders/` and run them with `--filter` and its name. The JSON files next to this page hold every
+Flax's licence forbids a port, so that it has no row: [its finding](findings/flax.md). To add a filter, put its folder into `shaders/` and run them with `--filter` and its name. The JSON files next to this page hold every
 score, and [one in bench](bench/1920x1080_h100.json) the times; [engines.toml](engines.toml) holds the sentences about engines. [Picture sizes](studies/picture-sizes.md) uses the files of other
 sizes. [What the scores mean](../crates/metrics/README.md).
 ";
@@ -214,12 +216,16 @@ fn engines(results: &Results, groups: &[Vec<RankedFilter>], bench: &Bench) -> St
             wrong,
             change,
             ships,
+            finding,
         } = &own.engine;
         text += &format!("\n### {name}\n\n{wrong}");
         if let (Some(change), Some(changed)) = (change, own.changed) {
             let [before, after] = [own.shipped.mean, changed].map(number);
             let Change { by, preset } = change;
             text += &format!(" {by} (`{preset}`): {before} becomes {after}.");
+        }
+        if let Some(finding) = finding {
+            text += &format!(" [The lines of code](findings/{finding}.md).");
         }
         text += "\n";
         if let Some(worst) = results.worst_of(ships) {

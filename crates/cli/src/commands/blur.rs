@@ -212,6 +212,7 @@ impl Buffers {
         } else {
             0
         };
+        let velocity = file.vectors("velocity")?;
         let next = file.optional("velocity_next.X", || file.vectors("velocity_next"))?;
         let exposure = match exposure {
             Some(exposure) => exposure,
@@ -229,7 +230,7 @@ impl Buffers {
         };
         Ok(Self {
             color: convention.restore_color(&file.color("")?),
-            velocity: convention.restore_velocity(&file.vectors("velocity")?, exposure),
+            velocity: convention.restore_velocity(&velocity, exposure),
             velocity_next: next.map(|next| convention.restore_velocity(&next, exposure)),
             velocity_z: file.optional("velocity_z", || file.plane("velocity_z"))?,
             depth: convention.restore_depth(&file.plane("Z")?),

@@ -6,7 +6,7 @@ use super::file::MAX_ENTRIES;
 use crate::translate::{Language, check_macro};
 
 /// Upper limit on the characters of a value.
-const MAX_CHARACTERS: usize = 200;
+const MAX_DEFINE_CHARACTERS: usize = 200;
 
 /// Reads macros, each as `NAME=value`.
 pub(super) fn read_defines(
@@ -41,10 +41,12 @@ pub(super) fn read_defines(
         let text = match value {
             toml::Value::Integer(number) => number.to_string(),
             toml::Value::Float(number) if number.is_finite() => format!("{number:?}"),
-            toml::Value::String(text) if text.chars().count() <= MAX_CHARACTERS => text.clone(),
+            toml::Value::String(text) if text.chars().count() <= MAX_DEFINE_CHARACTERS => {
+                text.clone()
+            }
             value => {
                 return Err(format!(
-                    "{name} is a {}; allowed: a number, or a text of at most {MAX_CHARACTERS} characters",
+                    "{name} is a {}; allowed: a number, or a text of at most {MAX_DEFINE_CHARACTERS} characters",
                     value.type_str()
                 ));
             }
