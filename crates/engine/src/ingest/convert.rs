@@ -160,7 +160,8 @@ fn describe_scene(capture: &Capture, out: &Path) -> Result<EngineScene, Error> {
             ("velocity_z", capture.velocity_z.is_some()),
         ]
         .into_iter()
-        .filter_map(|(name, is_there)| is_there.then(|| name.to_owned()))
+        .filter(|(_, is_there)| *is_there)
+        .map(|(name, _)| name.to_owned())
         .collect(),
         hash: hash_capture(capture)?,
         folder: out.to_owned(),
