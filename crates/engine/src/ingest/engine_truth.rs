@@ -10,7 +10,6 @@ use tracer::{Progress, Watch};
 
 use crate::capture::description::CAPTURE_FILE;
 use crate::capture::folder::{Capture, SUBFRAMES};
-use crate::files::refuse;
 use crate::ingest::moving::{ColorRange, mark_reached};
 use crate::ingest::objects::draw_coverage;
 
@@ -98,12 +97,12 @@ pub fn average_subframes(
 /// Refuses numbers of sub-frames that make no truth with two halves.
 fn check_count(capture: &Capture) -> Result<(), Error> {
     let count = capture.subframes.len();
-    check_subframe_count(count).or_else(|allowed| {
-        refuse!(
-            capture.folder.join(SUBFRAMES),
-            "holds {count} sub-frames; allowed: {allowed}, at the midpoints of equal parts of the shutter that {CAPTURE_FILE} \
-             names: half of them show the noise of the others; capture 32, for instance"
-        )
+    check_subframe_count(count).map_err(|allowed| {
+        Error::Usage(format!(
+            "{}: holds {count} sub-frames; allowed: {allowed}, at the midpoints of equal parts of the shutter that {CAPTURE_FILE} \
+             names: half of them show the noise of the others; capture 32, for instance",
+            capture.folder.join(SUBFRAMES).display()
+        ))
     })
 }
 
