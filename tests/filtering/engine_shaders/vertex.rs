@@ -93,7 +93,7 @@ fn a_pass_of_a_shader_lab_file_draws_as_its_hlsl_alone() {
     assert_eq!(blur_busy(&by_place), blur_busy(&alone));
     #[rustfmt::skip]
     lab.assert_refused("filter.toml", &[
-        ("shader_pass = \"Draw\"\n", "", &["draw.shader", "several of its passes", "0 \"Black\", 1 \"Draw\""]),
+        ("shader_pass = \"Draw\"\n", "", &["draw.shader", "several passes, and shader_pass names none", "0 \"Black\", 1 \"Draw\""]),
         ("\"Draw\"", "\"Blur\"", &["draw.shader", "allowed, by place or by name"]),
         ("\"Draw\"", "0", &["draw.shader:18"]),
         ("draw.shader", "draw.hlsl", &["filter.toml:", "shader_pass is for a .shader file of Unity"]),

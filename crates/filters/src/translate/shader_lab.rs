@@ -36,8 +36,17 @@ pub(super) fn cut_hlsl(text: &str, wanted: Option<&LabPass>) -> Result<String, S
         let passes: Vec<String> = passes
             .map(|(index, (name, _))| format!("{index} \"{name}\""))
             .collect();
+        let found = match wanted {
+            Some(LabPass::Name(name)) => {
+                format!("shader_pass = \"{name}\" is not one of its passes")
+            }
+            Some(LabPass::Place(place)) => {
+                format!("shader_pass = {place} is not one of its passes")
+            }
+            None => "it has several passes, and shader_pass names none".to_owned(),
+        };
         return Err(format!(
-            "shader_pass names none or several of its passes; allowed, by place or by name: {}",
+            "{found}; allowed, by place or by name: {}",
             passes.join(", ")
         ));
     };

@@ -40,7 +40,7 @@ named! {
         ThroughWalls = "through_walls",
         /// With one object's motion missing: the camera's alone on the mover that shows most.
         OneMissing = "one_missing",
-        /// One picture up and left wherever nothing moves, and half as long at the edges of movers, as FSR 2 leaves Godot's buffer.
+        /// One picture up and left wherever nothing moves, and half as long at the edges of movers, as users report it of FSR 2 in Godot.
         Unresolved = "unresolved",
     }
 }
@@ -57,7 +57,7 @@ impl VelocityDefect {
             });
         }
         match self {
-            Self::Unresolved => Ok(mark_still(&frame.velocity)),
+            Self::Unresolved => Ok(mark_still(frame)),
             Self::Zero => each(|_| [0.0; 2]),
             Self::Double => each(|[x, y]| [2.0 * x, 2.0 * y]),
             Self::Half => each(|[x, y]| [0.5 * x, 0.5 * y]),
@@ -124,12 +124,14 @@ fn lose_largest_mover(frame: &Frame, camera: &Vectors) -> Vectors {
 }
 
 /// Marks still pixels with the motion of one picture up and left. Pixels next to them keep half of their own motion.
-fn mark_still(velocity: &Vectors) -> Vectors {
-    let (width, height) = (velocity.width, velocity.height);
+fn mark_still(frame: &Frame) -> Vectors {
+    let velocity = &frame.velocity;
+    let (width, height) = frame.size();
+    let picture = [width, height].map(|side| (side - 2 * frame.guard_band) as f32);
     let is_still = |x: u32, y: u32| *velocity.at(x, y) == [0.0; 2];
     Raster::from_fn(width, height, |x, y| {
         if is_still(x, y) {
-            return [-(width as f32), -(height as f32)];
+            return picture.map(|side| -side);
         }
         let beside = [
             (x.saturating_sub(1), y),
@@ -152,7 +154,10 @@ mod tests {
     #[test]
     fn still_pixels_are_marked_and_edges_halved() {
         let moving = Raster::from_fn(4, 1, |x, _| [if x < 2 { 0.0 } else { 6.0 }, 0.0]);
-        let marked = mark_still(&moving);
+        let marked = mark_still(&Frame {
+            velocity: moving,
+            ..test_frame(4, 1)
+        });
         let still = [-4.0, -1.0];
         assert_eq!(marked.pixels, [still, still, [3.0, 0.0], [6.0, 0.0]]);
     }
