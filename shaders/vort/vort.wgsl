@@ -3,6 +3,7 @@
 
 struct Parameters {
     samples: i32,
+    tap_length: f32,
     depth_scale: f32,
     tile_rows: i32,
 }
@@ -188,7 +189,7 @@ fn gather(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     // An odd number on each side: one more along the longest motion than along the pixel's own.
-    let count = i32(clamp(ceil(0.5 * reach), 3.0, f32(max(3, parameters.samples)))) | 1;
+    let count = i32(clamp(ceil(reach / parameters.tap_length), 3.0, f32(max(3, parameters.samples)))) | 1;
     let own = textureLoad(motions, pixel, 0);
     let own_reach = max(0.5, max(length(own.xy), length(own.zw)));
     var sums = Sums(here, vec4<f32>(0.0), vec2<f32>(saturate(0.05 * f32(count) / own_reach), 0.0));

@@ -1,7 +1,8 @@
 """vort_MotionBlur for ReShade, in numpy, from vort_MotionBlur.fxh and its includes at b410b9f0.
 
 What its scatter pass finds, the motion from the next frame back to this one, comes in as `velocity_next`. The blue noise is the noise that
-the preset lists; UI_MB_BlurMult is the exposure. The picture is scRGB, and depth reversed, from 0.1 m on. `as_listed` has 32-bit textures.
+the preset lists; UI_MB_BlurMult is the exposure. The picture is scRGB, and depth reversed, from 0.1 m on. `default_as_listed` has what
+the preset lists as different: motion in pixels, and textures of 32 bits.
 """
 
 import numpy as np
@@ -127,7 +128,7 @@ def blur(color, velocity, depth, exposure, velocity_next, stored, z_scale):
     uv = np.stack([x + F(0.5), y + F(0.5)], -1) / screen
     z, sides = stored(get_depth(depth)), []
     for motion in (-velocity, velocity_next):
-        motion = stored(motion / screen) * screen
+        motion = stored(motion, screen)
         near = neighbour_max(tile_down(motion, k, stored), exposure, k, stored)
         max_motion = point(near, uv + tile_offs(x, y, k, screen))
         sides.append(Side(stored(limit_motion(motion, exposure, k)), max_motion, z, uv))
@@ -154,12 +155,16 @@ def blur(color, velocity, depth, exposure, velocity_next, stored, z_scale):
     return np.where((max_len < 1)[..., None], color, filled)
 
 
+def halves(values, unit=F(1)):
+    return (values / unit).astype(np.float16).astype(F) * unit
+
+
 def default(color, velocity, depth, exposure, frame_index, parameters, velocity_next):
-    return blur(color, velocity, depth, exposure, velocity_next, lambda v: v.astype(np.float16).astype(F), 100)
+    return blur(color, velocity, depth, exposure, velocity_next, halves, 100)
 
 
 def default_as_listed(color, velocity, depth, exposure, frame_index, parameters, velocity_next):
-    return blur(color, velocity, depth, exposure, velocity_next, lambda v: v, 100)
+    return blur(color, velocity, depth, exposure, velocity_next, lambda values, unit=1: values, 100)
 
 
 ORIGINALS = {"vort:default": default}

@@ -180,7 +180,9 @@ pub fn vort(steady: &Steady, noise: f64) -> Vec<Tap> {
     let half = scaled(steady.trail(), 0.5);
     let reach = length(half).min(f64::from(2 * (steady.size[1] / 27)));
     let half = scaled(half, reach / length(half));
-    let count = f64::from((0.5 * reach).ceil().clamp(3.0, 9.0) as u32 | 1);
+    // 2 pixels of a picture 1920 wide.
+    let tap_length = 2.0 * f64::from(steady.size[0]) / 1920.0;
+    let count = f64::from((reach / tap_length).ceil().clamp(3.0, 9.0) as u32 | 1);
     let center = (0.05 * count / reach).min(1.0);
     let front = count / (2.0 * count + 1.0);
     let back = (1.0 - front) / (count + center);
