@@ -5,6 +5,7 @@
 mod babylon;
 mod dagor;
 mod gathers;
+mod godot;
 mod jimenez;
 mod kino;
 mod tiles;
@@ -80,6 +81,7 @@ pub fn place_taps(filter: &str, preset: &str, steady: &Steady, noise: f64) -> Ve
         "kino" => kino::place_taps(preset, steady, noise),
         "urp" => gathers::urp(preset, steady, noise),
         "dagor" => dagor::place_taps(preset, steady, noise),
+        "godot" => godot::place_taps(preset, steady, noise),
         "mcguire" => tiles::mcguire(preset, steady, noise),
         "guertin" => tiles::guertin(steady, noise),
         _ => panic!("say here what {filter} averages"),

@@ -154,6 +154,9 @@ impl Constants<'_> {
             (Value::Scalar(_), Some(Scalar::Bool)) => {
                 Instruction::new(Op::ConstantTrue, [*ty, *id])
             }
+            (Value::Scalar(bits), Some(Scalar::Float)) => {
+                Instruction::new(Op::Constant, [*ty, *id, make_finite(*bits)])
+            }
             (Value::Scalar(bits), _) => Instruction::new(Op::Constant, [*ty, *id, *bits]),
             (Value::Composite(parts), _) => {
                 let operands = [*ty, *id].into_iter().chain(parts.iter().copied());
