@@ -87,7 +87,9 @@ fn store_surfaces(@builtin(global_invocation_id) id: vec3<u32>) {
     if !inside(pixel) {
         return;
     }
-    let back = -textureLoad(velocity, pixel, 0).xy;
+    let size = vec2<f32>(frame.size);
+    // Godot holds it in parts of the picture.
+    let back = size * stored(vec4<f32>(-textureLoad(velocity, pixel, 0).xy / size, 0.0, 0.0)).xy;
     let metres = textureLoad(depth, pixel, 0).x;
     let deeper = depth_change(pixel, back, metres);
     let whole_frame = parameters.depth_motion != DEPTH_MOTION_SHUTTER;

@@ -116,8 +116,8 @@ class Blur:
 def addon_blur(color, velocity, depth, exposure, stored, tile):
     height, width = depth.shape
     size = np.array([width, height], F)
-    # pre_blur_processor: cut at two tiles, into rgba16f.
-    total = -velocity * F(exposure)
+    # The velocity buffer holds halves. pre_blur_processor: cut at two tiles, into rgba16f.
+    total = stored(-velocity / size) * F(exposure) * size
     total = total * (F(2 * tile) / np.maximum(F(2 * tile), length(total)))[..., None]
     vectors, w = stored(total), stored(-np.minimum(depth, FAR))
     # Textures of rg8i. neighbor_max overwrites the first rows of the texture that tile_max_x wrote.

@@ -30,7 +30,8 @@ pub fn promised_smear(filter: &str, preset: &str, steady: &Steady) -> f64 {
         ("dagor", "default") => 0.16 * trail.min(2.0 * 32.0),
         ("dagor", _) => trail.min(2.0 * 32.0),
         ("godot", "engine") => trail.min(40.0),
-        ("godot", _) => trail.min(2.0 * 32.0),
+        ("godot", "addon") => trail.min(2.0 * 32.0),
+        ("godot", _) => trail.min(2.0 * 64.0),
         // Whole pixels of 5 % of the rows on either side; nothing below 2.
         ("kino", _) => match (0.05 * f64::from(HEIGHT)).floor() {
             _ if trail < 4.0 => 0.0,
@@ -66,6 +67,7 @@ pub fn stated_lengths(filter: &str, preset: &str) -> RangeInclusive<f64> {
         ("mcguire", "tuned") => 0.86..=1.04,
         ("guertin", _) => 0.65..=0.87,
         ("dagor", "default") => 0.79..=1.08,
+        ("godot", "addon") => 0.97..=1.025,
         ("three", _) => 1.03..=1.05,
         ("centred_gather", "armory") => 1.07..=1.09,
         ("centred_gather", "spartan_2024") => 0.98..=1.00,

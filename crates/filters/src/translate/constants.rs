@@ -113,6 +113,15 @@ fn size_workgroups(words: &mut Words, values: &BTreeMap<u32, Value>) {
     }
 }
 
+/// Replaces the bits of an infinite float, which naga refuses, by those of the largest with its sign.
+fn make_finite(bits: u32) -> u32 {
+    let number = f32::from_bits(bits);
+    match number.is_infinite() {
+        true => f32::MAX.copysign(number).to_bits(),
+        false => bits,
+    }
+}
+
 impl Constants<'_> {
     /// Remembers a constant, and returns what a specialisation constant is replaced by.
     fn replace(&mut self, instruction: &Instruction) -> Result<Option<Instruction>, String> {
