@@ -141,8 +141,9 @@ def addon_blur(color, velocity, depth, exposure, stored, tile):
         with np.errstate(divide="ignore", invalid="ignore"):
             projected = np.nan_to_num(np.abs(dot(vyn / vyn_length[..., None], vn / vn_length[..., None])))
             dilution = np.sqrt(vn_length / vyn_length)
+            y_weight = overlapn * dilution
         reaches = (vyn_length / 2 * projected >= tn) & (vyn_length >= 0.5) & (overlapn > EPSILON)
-        return np.where(reaches, overlapn * dilution, F(0))
+        return np.where(reaches, y_weight, F(0))
 
     j = interleaved_gradient_noise(blur.columns, blur.rows)
     times = lambda i: (F(-0.5) * ((i + j) / SAMPLES), F(0.5) * ((i + 1 - j) / SAMPLES))
