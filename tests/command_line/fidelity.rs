@@ -111,6 +111,7 @@ fn no_change_of_a_filter_matches_its_original() {
         ("dagor:default", "vignette=0.5"),
         ("godot:addon", "tile_motion=exact"),
         ("godot:engine", "arrival=half"),
+        ("vort:default", "depth_scale=50"),
         ("bevy:msaa", "fetch=filtered"),
         ("three:default", "coordinates=texture"),
         ("mcguire:g3d", "neighbor_rule=all"),
