@@ -1,7 +1,7 @@
 //! Small frames of surfaces, each with its own motion, and their blurs.
 
 use filters::{Blur, Filter, Input, Settings};
-use frame::{Frame, Image, Plane, Raster, Vectors};
+use frame::{Frame, Image, Plane, Raster, Reprojection, Vectors};
 
 use crate::ramp::Ramp;
 use crate::random::Random;
@@ -106,7 +106,7 @@ impl Picture {
         self
     }
 
-    /// Makes the input of a filter with these colours in place of its own.
+    /// Makes the input of a filter with these colours in place of its own, from a still camera.
     pub fn input<'a>(&'a self, color: &'a [&'a Image]) -> Input<'a> {
         Input {
             color,
@@ -117,7 +117,7 @@ impl Picture {
             exposure: self.exposure,
             frames_per_second: None,
             frame_index: 0,
-            reprojection: None,
+            reprojection: Some(Reprojection::STILL),
             camera: None,
         }
     }
