@@ -3,14 +3,14 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use filters::{Convention, DepthKind, VelocityTime};
+use filters::{Convention, DepthKind, EXCLUSION, VelocityTime};
 use frame::{Alignment, FileError, Image, Plane, Raster, Vectors};
 use store::read_text;
 use suite::Error;
 
 use crate::capture::buffers::{
     COLOR_ENDINGS, check_size, find_buffer, find_picture, is_png, read_color, read_depth,
-    read_objects, read_objects_beside_color, read_velocity, read_velocity_z,
+    read_exclusion, read_objects, read_objects_beside_color, read_velocity, read_velocity_z,
 };
 use crate::capture::description::{CAPTURE_FILE, CaptureDescription};
 use crate::capture::half_floats::{are_halves, rounding_of};
@@ -38,6 +38,8 @@ pub struct Capture {
     pub velocity_next: Option<Vectors>,
     /// Change of depth over the interval of `velocity`, in metres per frame; above 0 moves away. None where the capture has none.
     pub velocity_z: Option<Plane>,
+    /// 1 where the blur must not change the picture, 0 elsewhere; none if the capture has no mask.
+    pub exclusion: Option<Plane>,
     /// Distance along the view axis in metres; [`frame::FAR_DEPTH`] where nothing is visible.
     pub depth: Plane,
     /// Object at each pixel's centre, numbered as in an exported manifest; 0 is the background. None if the capture has no ids.
@@ -88,6 +90,7 @@ impl Capture {
         let depth = convention.restore_depth(&depth);
 
         let read_z = |path: &Path| read_velocity_z(path, &description);
+        let read_mask = |path: &Path| read_exclusion(path, &description);
         let read_ids = |path: &Path| read_objects(path, &description);
         let mut blurred = None;
         if let Some(path) = find_picture(folder, "blurred")? {
@@ -99,6 +102,7 @@ impl Capture {
         Ok(Self {
             subframes: list_subframes(folder, &color_path)?,
             velocity_z: read_optional(folder, ["velocity_z"; 2], &color, read_z)?,
+            exclusion: read_optional(folder, [EXCLUSION; 2], &color, read_mask)?,
             object_id: read_optional(folder, ["object"; 2], &color, read_ids)?,
             folder: folder.to_owned(),
             description,
