@@ -83,11 +83,12 @@ fn the_example_leaves_excluded_pixels_alone() {
         example.display()
     ));
     let frame = Frame::read(&sandbox.path("out/plate/frame.exr")).unwrap();
+    let mask = marked(&frame);
     let changes = ["without", "with"].map(|preset| {
         let name = format!("out/plate/excluded_gather_{preset}_mask/output.exr");
         let output = sandbox.read_color(&name);
         let changed = output.zip(&frame.color, |own, frame| own != frame);
-        let pairs = changed.pixels.iter().zip(&marked(&frame).pixels);
+        let pairs = changed.pixels.iter().zip(&mask.pixels);
         pairs
             .filter(|(changed, mark)| **changed && mark[0] == 1.0)
             .count()
@@ -119,7 +120,8 @@ fn a_capture_may_have_a_mask() {
     write(1.0);
     sandbox.done(ingest);
     sandbox.done(run);
-    for case in sandbox.read_filter_cases() {
+    let cases = sandbox.read_filter_cases().into_iter();
+    for case in cases.filter(|case| case.filter == "mask") {
         let output = sandbox.read_color(&format!("out/{}/output.exr", case.folder.display()));
         assert_eq!([8, 9].map(|x| output.at(x, 20)[0]), [1.0, 0.0]);
     }
