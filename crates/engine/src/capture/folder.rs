@@ -90,7 +90,6 @@ impl Capture {
         let depth = convention.restore_depth(&depth);
 
         let read_z = |path: &Path| read_velocity_z(path, &description);
-        let read_mask = |path: &Path| read_exclusion(path, &description);
         let read_ids = |path: &Path| read_objects(path, &description);
         let mut blurred = None;
         if let Some(path) = find_picture(folder, "blurred")? {
@@ -102,7 +101,7 @@ impl Capture {
         Ok(Self {
             subframes: list_subframes(folder, &color_path)?,
             velocity_z: read_optional(folder, ["velocity_z"; 2], &color, read_z)?,
-            exclusion: read_optional(folder, [EXCLUSION; 2], &color, read_mask)?,
+            exclusion: read_mask(folder, &description, &color)?,
             object_id: read_optional(folder, ["object"; 2], &color, read_ids)?,
             folder: folder.to_owned(),
             description,
@@ -194,6 +193,16 @@ fn require(folder: &Path, [stem, channel]: [&str; 2], holds: &str) -> Result<Pat
         Some(path) => Ok(path),
         None => refuse_missing(&folder.join(format!("{stem}.exr")), holds),
     }
+}
+
+/// Reads the mask of what a blur leaves alone; none if the capture has none.
+fn read_mask(
+    folder: &Path,
+    description: &CaptureDescription,
+    color: &Image,
+) -> Result<Option<Plane>, Error> {
+    let read = |path: &Path| read_exclusion(path, description);
+    read_optional(folder, [EXCLUSION; 2], color, read)
 }
 
 /// Reads a picture that a capture need not have, of the colour's size.
