@@ -14,6 +14,7 @@ mod compilers;
 mod conventions;
 mod earlier_run;
 mod empty_folder;
+mod exclusion;
 mod export;
 mod failures;
 mod fidelity;
