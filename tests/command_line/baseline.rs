@@ -2,31 +2,27 @@
 
 use std::fs;
 use std::process::Output;
-use std::sync::OnceLock;
 
 use serde_json::json;
 use tests::text::assert_contains;
 
-use crate::sandbox::{Files, Sandbox, assert_done, assert_refused, split, stderr, stdout};
+use crate::sandbox::{Sandbox, assert_done, assert_refused, split, stderr, stdout};
 
 const FINE: &str = "--filters velocity_gather:fine";
 const COARSER: &str = "--filters velocity_gather:fine --set velocity_gather.samples=2";
 
 /// Makes a sandbox with a margin, a measured gather with the samples of a check, and its accepted scores.
 fn set_up() -> Sandbox {
-    static FILES: OnceLock<Files> = OnceLock::new();
-    Sandbox::once(&FILES, || {
-        let sandbox = Sandbox::new();
-        write_margin(&sandbox, "0.005");
-        run(&sandbox, FINE);
-        assert_done(&accept(&sandbox, "first"));
-        sandbox
+    Sandbox::once(|sandbox| {
+        write_margin(sandbox, "0.005");
+        run(sandbox, FINE);
+        assert_done(&accept(sandbox, "first"));
     })
 }
 
 fn write_margin(sandbox: &Sandbox, margin: &str) {
     let text = format!("[margin]\nflip_moving = {margin}\n");
-    fs::write(sandbox.path("scenes/bounds.toml"), text).unwrap();
+    sandbox.put("scenes/bounds.toml", text);
 }
 
 fn run(sandbox: &Sandbox, more: &str) {
@@ -69,7 +65,7 @@ fn equal_scores_pass_and_worse_scores_are_reported() {
 #[test]
 fn a_baseline_has_one_number_per_line_under_sorted_keys() {
     let sandbox = set_up();
-    let read = || fs::read_to_string(sandbox.path("base.json")).unwrap();
+    let read = || sandbox.text("base.json");
     let text = read();
     let numbers: Vec<&str> = (text.lines().map(str::trim))
         .filter(|line| line.starts_with('"') && line.contains("\": ") && !line.ends_with('{'))
@@ -126,7 +122,7 @@ fn accept_changes_only_the_named_cases() {
 #[test]
 fn accept_refuses_bad_requests_and_incomparable_runs() {
     let sandbox = set_up();
-    let before = fs::read_to_string(sandbox.path("base.json")).unwrap();
+    let before = sandbox.text("base.json");
     let in_ci = |more: &str| {
         let line = format!("limits accept --out out --reason r {more}");
         let mut command = sandbox.command(&split(&line));
@@ -143,7 +139,7 @@ fn accept_refuses_bad_requests_and_incomparable_runs() {
     refuse(&["--reason", "r", "--only", "fan/*"], &parts);
     refuse(&["--reason", "r", "--only", "["], &["--only"]);
     refuse(&[], &["--reason"]);
-    let after = fs::read_to_string(sandbox.path("base.json")).unwrap();
+    let after = sandbox.text("base.json");
     assert_eq!(after, before);
     // A new truth for one case of a scene would leave the other cases with the old truth.
     sandbox.measure(FINE);
@@ -153,7 +149,7 @@ fn accept_refuses_bad_requests_and_incomparable_runs() {
     let kind = sandbox.read_run().adapter.unwrap().kind;
     let other = before.replace(&format!("\"kind\": \"{kind}\""), "\"kind\": \"quantum\"");
     assert_ne!(other, before);
-    fs::write(sandbox.path("base.json"), other).unwrap();
+    sandbox.put("base.json", other);
     let parts = ["another class", "quantum", "force it"];
     refuse(&["--reason", "r"], &parts);
     assert_done(&in_ci("--force"));
@@ -172,6 +168,6 @@ fn a_case_with_another_truth_is_not_compared() {
     refuse("--filters identity --no-cache", &[missing, way_out]);
     fs::remove_file(sandbox.path("scenes/bounds.toml")).unwrap();
     refuse(FINE, &["[margin]"]);
-    fs::write(sandbox.path("base.json"), "{}").unwrap();
+    sandbox.put("base.json", "{}");
     refuse(FINE, &["base.json: no baseline"]);
 }

@@ -21,7 +21,7 @@ fn sorted_names(sandbox: &Sandbox) -> Vec<String> {
 fn a_narrower_run_keeps_the_cases_of_a_wider_one() {
     let sandbox = Sandbox::two_scenes();
     let bounds = "[default]\nflip_moving = { limit = 0.9, why = \"it serves a test\" }\n";
-    fs::write(sandbox.path("scenes/bounds.toml"), bounds).unwrap();
+    sandbox.put("scenes/bounds.toml", bounds);
     sandbox.measure("--filters identity,velocity_gather:fine,mcguire:paper");
     let before = sorted_names(&sandbox);
     assert_eq!(before.len(), 6);
@@ -34,17 +34,11 @@ fn a_narrower_run_keeps_the_cases_of_a_wider_one() {
     assert_eq!(sandbox.read_run().common_alignment, Alignment::Centred);
     assert_eq!(sandbox.read_findings().len(), 6);
     // The report shows all of them.
-    let page = fs::read_to_string(sandbox.path("out/report.html")).unwrap();
+    let page = sandbox.text("out/report.html");
     assert!(page.contains("mcguire"));
 
     let more = "--scenes slow --filters identity --seed 2";
-    let parts = [
-        "out/run.json",
-        "5 cases",
-        "seed was 1, now 2",
-        "--out",
-        "--no-cache",
-    ];
+    let parts = "out/run.json | 5 cases | seed was 1, now 2 | --out | --no-cache";
     assert_refused(&sandbox.run(&split(more)), 2, &parts);
     assert_eq!(sorted_names(&sandbox), before);
     sandbox.measure(&format!("{more} --no-cache"));
@@ -88,13 +82,8 @@ fn an_earlier_run_that_cannot_be_read_is_not_replaced() {
     bytes.truncate(bytes.len() / 2);
     fs::write(&run, &bytes).unwrap();
     let words = [&quick_command("run", "16")[..], &IDENTITY].concat();
-    let parts = [
-        "out/run.json: no run of this program",
-        "EOF",
-        "repair or remove it",
-        "--out",
-        "--no-cache",
-    ];
+    let parts =
+        "out/run.json: no run of this program | EOF | repair or remove it | --out | --no-cache";
     sandbox.refuse(&words.join(" "), &parts);
     assert_eq!(fs::read(&run).unwrap(), bytes);
     sandbox.measure("--filters identity --no-cache");
@@ -105,7 +94,7 @@ fn an_earlier_run_that_cannot_be_read_is_not_replaced() {
 fn cases_of_a_scene_that_has_changed_are_dropped() {
     let sandbox = Sandbox::two_scenes();
     sandbox.measure("--filters identity,velocity_gather:fine");
-    let scene = fs::read_to_string(sandbox.path("scenes/plate/scene.toml")).unwrap();
+    let scene = sandbox.text("scenes/plate/scene.toml");
     sandbox.write("scene.toml", &scene.replace("-1.6", "-1.2"));
     let narrow = sandbox.run(&split("--scenes plate --filters identity"));
     assert_done(&narrow);

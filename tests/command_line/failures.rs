@@ -44,7 +44,7 @@ fn a_run_names_the_failed_case_and_goes_on() {
     let row = "dim / torn:default\n  FAILED filter torn";
     assert_contains(&stdout(&output), &[row]);
     assert_contains(&stderr(&output), &["1 case failed"]);
-    let page = fs::read_to_string(sandbox.path("page.html")).unwrap();
+    let page = sandbox.text("page.html");
     assert!(page.contains("<strong>dim / torn:default</strong>"));
     // Measured cases are kept, and the failed one is tried again.
     assert_eq!(sandbox.run(&words).status.code(), Some(1));
@@ -60,12 +60,12 @@ fn a_run_names_the_failed_case_and_goes_on() {
 fn a_check_with_a_failed_case_is_broken() {
     let sandbox = set_up();
     let bounds = "[default]\nflip_moving = { limit = 0.99, why = \"it serves a test\" }\n";
-    fs::write(sandbox.path("scenes/bounds.toml"), bounds).unwrap();
+    sandbox.put("scenes/bounds.toml", bounds);
     let check = |more: &str| sandbox.check(&split(&format!("--filters ./torn {more}")));
     let output = check("--junit junit.xml");
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
     assert_contains(&stdout(&output), &["dim / torn:default\n  FAILED"]);
-    let junit = fs::read_to_string(sandbox.path("junit.xml")).unwrap();
+    let junit = sandbox.text("junit.xml");
     assert_contains(&junit, &["type=\"failed\""]);
     let found: serde_json::Value = serde_json::from_slice(&check("--json").stdout).unwrap();
     assert_eq!(found["decision"], "broken");

@@ -13,7 +13,7 @@ fn a_gallery_shows_the_best_and_the_worst_filter_of_each_shutter() {
     let trailing = "velocity_gather:fine,velocity_gather:coarse,camera_gather:default";
     sandbox.measure(&format!("--filters identity,{trailing},bevy:default"));
     sandbox.done("report out --gallery shown");
-    let page = fs::read_to_string(sandbox.path("shown/README.md")).unwrap();
+    let page = sandbox.text("shown/README.md");
     let parts = ["](truths.png)", "## plate", "](slow.jpg)", "64x32 pixels"];
     assert_contains(&page, &parts);
     let command = "\n    shuttertruth report out --gallery shown\n";

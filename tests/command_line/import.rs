@@ -7,8 +7,8 @@ use std::process::Output;
 use frame::Frame;
 use tests::near::assert_near;
 use tests::text::read_rows;
-use tests::unwatched;
-use tracer::{RenderSettings, load_scene, trace_frame};
+use tests::{settings, unwatched};
+use tracer::{load_scene, trace_frame};
 
 use crate::sandbox::{Sandbox, assert_done, assert_refused, split, stdout};
 
@@ -22,13 +22,13 @@ fn set_up() -> Sandbox {
     let sandbox = Sandbox::new();
     fs::create_dir(sandbox.path("my models")).unwrap();
     write_model(&sandbox, HOUSE);
-    fs::write(sandbox.path("my models/the house.mtl"), MATERIALS).unwrap();
+    sandbox.put("my models/the house.mtl", MATERIALS);
     sandbox
 }
 
 /// Writes the model, and removes the previous model's scene.
 fn write_model(sandbox: &Sandbox, text: &str) {
-    fs::write(sandbox.path("my models/the house.obj"), text).unwrap();
+    sandbox.put("my models/the house.obj", text);
     _ = fs::remove_dir_all(sandbox.path("scenes/house"));
 }
 
@@ -46,12 +46,7 @@ fn import_and_render(sandbox: &Sandbox, more: &str) -> (String, Frame) {
     let output = import(sandbox, more);
     assert_done(&output);
     let scene = load_scene(sandbox.path("scenes/house"), None).unwrap();
-    let settings = RenderSettings {
-        width: 160,
-        height: 90,
-        samples_per_pixel: 1,
-        ..RenderSettings::default()
-    };
+    let settings = settings([160, 90], 1);
     let frame = trace_frame(&scene, &settings, &unwatched).unwrap();
     (stdout(&output), frame)
 }
@@ -178,29 +173,23 @@ fn bad_requests_are_refused_with_the_way_out() {
 #[test]
 fn bad_models_are_refused_with_the_way_out() {
     let sandbox = set_up();
-    let refuse = |model: &str, parts: &[&str]| {
+    let refuse = |model: &str, parts: &str| {
         write_model(&sandbox, model);
         assert_refused(&import(&sandbox, SLIDE), 2, parts);
     };
     let no_vertex = HOUSE.replace("f 7 6 10 9 8", "f 7 6 11 9 8");
-    refuse(&no_vertex, &["the house.obj:16", "11", "1 to 10"]);
+    refuse(&no_vertex, "the house.obj:16 | 11 | 1 to 10");
     let no_faces = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-    refuse(no_faces, &["the house.obj", "face"]);
+    refuse(no_faces, "the house.obj | face");
     let outside = MATERIALS.replace("Kd 0.6 0.2 0.1", "map_Kd ../scenes/dot.png");
-    fs::write(sandbox.path("my models/the house.mtl"), outside).unwrap();
+    sandbox.put("my models/the house.mtl", outside);
     let dot = frame::Raster::filled(2, 2, [0.5; 3]);
     frame::write_png(&sandbox.path("scenes/dot.png"), &dot).unwrap();
     // Faces with a texture need coordinates. This is checked before the texture's path.
-    refuse(HOUSE, &["texture", "import the model plain"]);
-    let textured = HOUSE.replace(
-        "usemtl the roof\r\nf 3 8 9 4\r\nf 4 9 10 5",
-        "vt 0 0\r\nusemtl the roof\r\nf 3/1 8/1 9/1 4/1\r\nf 4/1 9/1 10/1 5/1",
-    );
-    let parts = [
-        "dot.png",
-        "outside of the model's folder",
-        "import the model plain",
-    ];
+    refuse(HOUSE, "texture | import the model plain");
+    let faces = "vt 0 0\r\nusemtl the roof\r\nf 3/1 8/1 9/1 4/1\r\nf 4/1 9/1 10/1 5/1";
+    let textured = HOUSE.replace("usemtl the roof\r\nf 3 8 9 4\r\nf 4 9 10 5", faces);
+    let parts = "dot.png | outside of the model's folder | import the model plain";
     refuse(&textured, &parts);
     let left: Vec<_> = fs::read_dir(sandbox.path("scenes")).unwrap().collect();
     assert_eq!(left.len(), 2, "plate and dot.png alone: {left:?}");

@@ -101,7 +101,7 @@ fn a_run_writes_scores_and_pictures_of_every_case() {
 fn json_is_run_json() {
     let sandbox = Sandbox::measured();
     let json = sandbox.run(&[&IDENTITY[..], &["--json"]].concat());
-    let kept = fs::read_to_string(sandbox.path("out/run.json")).unwrap();
+    let kept = sandbox.text("out/run.json");
     assert_eq!(stdout(&json).trim_end(), kept);
 }
 
@@ -141,7 +141,7 @@ fn an_engine_s_exr_needs_only_the_channels_and_an_exposure() {
     }
     let parts = ["engine.exr: has no attribute \"exposure\"", "--exposure"];
     refused(&file, &parts);
-    sandbox.execute(&split(&format!("{line} --exposure 0.5")));
+    sandbox.done(&format!("{line} --exposure 0.5"));
     fs::remove_file(sandbox.path("blurred.exr")).unwrap();
     let mut nan = ones.clone();
     nan.pixels[5 * 16 + 3] = f32::NAN;
@@ -149,7 +149,7 @@ fn an_engine_s_exr_needs_only_the_channels_and_an_exposure() {
     file.push_plane("Z", &nan);
     file.set("exposure", 0.5);
     refused(&file, &["engine.exr: depth at (3, 5)", "finite"]);
-    fs::write(sandbox.path("engine.exr"), b"no exr").unwrap();
+    sandbox.put("engine.exr", b"no exr");
     sandbox.refuse(line, &["engine.exr: not a complete OpenEXR file"]);
 }
 

@@ -83,7 +83,7 @@ fn sequences_are_ranked_by_means_over_scenes_with_intervals_and_ties() {
         assert!(is_shown, "{due:?} is missing from:\n{text}");
     }
     // The page has the same ranking, and every scene its own.
-    let page = fs::read_to_string(sandbox.path("out/sequences.html")).unwrap();
+    let page = sandbox.text("out/sequences.html");
     let first = &names(&ranking)[0];
     assert_contains(&page, &["Means over 2 scenes, ranked by jod", first]);
     assert_ties(&run);

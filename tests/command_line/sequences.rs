@@ -73,28 +73,18 @@ fn a_sequence_begins_with_the_frame_without_one_and_goes_on_where_it_ended() {
     assert_page(&sandbox, &printed);
     // JOD depends on the rate: sequences of two rates cannot be one run.
     let other = "--filters velocity_gather:fine --frames 3 --fps 24";
-    let parts = [
-        "number of frames was 3 at 60 per second, now 3 at 24 per second",
-        "--out",
-    ];
+    let parts = "number of frames was 3 at 60 per second, now 3 at 24 per second | --out";
     assert_refused(&sandbox.run(&split(other)), 2, &parts);
 }
 
 /// Three frames have a page, and an animation for each case.
 fn assert_page(sandbox: &Sandbox, printed: &str) {
-    let parts = [
-        "3 frames",
-        "plate, trailing shutter",
-        "flick",
-        "along",
-        "dirt",
-        "identity:default",
-        "out/sequences.html",
-    ];
+    let parts = "3 frames | plate, trailing shutter | flick | along | dirt | identity:default | \
+        out/sequences.html";
     assert_contains(printed, &parts);
     let mut lines = printed.lines();
     assert!(lines.all(|line| line.chars().count() <= 80), "{printed}");
-    let page = fs::read_to_string(sandbox.path("out/sequences.html")).unwrap();
+    let page = sandbox.text("out/sequences.html");
     for path in [
         "plate/0001/frame.png",
         "plate/0002/identity_default/change.png",
@@ -104,7 +94,7 @@ fn assert_page(sandbox: &Sandbox, printed: &str) {
         assert!(sandbox.path("out").join(path).is_file(), "{path}");
     }
     assert!(page.contains("img-src data: 'self' file:"));
-    let report = fs::read_to_string(sandbox.path("out/report.html")).unwrap();
+    let report = sandbox.text("out/report.html");
     assert!(report.contains("href=\"sequences.html\""));
     let animation = fs::read(sandbox.path("out/plate/identity_default/sequence.png")).unwrap();
     let chunks = |name: &[u8]| animation.windows(4).filter(|bytes| *bytes == name).count();
@@ -152,12 +142,8 @@ fn frames_at_which_a_scene_is_not_defined_are_refused() {
     );
     sandbox.write("scene.toml", &path);
     let refused = sandbox.run(&[&IDENTITY[..], &["--frames", "4"]].concat());
-    let parts = [
-        "scene plate/0003",
-        "the motion of object plate at frame 3",
-        "end at frame 2.5",
-        "two keys",
-    ];
+    let parts =
+        "scene plate/0003 | the motion of object plate at frame 3 | end at frame 2.5 | two keys";
     assert_refused(&refused, 2, &parts);
     assert!(!sandbox.path("out/plate").exists(), "nothing was rendered");
     sandbox.measure(THREE);

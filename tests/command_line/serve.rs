@@ -94,7 +94,7 @@ fn parameters_of_a_file_are_checked() {
         {"samples": 3.5} => p.json: jump_flood.samples: found 3.5 | from 1 to 64
         samples = 3 => p.json | allowed: one table of parameters"#,
     ) {
-        fs::write(sandbox.path("p.json"), text).unwrap();
+        sandbox.put("p.json", text);
         sandbox.refuse(words, &parts);
     }
     fs::remove_file(sandbox.path("p.json")).unwrap();

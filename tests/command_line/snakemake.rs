@@ -70,7 +70,7 @@ fn finish(sandbox: &Sandbox) -> String {
 fn a_killed_job_is_resumed_and_the_merged_run_equals_that_of_one_process() {
     let [shared, alone] = [(); 2].map(|()| Sandbox::new());
     let plan = shared.done(&format!("truths plan {WORDS} --json"));
-    fs::write(shared.path("plan.jsonl"), plan).unwrap();
+    shared.put("plan.jsonl", plan);
     let folder = shared.path("").canonicalize().unwrap();
 
     let mut command = snakemake(&shared);
@@ -88,7 +88,7 @@ fn a_killed_job_is_resumed_and_the_merged_run_equals_that_of_one_process() {
     finish(&shared);
     assert_eq!(written(), before, "a truth was rendered again");
     alone.done(&format!("run {WORDS}"));
-    let run = |sandbox: &Sandbox| fs::read_to_string(sandbox.path("out/run.json")).unwrap();
+    let run = |sandbox: &Sandbox| sandbox.text("out/run.json");
     assert_eq!(run(&shared), run(&alone));
     assert!(shared.path("out/report.html").is_file());
     assert_contains(&finish(&shared), &["Nothing to be done"]);

@@ -13,7 +13,7 @@ fn a_run_ranks_filters_in_at_most_40_lines_and_names_the_report() {
     let text = sandbox.measure("--jitter-frames 0");
     assert!(text.lines().count() <= 40, "{text}");
     assert_contains(&text, &["centred shutter", "--table shows all"]);
-    let page = fs::read_to_string(sandbox.path("out/report.html")).unwrap();
+    let page = sandbox.text("out/report.html");
     assert!(page.contains("jump_flood"));
     let again = sandbox.measure("--jitter-frames 0 --table");
     assert!(again.lines().count() > 60, "{again}");

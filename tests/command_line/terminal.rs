@@ -20,7 +20,7 @@ fn make_bounded() -> Sandbox {
     let sandbox = Sandbox::new();
     let reason = "it serves a test of the terminal, and has a reason that takes more than one line of eighty columns to say";
     let bounds = format!("[default]\nflip_moving = {{ limit = 0.2, why = \"{reason}\" }}\n");
-    fs::write(sandbox.path("scenes/bounds.toml"), bounds).unwrap();
+    sandbox.put("scenes/bounds.toml", bounds);
     sandbox
 }
 
@@ -46,11 +46,11 @@ fn output_fits_80_columns() {
     assert_fits(&check);
     // The run reuses the check's renders.
     let run = quick_command("run", "64").join(" ");
-    assert_fits(&sandbox.execute(&split(&format!("{run} {filters}"))));
+    assert_fits(&sandbox.done(&format!("{run} {filters}")));
     fs::rename(sandbox.path("out"), sandbox.path("first")).unwrap();
     let other = format!("{run} --truths first {filters} --set jump_flood_packed.samples=2");
-    sandbox.execute(&split(&other));
-    let compared = sandbox.execute(&split("compare first out"));
+    sandbox.done(&other);
+    let compared = sandbox.done("compare first out");
     assert_contains(&compared, &["jump_flood_packed:corrected.samples"]);
     assert_fits(&compared);
     assert_fits(&sandbox.execute(&["list"]));

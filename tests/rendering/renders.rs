@@ -1,18 +1,9 @@
 //! Renders of scenes, means of their colours, and their comparison with known numbers.
 
 use frame::{Alignment, Frame, Image, Ladder, Truth, VelocityKind};
-use tests::{scenes, unwatched};
+pub use tests::settings;
+use tests::{scenes, settings_of, unwatched};
 use tracer::{RenderSettings, Scene, load_scene, trace_frame, trace_ladder, trace_truth};
-
-/// Makes settings of a size and samples per pixel, those of a truth in 8 replicates.
-pub fn settings([width, height]: [u32; 2], samples_per_pixel: u32) -> RenderSettings {
-    RenderSettings {
-        width,
-        height,
-        samples_per_pixel,
-        ..RenderSettings::default()
-    }
-}
 
 /// Makes settings of a size, samples per pixel, and a kind of motion for the velocity buffer.
 pub fn settings_with(
@@ -27,10 +18,7 @@ pub fn settings_with(
 
 /// Makes settings of a size and samples per pixel in 2 replicates.
 pub fn settings_of_two(size: [u32; 2], samples_per_pixel: u32) -> RenderSettings {
-    RenderSettings {
-        replicates: 2,
-        ..settings(size, samples_per_pixel)
-    }
+    settings_of(size, samples_per_pixel, 2)
 }
 
 pub fn render_frame(scene: &Scene, settings: &RenderSettings) -> Frame {
@@ -52,11 +40,8 @@ pub fn render_ladder(
 
 /// Renders a centred truth of 16 x 9 pixels.
 pub fn render_small_truth(scene: &Scene, samples_per_pixel: u32) -> Truth {
-    render_truth(
-        scene,
-        &settings([16, 9], samples_per_pixel),
-        Alignment::Centred,
-    )
+    let settings = settings([16, 9], samples_per_pixel);
+    render_truth(scene, &settings, Alignment::Centred)
 }
 
 /// Returns the mean of the first component over such a truth.

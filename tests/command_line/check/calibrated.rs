@@ -2,6 +2,8 @@
 
 use std::fs;
 
+use tests::text::assert_contains;
+
 use super::assert_ends;
 use crate::sandbox::{Sandbox, split};
 
@@ -39,21 +41,11 @@ fn limits_are_for_bounded_metrics_and_those_that_notice_changes_of_a_kernel_unle
     let sandbox = Sandbox::new();
     sandbox.write_bound(0.9);
     let (_, proposed) = calibrate(&sandbox, "");
-    let limits = proposed
-        .lines()
-        .filter_map(|line| line.split_once(" = { limit"));
+    let limits = (proposed.lines()).filter_map(|line| line.split_once(" = { limit"));
     let mut names: Vec<&str> = limits.map(|(name, _)| name).collect();
     names.sort_unstable();
-    let noticing = [
-        "deficit",
-        "gather_spread",
-        "label_tv_p95",
-        "static_contamination",
-    ];
-    let help = sandbox.done("limits calibrate --help");
-    for name in noticing {
-        assert!(help.contains(name), "{name}: {help}");
-    }
+    let noticing = split("deficit gather_spread label_tv_p95 static_contamination");
+    assert_contains(&sandbox.done("limits calibrate --help"), &noticing);
     let mut due = [&noticing[..], &["flip_moving"]].concat();
     due.sort_unstable();
     assert_eq!(names, due);

@@ -85,11 +85,7 @@ fn a_limit_inside_the_interval_gives_exit_code_4_and_the_samples_to_decide() {
     // samples halve the width twice.
     let limit = 0.5 * (low + high) + 0.26 * 0.5 * (high - low);
     sandbox.write("bounds.toml", &bound("flip_moving", limit, "required"));
-    let parts = [
-        "UNDECIDED flip_moving",
-        "1024 samples per pixel would settle it",
-        "raise the samples per pixel",
-    ];
+    let parts = "UNDECIDED flip_moving | 1024 samples per pixel would settle it | raise the samples per pixel";
     check(&sandbox, "", 4, &parts);
     let value = found["value"].as_f64().unwrap();
     write_target(&sandbox, value.min(limit));
@@ -105,15 +101,11 @@ fn a_bound_within_three_floors_gives_exit_code_2_and_the_strictest_bound() {
     write_target(&sandbox, 0.99 * strictest);
     let allowed = format!("the noise floor of {floor:.5}");
     let within = "LIMIT WITHIN NOISE flip_moving";
-    let parts = [
-        within,
-        &allowed[..20],
-        "at the strictest",
-        "stricter than three noise floors",
-    ];
-    check(&sandbox, "", 2, &parts);
+    let words = "at the strictest | stricter than three noise floors";
+    check(&sandbox, "", 2, &[within, &allowed[..20]]);
+    check(&sandbox, "", 2, words);
     // Another bound that is broken is certain.
-    let text = fs::read_to_string(sandbox.path("scenes/plate/bounds.toml")).unwrap();
+    let text = sandbox.text("scenes/plate/bounds.toml");
     sandbox.write("bounds.toml", &text.replace("limit = 0.9", "limit = 0.02"));
     let parts = [within, "BROKEN label_tv", "a required bound is broken"];
     check(&sandbox, "", 1, &parts);
@@ -154,7 +146,7 @@ fn check_refuses_bad_input_before_it_renders() {
         refuse(more, parts);
     }
     fs::create_dir(sandbox.path("scenes/plates")).unwrap();
-    fs::write(sandbox.path("scenes/plates/bounds.toml"), "").unwrap();
+    sandbox.put("scenes/plates/bounds.toml", "");
     let found = "plates/bounds.toml: bounds of a scene that does not exist";
     refuse("", &[found]);
 }

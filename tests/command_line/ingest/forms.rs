@@ -60,10 +60,7 @@ fn one_file_of_blender_s_passes_gives_the_same_frame() {
     assert_eq!(show(&sandbox), expected);
     file.push_plane("Other.Depth.Z", &expected.2);
     write_exr(&capture.path("buffers.exr"), &file).unwrap();
-    let parts = [
-        "buffers.exr: has the channels Other.Depth.Z and ViewLayer.Depth.Z",
-        "allowed: one view layer",
-    ];
+    let parts = "buffers.exr: has the channels Other.Depth.Z and ViewLayer.Depth.Z | allowed: one view layer";
     sandbox.refuse(INGEST, &parts);
 }
 
@@ -98,7 +95,7 @@ fn raw_dumps_give_the_same_frame_and_need_their_layout() {
         let count = planes.len();
         described +=
             &format!("[raw.{name}]\nwidth = 96\nheight = 54\ncomponents = {count}\n{form}\n");
-        fs::write(capture.path(&format!("{name}.raw")), dump(planes, is_half)).unwrap();
+        capture.write(&format!("{name}.raw"), dump(planes, is_half));
     }
     capture.write("capture.toml", &described);
     assert_eq!(show(&sandbox), expected);
@@ -115,9 +112,6 @@ fn raw_dumps_give_the_same_frame_and_need_their_layout() {
         sandbox.refuse(INGEST, &parts);
     }
     capture.write("capture.toml", DESCRIPTION);
-    let parts = [
-        "color.raw: is a raw dump without a layout",
-        "add [raw.color]",
-    ];
+    let parts = "color.raw: is a raw dump without a layout | add [raw.color]";
     sandbox.refuse(INGEST, &parts);
 }

@@ -64,7 +64,7 @@ fn files_of_two_captures_are_not_mixed() {
         fs::write(&own, before).unwrap();
     }
     sandbox.done(words);
-    fs::write(sandbox.path("out/engine/mine/ingested.json"), "{}").unwrap();
+    sandbox.put("out/engine/mine/ingested.json", "{}");
     let parts = ["ingested.json: no ingested capture", "make the folder anew"];
     sandbox.refuse(words, &parts);
 }
@@ -74,11 +74,7 @@ fn frames_of_a_run_are_not_overwritten() {
     let sandbox = Sandbox::new();
     Capture::new(&sandbox);
     sandbox.done("truths render --quiet --scenes plate --size 64x32 --samples-per-pixel 16");
-    let parts = [
-        "out/plate: holds",
-        "a frame that was not ingested",
-        "new folder",
-    ];
+    let parts = "out/plate: holds | a frame that was not ingested | new folder";
     sandbox.refuse("engine ingest capture -o out/plate", &parts);
     let parts = ["holds a scene"];
     sandbox.refuse("engine ingest capture -o scenes/plate", &parts);

@@ -32,7 +32,7 @@ fn a_truth_of_an_engine_is_no_success() {
     }
     let place = "out/slow@engine: cannot be traced again";
     sandbox.refuse(VERIFY, &[place, "only that engine can draw", "--scenes"]);
-    sandbox.execute(&split("truths verify --scenes plate"));
+    sandbox.done("truths verify --scenes plate");
 }
 
 /// A folder of truths is the user's own and is not traced again, but its headers are not trusted either.
@@ -52,14 +52,14 @@ fn a_kept_file_that_says_that_an_engine_drew_it_is_rendered_again() {
         let drawn = frame::read_attribute(&sandbox.path("fresh/plate").join(&file), "engine");
         assert_eq!(drawn, None, "{file}");
     }
-    sandbox.execute(&split("truths verify fresh"));
+    sandbox.done("truths verify fresh");
 }
 
 /// Changes each attribute in turn in these kept files of a plate, with right checksums, and the checksum itself.
 fn change_attributes(files: &[String]) {
     let sandbox = Sandbox::new();
     let run = "run --quiet --filter identity --size 16x16 --samples-per-pixel 16 --jitter-frames 2";
-    sandbox.execute(&split(&format!("{run} --replicates 2")));
+    sandbox.done(&format!("{run} --replicates 2"));
     let scene = tracer::load_scene(sandbox.path("scenes/plate"), None).unwrap();
     let kept = &suite::list_scene_renders(&sandbox.path("out"), Path::new("out")).unwrap()[0];
     let verification = Verification { seed: 5, tiles: 1 };
@@ -154,10 +154,7 @@ fn no_pack_turns_a_failed_check_into_a_success() {
         assert_contains(&stderr(&output), parts);
         refuse_forged(&sandbox, 1, parts);
     };
-    let replicate = [
-        "forged.tar.zst/plate/truth_trailing/replicate_00",
-        "channel",
-    ];
+    let replicate = "forged.tar.zst/plate/truth_trailing/replicate_00 | channel";
     pack_forged(&sandbox);
     refuse(&replicate);
     // Without its truth, a run would make one from the replicates.
@@ -193,14 +190,14 @@ fn leave_out(sandbox: &Sandbox, begin: &str) {
 fn replicates_that_are_in_no_truth_are_traced_too() {
     let sandbox = packed();
     let render = "truths render --quiet --scenes plate --size 64x32 --samples-per-pixel 16";
-    sandbox.execute(&split(&format!("{render} --replicates 8..10 --out part")));
-    let printed = sandbox.execute(&split("truths verify part"));
+    sandbox.done(&format!("{render} --replicates 8..10 --out part"));
+    let printed = sandbox.done("truths verify part");
     assert!(printed.starts_with("part: 1 tile of "), "{printed}");
     for file in [8, 9].map(replicate_file) {
         let [from, to] = ["part/plate", "out/plate"].map(|below| sandbox.path(below).join(&file));
         fs::copy(from, to).unwrap();
     }
-    sandbox.execute(&split(VERIFY));
+    sandbox.done(VERIFY);
     let path = |out: &str| sandbox.path(out).join("plate").join(replicate_file(9));
     let refuse = |line: &str, part: &str| {
         let output = sandbox.shuttertruth(&split(line));

@@ -61,7 +61,7 @@ fn a_check_from_a_pack_renders_nothing_and_has_the_same_scores() {
     };
     check("");
     mark(&sandbox, "out");
-    sandbox.execute(&split("truths pack out --out kept/truths.tar.zst"));
+    sandbox.done("truths pack out --out kept/truths.tar.zst");
     fs::create_dir(sandbox.path("elsewhere")).unwrap();
     fs::rename(sandbox.path("kept"), sandbox.path("elsewhere/kept")).unwrap();
     let pack = "elsewhere/kept/truths.tar.zst";
@@ -85,7 +85,7 @@ fn one_run_gives_one_archive_with_the_manifest_first() {
     let first = fs::read(sandbox.path("truths.tar.zst")).unwrap();
     // Another sandbox, with files of another time.
     let copy = packed();
-    let printed = copy.execute(&split("truths pack out --out again.tar.zst"));
+    let printed = copy.done("truths pack out --out again.tar.zst");
     assert_contains(&printed, &["written: again.tar.zst", "1 truth in 17 files"]);
     assert!(fs::read(copy.path("again.tar.zst")).unwrap() == first);
 
@@ -112,12 +112,10 @@ fn one_run_gives_one_archive_with_the_manifest_first() {
 fn a_pack_of_chosen_scenes_leaves_the_others_to_be_rendered() {
     let sandbox = Sandbox::two_scenes();
     run(&sandbox, "--filter identity");
-    sandbox.execute(&split("truths pack --scenes sl*"));
+    sandbox.done("truths pack --scenes sl*");
     let said = run_from_pack(&sandbox, "--filter identity --out fresh");
-    let parts = [
-        "took 17 files, and traced 3 tiles again",
-        "renders what it lacks: frame of plate, trailing truth of plate.",
-    ];
+    let parts = "took 17 files, and traced 3 tiles again | \
+        renders what it lacks: frame of plate, trailing truth of plate.";
     assert_contains(&said, &parts);
     assert_eq!(scores(&sandbox, "fresh"), scores(&sandbox, "out"));
 }
@@ -138,12 +136,12 @@ fn later_frames_of_sequences_are_packed_too() {
     let sequence = "--filter identity --frames 2";
     run(&sandbox, sequence);
     mark(&sandbox, "out");
-    sandbox.execute(&["truths", "pack"]);
+    sandbox.done("truths pack");
     let said = run_from_pack(&sandbox, &format!("{sequence} --out fresh"));
     assert_contains(&said, &["; nothing is rendered"]);
     assert!(rendered(&sandbox, "fresh") == rendered(&sandbox, "out"));
     assert_eq!(scores(&sandbox, "fresh"), scores(&sandbox, "out"));
-    let printed = sandbox.execute(&split("truths verify truths.tar.zst"));
+    let printed = sandbox.done("truths verify truths.tar.zst");
     let parts = ["6 tiles of 16x16", "2 truths equal to the mean"];
     assert_contains(&printed, &parts);
 }
@@ -152,7 +150,7 @@ fn later_frames_of_sequences_are_packed_too() {
 fn plans_and_calibrations_take_packs() {
     let sandbox = packed();
     let line = "truths plan --filter identity --truths truths.tar.zst --json";
-    let plan = sandbox.execute(&split(&format!("{line} {QUICK}")));
+    let plan = sandbox.done(&format!("{line} {QUICK}"));
     assert!(!plan.contains("truths/plate"), "they are in the pack");
     for line in plan.lines() {
         let job: serde_json::Value = serde_json::from_str(line).unwrap();
@@ -164,11 +162,7 @@ fn plans_and_calibrations_take_packs() {
     let output = sandbox.shuttertruth(&split(&format!("{words} --truths truths.tar.zst")));
     assert_done(&output);
     // The first of the two seeds is the pack's. A calibration uses one rung of the ladder.
-    let parts = [
-        "took 11 files",
-        "; nothing is rendered",
-        "took no file; renders",
-    ];
+    let parts = "took 11 files | ; nothing is rendered | took no file; renders";
     assert_contains(&stderr(&output), &parts);
     assert!(sandbox.path("seeds/plate.bounds.toml").is_file());
 }
@@ -180,10 +174,10 @@ fn a_pack_removes_what_a_killed_one_left_and_nothing_else() {
     let killed = [".shuttertruth-killed.tmp", "below/.shuttertruth-killed.tmp"];
     let others = [".shuttertruth-notes", "kept.tmp"];
     for name in killed.into_iter().chain(others) {
-        fs::write(sandbox.path(name), "").unwrap();
+        sandbox.put(name, "");
     }
-    sandbox.execute(&["truths", "pack"]);
-    sandbox.execute(&split("truths pack --out below/truths.tar.zst"));
+    sandbox.done("truths pack");
+    sandbox.done("truths pack --out below/truths.tar.zst");
     assert!(killed.iter().all(|name| !sandbox.path(name).exists()));
     assert!(others.iter().all(|name| sandbox.path(name).exists()));
 }

@@ -4,6 +4,7 @@ use std::fs;
 
 use frame::{Frame, Ladder, Replicate};
 use serde_json::Value;
+use tests::text::Parts;
 
 use super::{REPLICATES, change_replicate, pack_forged, packed, renew_truth, replicate_file, run};
 use crate::sandbox::{Sandbox, assert_refused, split, stdout};
@@ -11,12 +12,12 @@ use crate::sandbox::{Sandbox, assert_refused, split, stdout};
 /// Verifies and returns what is printed as JSON.
 fn verify(sandbox: &Sandbox, words: &str) -> Value {
     let line = format!("truths verify --json {words}");
-    serde_json::from_str(&sandbox.execute(&split(&line))).unwrap()
+    serde_json::from_str(&sandbox.done(&line)).unwrap()
 }
 
 /// Verifies, and expects a difference.
 #[track_caller]
-fn find(sandbox: &Sandbox, words: &str, parts: &[&str]) {
+fn find(sandbox: &Sandbox, words: &str, parts: &(impl Parts + ?Sized)) {
     let output = sandbox.shuttertruth(&split(&format!("truths verify {words}")));
     assert_refused(&output, 1, parts);
 }
@@ -44,7 +45,7 @@ fn honest_truths_are_equal_on_any_number_of_threads() {
     // Both shutters, a guard band, and an exposure that no scene has.
     let more = "--exposure 0.3 --guard-band 3 --velocity previous_frame";
     run(&sandbox, &format!("--filter identity,kino:default {more}"));
-    sandbox.execute(&["truths", "pack"]);
+    sandbox.done("truths pack");
     let verified = ["1 out", "3 out", "2 truths.tar.zst"].map(|threads| {
         let verified = verify(&sandbox, &format!("--seed 7 --tiles 5 --threads {threads}"));
         assert_eq!(verified["truths"], 2);
@@ -55,11 +56,11 @@ fn honest_truths_are_equal_on_any_number_of_threads() {
     });
     assert_eq!(verified[0], verified[1]);
     assert_eq!(verified[0], verified[2]);
-    let printed = sandbox.execute(&["truths", "verify"]);
+    let printed = sandbox.done("truths verify");
     let begin = "out: 5 tiles of 16x16 pixels traced again and equal; 2 truths";
     assert!(printed.starts_with(begin), "{printed}");
     // An unnamed seed differs each time.
-    assert_ne!(printed, sandbox.execute(&["truths", "verify"]));
+    assert_ne!(printed, sandbox.done("truths verify"));
 }
 
 #[test]
@@ -74,26 +75,20 @@ fn a_bit_in_a_replicate_is_found_where_a_tile_covers_it() {
     pack_forged(&sandbox);
     let below = file.strip_prefix("out/").unwrap();
     let place = format!("forged.tar.zst/{below}: pixel ({x}, {y}) of its channel R");
-    let parts = [
-        &place,
-        "bits 0x",
-        "and this program makes",
-        "render plate again",
-        "seed 7",
-    ];
-    find(&sandbox, "forged.tar.zst --seed 7", &parts);
+    let parts = "bits 0x | and this program makes | render plate again | seed 7";
+    find(&sandbox, "forged.tar.zst --seed 7", parts);
+    find(&sandbox, "forged.tar.zst --seed 7", &[place]);
     let output = sandbox.shuttertruth(&split("truths verify forged.tar.zst --seed 7 --json"));
     assert_eq!(output.status.code(), Some(1));
     let verified: Value = serde_json::from_str(&stdout(&output)).unwrap();
     assert_eq!(verified["differences"].as_array().unwrap().len(), 1);
 
     // The tile of this seed is in one replicate, and finds nothing in another.
-    fs::write(sandbox.path(&file), before).unwrap();
+    sandbox.put(&file, before);
     let mut names = (0..REPLICATES).map(|index| format!("out/plate/{}", replicate_file(index)));
     let other = names.find(|name| *name != file).unwrap();
-    change_replicate(&sandbox.path(&other), |replicate| {
-        flip_bit(replicate, 20, 12)
-    });
+    let change = |replicate: &mut Replicate| flip_bit(replicate, 20, 12);
+    change_replicate(&sandbox.path(&other), change);
     renew_truth(&sandbox);
     fs::remove_dir_all(sandbox.path("out/plate/ladder_trailing")).unwrap();
     verify(&sandbox, "--seed 7");
@@ -147,15 +142,10 @@ fn a_frame_and_a_rung_are_verified_too() {
 #[test]
 fn truths_of_another_scene_are_no_truths_of_this_one() {
     let sandbox = packed();
-    let scene = sandbox.path("scenes/plate/scene.toml");
-    let text = fs::read_to_string(&scene).unwrap();
-    fs::write(&scene, text.replace("-1.6", "-1.5")).unwrap();
-    let parts = [
-        "out/plate/frame.exr: was made of another scene",
-        "out/plate/truth_trailing.exr: was made of another scene",
-        "render it again",
-    ];
-    find(&sandbox, "", &parts);
+    sandbox.edit("scenes/plate/scene.toml", "-1.6", "-1.5");
+    let parts = "out/plate/frame.exr: was made of another scene | render it again | \
+        out/plate/truth_trailing.exr: was made of another scene";
+    find(&sandbox, "", parts);
     fs::remove_dir_all(sandbox.path("scenes/plate")).unwrap();
     sandbox.refuse("truths verify", &["scenes: holds no scene"]);
 }
@@ -172,9 +162,7 @@ fn what_holds_no_truth_is_refused() {
         --tiles 0 => '0' for '--tiles <N>': 0 is not in 1..=10000"#,
     );
     // A truth without ladder or frame, as `render` leaves it, is verified as far as possible.
-    sandbox.execute(&split(
-        "truths render --quiet --scenes plate --samples-per-pixel 16 --out r",
-    ));
-    let printed = sandbox.execute(&split("truths verify r"));
+    sandbox.done("truths render --quiet --scenes plate --samples-per-pixel 16 --out r");
+    let printed = sandbox.done("truths verify r");
     assert!(printed.starts_with("r: 2 tiles"), "{printed}");
 }

@@ -17,20 +17,17 @@ pub fn assert_answers_are_refused(sandbox: &Sandbox, study: &Study) {
         let names = write_answers(sandbox, files);
         assert_refused(&sandbox.shuttertruth(&preferences(&names, &[])), 2, parts);
     };
-    let parts = [
-        "answers_1.json: has the seed 1 of answers_0.json",
-        "counts once",
-    ];
-    refuse(&[session(1), session(1)], &parts);
+    let seed = "answers_1.json: has the seed 1 of answers_0.json";
+    refuse(&[session(1), session(1)], &[seed, "counts once"]);
     let changed = |change: Change| {
         let mut file = session(3);
         change(&mut file);
         file
     };
     let others = changed(|file| file.study.pictures = "0".to_owned());
-    let says =
-        "answers_1.json: answers about other pictures than answers_0.json: the pictures differ";
-    refuse(&[session(1), others], &[says]);
+    let about = "answers_1.json: answers about other pictures";
+    let says = format!("{about} than answers_0.json: the pictures differ");
+    refuse(&[session(1), others], &[&says]);
     let parts = ["answer 5 of 8 is about"];
     refuse(&[changed(swap_sides)], &parts);
     let more = changed(|file| file.answers.push(file.answers[0].clone()));
@@ -65,11 +62,11 @@ pub fn assert_answers_are_refused(sandbox: &Sandbox, study: &Study) {
         (&named, &["unknown field `name`"]),
         (&strange, &["unknown field `neither", "| ::error::`"]),
         (
-            "{\"format\":1}",
+            r#"{"format":1}"#,
             &["is no file of answers", "missing field"],
         ),
     ] {
-        fs::write(sandbox.path("answers_0.json"), text).unwrap();
+        sandbox.put("answers_0.json", text);
         sandbox.refuse("people preferences answers_0.json", parts);
     }
     assert_runs_are_told_apart(sandbox, &write_answers(sandbox, &[session(1)]));

@@ -15,7 +15,7 @@ const REPORT: &str = "report out/run.json --html page/report.html";
 fn make_page(sandbox: &Sandbox) -> String {
     let printed = sandbox.done(REPORT);
     assert!(printed.contains("written: page/report.html ("), "{printed}");
-    fs::read_to_string(sandbox.path("page/report.html")).unwrap()
+    sandbox.text("page/report.html")
 }
 
 /// Finds every text between two texts.

@@ -2,21 +2,18 @@
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::sync::OnceLock;
 
 use metrics::Metric;
 use tests::text::assert_contains;
 
 use super::{REPORT, address, between, find_article, make_page, panel, planes};
-use crate::sandbox::{Files, Sandbox, assert_done};
+use crate::sandbox::{Sandbox, assert_done};
 
 /// Makes a sandbox with a run of three filters on two scenes.
 fn measured() -> Sandbox {
-    static FILES: OnceLock<Files> = OnceLock::new();
-    Sandbox::once(&FILES, || {
-        let sandbox = Sandbox::two_scenes();
+    Sandbox::once(|sandbox| {
+        sandbox.add_slow_scene();
         sandbox.measure("--filters identity,velocity_gather:fine,jump_flood:corrected");
-        sandbox
     })
 }
 
@@ -252,7 +249,7 @@ fn a_report_refuses_a_file_without_a_run_or_its_pictures() {
         sandbox.refuse(REPORT, parts);
         assert!(!sandbox.path("page").exists());
     };
-    let write = |name: &str, bytes: &[u8]| fs::write(sandbox.path(name), bytes).unwrap();
+    let write = |name: &str, bytes: &[u8]| sandbox.put(name, bytes);
     let output = "out/plate/identity_default/output.exr";
     let whole = fs::read(sandbox.path(output)).unwrap();
     write(output, b"no picture");

@@ -3,11 +3,9 @@
 mod refusals;
 mod same_bytes;
 
-use std::sync::OnceLock;
-
 use serde_json::Value;
 
-use crate::sandbox::{Files, Sandbox};
+use crate::sandbox::Sandbox;
 
 /// Filters of both shutters, one of them with two presets.
 const FILTERS: &str = "velocity_gather:fine,velocity_gather:coarse,kino:default";
@@ -46,9 +44,8 @@ fn execute(sandbox: &Sandbox, job: &Value) -> String {
 
 /// Measures two scenes in one folder each, with one filter and the references; and another filter without them.
 fn parts() -> Sandbox {
-    static FILES: OnceLock<Files> = OnceLock::new();
-    Sandbox::once(&FILES, || {
-        let sandbox = Sandbox::two_scenes();
+    Sandbox::once(|sandbox| {
+        sandbox.add_slow_scene();
         for line in [
             "--filter identity --scenes plate --out plate",
             "--filter identity --scenes slow --out slow",
@@ -56,6 +53,5 @@ fn parts() -> Sandbox {
         ] {
             sandbox.done(&format!("run {QUICK} {line}"));
         }
-        sandbox
     })
 }

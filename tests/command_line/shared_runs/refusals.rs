@@ -2,23 +2,15 @@
 
 use std::fs;
 
-use tests::text::read_rows;
+use tests::text::{Parts, read_rows};
 
 use super::{QUICK, parts};
 use crate::sandbox::Sandbox;
 
 #[track_caller]
-fn refuse(sandbox: &Sandbox, parts: &str, found: &[&str]) {
+fn refuse(sandbox: &Sandbox, parts: &str, found: &(impl Parts + ?Sized)) {
     sandbox.refuse(&format!("truths merge {parts} --out whole"), found);
     assert!(!sandbox.path("whole").exists(), "{parts} wrote files");
-}
-
-/// Changes the text of a run.json.
-fn change(sandbox: &Sandbox, part: &str, from: &str, to: &str) {
-    let path = sandbox.path(part).join("run.json");
-    let text = fs::read_to_string(&path).unwrap();
-    assert!(text.contains(from), "{text}");
-    fs::write(path, text.replacen(from, to, 1)).unwrap();
 }
 
 /// Measures once more, into the folder `other`.
@@ -39,14 +31,9 @@ fn runs_of_other_settings_are_refused() {
         measure_other(&sandbox, &format!("--scenes slow --filter {more}"));
         refuse(&sandbox, "plate other", &found);
     }
-    change(&sandbox, "slow", "\"driver\": \"", "\"driver\": \"other ");
-    let found = [
-        "plate/run.json has the adapter and driver",
-        "slow/run.json has",
-        "(other ",
-        "the same adapter and driver",
-    ];
-    refuse(&sandbox, "plate slow", &found);
+    sandbox.edit("slow/run.json", "\"driver\": \"", "\"driver\": \"other ");
+    let found = "plate/run.json has the adapter and driver | slow/run.json has | (other  | the same adapter and driver";
+    refuse(&sandbox, "plate slow", found);
 }
 
 #[test]
@@ -61,27 +48,19 @@ fn cases_against_other_truths_are_refused() {
     refuse(&sandbox, "plate other", &[found]);
     // The same exposure, and another truth: another tracer's.
     let hash = "\"truth_hash\": \"";
-    change(&sandbox, "flood", hash, &format!("{hash}0"));
-    let found = [
-        "flood/run.json: the truth of plate/jump_flood_paper has the hash 0",
-        "plate/plate/truth_trailing.exr has",
-    ];
-    refuse(&sandbox, "plate flood", &found);
+    sandbox.edit("flood/run.json", hash, &format!("{hash}0"));
+    let found = "flood/run.json: the truth of plate/jump_flood_paper has the hash 0 | plate/plate/truth_trailing.exr has";
+    refuse(&sandbox, "plate flood", found);
 }
 
 #[test]
 fn one_case_or_picture_with_two_contents_is_refused() {
     let sandbox = parts();
-    fs::create_dir(sandbox.path("copy")).unwrap();
-    let [from, to] = ["plate", "copy"].map(|part| sandbox.path(part).join("run.json"));
-    fs::copy(from, to).unwrap();
-    change(&sandbox, "copy", "\"value\": 0.", "\"value\": 1.");
-    let found = [
-        "plate/run.json and copy/run.json hold plate / ",
-        "with other numbers",
-    ];
-    refuse(&sandbox, "plate copy", &found);
-    fs::write(sandbox.path("flood/plate/frame.png"), "another frame").unwrap();
+    sandbox.put("copy/run.json", sandbox.text("plate/run.json"));
+    sandbox.edit("copy/run.json", "\"value\": 0.", "\"value\": 1.");
+    let found = "plate/run.json and copy/run.json hold plate /  | with other numbers";
+    refuse(&sandbox, "plate copy", found);
+    sandbox.put("flood/plate/frame.png", "another frame");
     let found = "plate/plate/frame.png and flood/plate/frame.png differ";
     refuse(&sandbox, "plate flood", &[found]);
 }
@@ -91,20 +70,15 @@ fn missing_cases_are_named() {
     let sandbox = parts();
     let found = "no part holds slow / jump_flood:paper (trailing shutter)";
     refuse(&sandbox, "plate slow flood", &[found]);
-    let found = [
-        "references of the trailing shutter",
-        "the part with the references",
-    ];
-    refuse(&sandbox, "flood", &found);
+    let found = "references of the trailing shutter | the part with the references";
+    refuse(&sandbox, "flood", found);
 }
 
 #[test]
 fn what_holds_no_run_is_refused() {
     let sandbox = parts();
-    for folder in ["empty", "damaged"] {
-        fs::create_dir(sandbox.path(folder)).unwrap();
-    }
-    fs::write(sandbox.path("damaged/run.json"), "{").unwrap();
+    fs::create_dir(sandbox.path("empty")).unwrap();
+    sandbox.put("damaged/run.json", "{");
     sandbox.refuse_rows(
         "truths merge --out whole plate",
         "
@@ -119,7 +93,7 @@ fn what_holds_no_run_is_refused() {
 #[test]
 fn nothing_behind_a_link_is_taken() {
     let sandbox = parts();
-    fs::write(sandbox.path("secret"), "mine").unwrap();
+    sandbox.put("secret", "mine");
     let link = |link: &str, target: &str| {
         let path = sandbox.path(link);
         match path.is_dir() {

@@ -2,7 +2,6 @@
 
 use std::fs;
 use std::path::Path;
-use std::sync::OnceLock;
 
 use filters::Filter;
 use serde_json::Value;
@@ -11,7 +10,7 @@ use tests::text::{assert_contains, squeeze};
 use tune::{Space, TrialOutcome, count_candidates};
 
 use super::{ON_SEVEN, read_journal, read_trials, read_tuning, set_up, tune};
-use crate::sandbox::{Files, Sandbox};
+use crate::sandbox::Sandbox;
 
 const QUICK: &str = "--quiet --filter jump_flood --size 64x32 --samples-per-pixel 16 --out out";
 const HELD_OUT: &str =
@@ -24,27 +23,19 @@ fn tune_at(sandbox: &Sandbox, size: &str) -> String {
 
 /// Makes a sandbox with such a tuning, and its output in the file `printed`.
 fn tuned() -> Sandbox {
-    static FILES: OnceLock<Files> = OnceLock::new();
-    Sandbox::once(&FILES, || {
-        let sandbox = set_up();
-        let printed = tune_at(&sandbox, "64x32");
-        fs::write(sandbox.path("printed"), printed).unwrap();
-        sandbox
+    Sandbox::once(|sandbox| {
+        sandbox.write_files("", &set_up().read_files());
+        let printed = tune_at(sandbox, "64x32");
+        sandbox.put("printed", printed);
     })
 }
 
 #[test]
 fn a_tuning_beats_its_start_and_records_the_way() {
     let sandbox = tuned();
-    let table = fs::read_to_string(sandbox.path("printed")).unwrap();
-    let parts = [
-        "jump_flood:paper, 20 trials on 7 scenes",
-        "the start",
-        "chosen: trial",
-        "family left out",
-        "held-out scenes, evaluated once at 64x32",
-        "FLIP of chosen against start",
-    ];
+    let table = sandbox.text("printed");
+    let parts = "jump_flood:paper, 20 trials on 7 scenes | the start | chosen: trial | family left out | \
+        held-out scenes, evaluated once at 64x32 | FLIP of chosen against start";
     assert_contains(&table, &parts);
     let trials = read_trials(&sandbox);
     assert_eq!(trials.len(), 20);

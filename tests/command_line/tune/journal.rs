@@ -50,11 +50,8 @@ fn a_larger_budget_extends_a_smaller_one_and_another_seed_searches_differently()
     }
     let other = format!("{TUNE} --out out {ON_TWO} --budget 8 --search-seed 2");
     let output = sandbox.shuttertruth(&split(&other));
-    let parts = [
-        "journal.jsonl:1: it was begun with another seed: found 1, this command has 2",
-        "to go on with it, search with the seed 1",
-        "another output folder",
-    ];
+    let parts = "journal.jsonl:1: it was begun with another seed: found 1, this command has 2 | \
+        to go on with it, search with the seed 1 | another output folder";
     assert_refused(&output, 2, &parts);
     let said = stderr(&output);
     assert!(said.len() < 400, "a wall of numbers: {said}");
@@ -77,11 +74,8 @@ fn a_full_disk_loses_nothing() {
         .args(["-c", &script, "sh"]);
     let words = format!("{TUNE} --out out {BUDGET}");
     let output = full.args(split(&words)).output().unwrap();
-    let parts = [
-        "journal.jsonl: cannot be written",
-        "whole trials are safe",
-        "run the same command again",
-    ];
+    let parts =
+        "journal.jsonl: cannot be written | whole trials are safe | run the same command again";
     assert_refused(&output, 2, &parts);
     let left = read_journal(&sandbox, "out");
     assert!(left.starts_with(&begun) && left.len() > begun.len());

@@ -14,7 +14,7 @@ const SEARCH: &str = "tune search --quiet --size 64x32 --samples-per-pixel 16 --
 fn bad_tunings_are_refused_and_leave_no_files() {
     let sandbox = set_up();
     let still = SCENE.replace("translation = [-1.6,", "translation = [0,");
-    fs::write(sandbox.path("scenes/g/scene.toml"), still).unwrap();
+    sandbox.put("scenes/g/scene.toml", still);
     let search = format!("{SEARCH} --filter jump_flood --budget 2");
     sandbox.refuse_rows(
         &format!("{search} --objective flip"),
@@ -39,7 +39,7 @@ fn bad_tunings_are_refused_and_leave_no_files() {
 fn a_choice_that_the_scenes_cannot_tell_from_the_start_gets_no_preset() {
     let sandbox = set_up();
     fs::create_dir(sandbox.path("out")).unwrap();
-    fs::write(sandbox.path("out/preset.toml"), "of an earlier tuning").unwrap();
+    sandbox.put("out/preset.toml", "of an earlier tuning");
     let more = "--filter jump_flood --from paper --vary samples=2..16,jitter \
         --objective flip --scenes a,b --budget 12";
     let text = squeeze(&sandbox.done(&format!("{SEARCH} {more}")));

@@ -32,13 +32,7 @@ fn load_moving() -> Scene {
 
 /// Makes settings of an engine's output: the motion since the previous frame, unless stated otherwise.
 fn settings(velocity: VelocityKind) -> RenderSettings {
-    let mut settings = RenderSettings {
-        width: WIDTH,
-        height: HEIGHT,
-        samples_per_pixel: 4,
-        replicates: 1,
-        ..RenderSettings::default()
-    };
+    let mut settings = tests::settings_of([WIDTH, HEIGHT], 4, 1);
     settings.options.velocity = velocity;
     settings
 }
@@ -101,8 +95,9 @@ fn audit_depth(scene: &Scene, change: impl Fn(usize, f32) -> f32) -> (Capture, C
 }
 
 fn without_ids(capture: &Capture) -> Capture {
+    let object_id = None;
     Capture {
-        object_id: None,
+        object_id,
         ..capture.clone()
     }
 }

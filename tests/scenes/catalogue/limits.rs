@@ -3,7 +3,6 @@
 use filters::Filter;
 use frame::{Alignment, Picture};
 use tests::filter_folder::copy_changed_filter;
-use tracer::RenderSettings;
 
 use super::assert_worse;
 use super::rendered_scene::{RenderedScene, find_preset, small_settings, value};
@@ -29,12 +28,7 @@ fn filters_miss_motion_from_beyond_the_border() {
 #[ignore = "prove: all scenes of the catalogue"]
 fn motion_below_a_pixel_is_left_sharp() {
     // The size that the scenes' speeds refer to.
-    let settings = RenderSettings {
-        width: 640,
-        height: 360,
-        samples_per_pixel: 1,
-        ..small_settings()
-    };
+    let settings = tests::settings_of([640, 360], 1, 2);
     let [creeping, hurried] =
         ["creep", "creep@hurried"].map(|name| RenderedScene::with_settings(name, settings));
     // Share of the moving pixels that a filter changes.

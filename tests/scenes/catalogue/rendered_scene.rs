@@ -13,13 +13,7 @@ use crate::load_shipped;
 
 /// Settings of a small frame and its truths. A truth's two replicates together have as many samples as the frame.
 pub fn small_settings() -> RenderSettings {
-    RenderSettings {
-        width: 160,
-        height: 90,
-        samples_per_pixel: 32,
-        replicates: 2,
-        ..RenderSettings::default()
-    }
+    tests::settings_of([160, 90], 32, 2)
 }
 
 /// Frame of a scene, and truths that are rendered when needed.
@@ -142,9 +136,8 @@ impl RenderedScene {
 pub fn value(scores: &Scores, metric: &str) -> f64 {
     let parsed: Metric = metric.parse().unwrap();
     let found = scores.get(parsed);
-    found
-        .value()
-        .unwrap_or_else(|| panic!("{metric} does not apply: {found:?}"))
+    let value = found.value();
+    value.unwrap_or_else(|| panic!("{metric} does not apply: {found:?}"))
 }
 
 /// Finds a built-in filter, and returns it with the preset's name.

@@ -175,12 +175,12 @@ fn a_file_that_is_not_a_run_json_is_refused_with_its_name() {
 fn a_file_that_is_not_a_baseline_or_bench_is_refused_with_its_name() {
     let sandbox = Sandbox::measured();
     for row in rows(include_str!("refusals.toml"), "baseline") {
-        fs::write(sandbox.path("base.json"), row[0]).unwrap();
+        sandbox.put("base.json", row[0]);
         let output = sandbox.check(&["--filters", "identity", "--baseline", "base.json"]);
         assert_refused(&output, 2, &["base.json", row[1]]);
     }
     for text in ["[1]", "{\"format\": 1}", "null"] {
-        fs::write(sandbox.path("out/bench.json"), text).unwrap();
+        sandbox.put("out/bench.json", text);
         let parts = ["bench.json", "no bench of this program"];
         sandbox.refuse("report out --html page.html", &parts);
     }

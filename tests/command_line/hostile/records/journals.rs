@@ -15,7 +15,7 @@ const REPORT: &str = "report tuned --html page.html";
 #[test]
 fn a_journal_with_an_impossible_trial_is_refused_with_its_line_and_left_unchanged() {
     let sandbox = Sandbox::new();
-    sandbox.execute(&split(TUNE));
+    sandbox.done(TUNE);
     let path = sandbox.path("tuned/journal.jsonl");
     let whole = fs::read_to_string(&path).unwrap();
     let lines: Vec<&str> = whole.lines().collect();

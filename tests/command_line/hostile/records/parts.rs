@@ -14,7 +14,7 @@ fn parts() -> Sandbox {
     let sandbox = Sandbox::new();
     for (out, part) in [("a", "0..1"), ("b", "1..2")] {
         let words = "truths render --quiet --samples-per-pixel 16";
-        sandbox.execute(&split(&format!("{words} --replicates {part} --out {out}")));
+        sandbox.done(&format!("{words} --replicates {part} --out {out}"));
     }
     sandbox
 }
@@ -27,7 +27,7 @@ fn refuse(sandbox: &Sandbox, parts: &str, words: &[&str]) {
 }
 
 fn merge(sandbox: &Sandbox) {
-    sandbox.execute(&split("truths merge a b --out whole"));
+    sandbox.done("truths merge a b --out whole");
 }
 
 #[test]
@@ -106,6 +106,6 @@ fn circular_links_and_pipes_are_not_read_as_parts() {
         make();
         refuse(&sandbox, "a b", &["b holds no replicates"]);
     }
-    fs::write(sandbox.path("file"), "").unwrap();
+    sandbox.put("file", "");
     refuse(&sandbox, "a file", &["file: cannot read"]);
 }

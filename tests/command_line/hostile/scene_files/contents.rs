@@ -14,7 +14,7 @@ fn small_pictures_that_decode_to_huge_ones_are_refused() {
     // One bit for each pixel, and a byte before each row.
     let black = png(16_384, 8_192, [1, 0], 8_192 * (1 + 16_384 / 8));
     assert!(black.len() < 50_000, "{} bytes", black.len());
-    fs::write(sandbox.path("scenes/plate/black.png"), black).unwrap();
+    sandbox.put("scenes/plate/black.png", black);
     let found = "is 16384 x 8192, 134217728 texels; allowed: 1 to 67108864; scale it down";
     sandbox.refuse(RENDER, &["plate.mtl:3: texture", "black.png", found]);
 

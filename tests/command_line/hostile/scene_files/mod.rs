@@ -13,7 +13,8 @@ const RENDER: &str =
 fn with_texture(sandbox: &Sandbox, name: &str) {
     let mtl = format!("newmtl paint\nKd 1 1 1\nmap_Kd {name}\n");
     sandbox.write("plate.mtl", &mtl);
-    sandbox.write("plate.obj", TEXTURED);
+    let textured = include_str!("../../../fixtures/models/textured.obj");
+    sandbox.write("plate.obj", textured);
 }
 
 fn with_sky(sandbox: &Sandbox, name: &str) {
@@ -21,15 +22,3 @@ fn with_sky(sandbox: &Sandbox, name: &str) {
     let scene = SCENE.replace("constant = [0.2, 0.2, 0.2]", &sky);
     sandbox.write("scene.toml", &scene);
 }
-
-const TEXTURED: &str = "\
-mtllib plate.mtl
-v -0.5 -0.5 0
-v 0.5 -0.5 0
-v 0.5 0.5 0
-vt 0 0
-vt 1 0
-vt 1 1
-usemtl paint
-f 1/1 2/2 3/3
-";
