@@ -17,7 +17,7 @@ export XDG_RUNTIME_DIR ?= /tmp
 SCENES ?= sliding_panel,panel_over_texture,two_spheres,railing,fan
 
 run: vulkan
-	cargo run --locked --bin shuttertruth -- run $(if $(SCENES),--scenes $(SCENES)) --out out
+	cargo run --locked --bin shuttertruth -- run $(if $(SCENES),--scenes $(SCENES)) --samples-per-pixel 64 --out out
 
 # Tests compare numbers, which graphics cards round in their own ways. They run on Mesa's software driver, or on VK_DRIVER_FILES.
 TEST = VK_DRIVER_FILES="$${VK_DRIVER_FILES:-$$(ls /usr/share/vulkan/icd.d/lvp_icd*.json 2>/dev/null | head -n 1)}" cargo test --workspace --locked

@@ -180,6 +180,10 @@ fn results_of_two_runs_are_those_of_one() {
     other.samples_per_pixel = 4096;
     let refused = part.update(other).unwrap_err().to_string();
     assert_contains(&refused, &["with 4096 samples per pixel cannot go into"]);
+    let mut other = whole.clone();
+    other.scores[0].alignment = Alignment::Centred;
+    let refused = part.update(other).unwrap_err().to_string();
+    assert_contains(&refused, &["the run has a centred filter and", "has no"]);
 
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("kept.json");

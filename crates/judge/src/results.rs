@@ -130,7 +130,7 @@ impl Results {
     /// Adds newer scores: each replaces an older one of its case, or joins its scene.
     ///
     /// # Errors
-    /// The newer results have another size, adapter or seal, or truths with other samples.
+    /// The newer results have another size, adapter or seal, truths with other samples, or a FLIP* against another shutter.
     pub fn update(&mut self, newer: Self) -> Result<(), Error> {
         let settings = |own: &Self| (own.file_name(), own.samples_per_pixel);
         let [(own, samples), (other, others)] = [settings(self), settings(&newer)];
@@ -138,6 +138,15 @@ impl Results {
             return Err(Error::Usage(format!(
                 "{other} with {others} samples per pixel cannot go into {own} with {samples}; measure with the same settings, or \
                  all filters anew"
+            )));
+        }
+        if self.has_centred() != newer.has_centred() {
+            let which = |own: &Self| if own.has_centred() { "a" } else { "no" };
+            return Err(Error::Usage(format!(
+                "the run has {} centred filter and {own} has {}, so that FLIP* compares with another shutter; have a centred \
+                 filter in both",
+                which(&newer),
+                which(self)
             )));
         }
         self.program = newer.program;
@@ -215,11 +224,16 @@ impl Results {
             .max_by(|a, b| error(a).partial_cmp(&error(b)).expect("scores are numbers"))
     }
 
+    /// Returns whether FLIP* is against a centred shutter.
+    fn has_centred(&self) -> bool {
+        (self.scores.iter()).any(|own| own.alignment == Alignment::Centred)
+    }
+
     /// Ranks the filter presets of each shutter by FLIP. The filter that does nothing is ranked in both: its FLIP* is against a centred
     /// shutter, if any filter declares one.
     pub fn ranking(&self) -> Vec<Vec<RankedFilter>> {
         let centred = Alignment::Centred;
-        let has_centred = self.scores.iter().any(|own| own.alignment == centred);
+        let has_centred = self.has_centred();
         let unblurred = (self.scores.iter())
             .filter(|own| has_centred && own.filter == IDENTITY && own.alignment != centred)
             .filter_map(|own| own.ranked(centred, Metric::CommonFlip));
