@@ -1,7 +1,5 @@
 //! Filters that fail on a scene: the run goes on, and every output names the lost case.
 
-use std::fs;
-
 use tests::text::assert_contains;
 
 use crate::sandbox::{Sandbox, assert_done, assert_refused, split, stderr, stdout};

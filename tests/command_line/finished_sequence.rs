@@ -4,7 +4,7 @@ use std::fs;
 
 use frame::{display_srgb, write_png};
 use metrics::{SequenceMetric, SequenceScores};
-use tests::text::{assert_contains, read_rows};
+use tests::text::{Parts, assert_contains, read_rows};
 
 use crate::sandbox::{SCENE, Sandbox, assert_done, stdout};
 
@@ -96,7 +96,7 @@ fn blur_and_score_repeat_the_sequence_of_a_run() {
 fn assert_misfits_are_refused(sandbox: &Sandbox) {
     let parts = "--out: mine.exr is the name of one picture, and 3 are written";
     sandbox.refuse(&format!("{BLUR} mine.exr"), &[parts]);
-    let refuse = |words: &str, at: &str, parts: &[&str]| {
+    let refuse = |words: &str, at: &str, parts: &dyn Parts| {
         let files =
             format!("--truth out/plate{at}/truth_trailing.exr --frame out/plate{at}/frame.exr");
         sandbox.refuse(&format!("score {files} --image {words}"), parts);

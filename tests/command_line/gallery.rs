@@ -1,7 +1,5 @@
 //! The gallery of a finished run.
 
-use std::fs;
-
 use frame::read_png;
 use tests::text::assert_contains;
 

@@ -9,7 +9,7 @@ use frame::Alignment;
 use metrics::Metric;
 use tests::filter_folder::copy_shipped_filter;
 
-use crate::sandbox::{Files, Sandbox, assert_done, files_below, quick_command, split, stdout};
+use crate::sandbox::{Sandbox, assert_done, files_below, quick_command, split, stdout};
 
 /// Three presets of a filter of the tests' own, and the identity.
 const FILTERS: &str = "--filters identity --filter mine";

@@ -1,7 +1,5 @@
 //! Ranking of sequences: sorted, with intervals over scenes, with ties.
 
-use std::fs;
-
 use judge::{RANKED_BY, RankedSequence, rank_sequences, rank_sequences_on};
 use metrics::{Measured, PERFECT_JOD, SequenceMetric};
 use suite::Run;

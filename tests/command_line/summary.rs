@@ -1,7 +1,5 @@
 //! Summary of a run, as newcomers see it.
 
-use std::fs;
-
 use tests::text::assert_contains;
 
 use crate::sandbox::Sandbox;

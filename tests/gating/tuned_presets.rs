@@ -33,8 +33,8 @@ fn compare(name: &str, names: &[&str], width: u32, as_written: bool) -> (PairedC
     let render = settings([width, width * 9 / 16], 32);
     // Truths are kept between runs of the tests.
     let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join("tuned");
-    let names = [format!("{name}:tuned")];
-    let choices = select_filters(&names, None, &[], Programs::Refused);
+    let words = [format!("{name}:tuned")];
+    let choices = select_filters(&words, None, &[], Programs::Refused);
     let choice = choices.unwrap().remove(0).as_written(as_written);
     let mut presets = choice.filter.presets.iter();
     let tuned = presets.find_map(|preset| preset.tuned.as_ref()).unwrap();

@@ -4,7 +4,7 @@ use frame::{ColorSampling, Frame, VelocityKind};
 use glam::{DQuat, DVec3, Vec3};
 use tests::shapes::*;
 use tests::unwatched;
-use tracer::{Background, Key, RenderSettings, Scene, TraceError, Turn, trace_frame};
+use tracer::{Background, Key, Scene, TraceError, Turn, trace_frame};
 
 use crate::renders::{render_frame, settings, settings_with};
 use crate::scenery::{key, through};
@@ -104,10 +104,8 @@ fn a_frame_inside_its_guard_band_equals_the_bare_frame() {
     for velocity in VelocityKind::ALL {
         let settings = settings_with(SIZE, 4, velocity);
         let bare = render_frame(&scene, &settings);
-        let padded = RenderSettings {
-            guard_band: 5,
-            ..settings
-        };
+        let mut padded = settings;
+        padded.guard_band = 5;
         let padded = render_frame(&scene, &padded);
         assert_eq!(padded.size(), (SIZE[0] + 10, SIZE[1] + 10));
         let cropped = Frame {

@@ -67,10 +67,8 @@ fn a_textured_panel_hangs_upright_and_has_its_holes() {
 fn a_closed_glowing_sphere_has_the_radiance_of_the_geometric_series() {
     for albedo in [0.2, 0.5, 0.8] {
         let mut scene = empty_scene("furnace");
-        let walls = Material {
-            emission: Vec3::splat(1.0 - albedo),
-            ..diffuse(albedo)
-        };
+        let mut walls = diffuse(albedo);
+        walls.emission = Vec3::splat(1.0 - albedo);
         let motion = spin(DVec3::ZERO, DVec3::Y, 2.0);
         add(&mut scene, icosphere(3.0, 2), walls, motion);
         let truth = render_small_truth(&scene, 256);
@@ -194,10 +192,8 @@ fn a_surface_in_the_sun_s_shadow_is_black_and_a_hole_lets_it_through() {
     for (opacity, expected) in [(1.0, 0.0), (0.49, 0.6 / PI)] {
         let mut scene = grey_floor();
         scene.sun = sun(DVec3::Y, 1.0, 0.0);
-        let screen = Material {
-            opacity,
-            ..diffuse(0.0)
-        };
+        let mut screen = diffuse(0.0);
+        screen.opacity = opacity;
         let above = facing_up(DVec3::Y);
         add(&mut scene, rectangle(1.0, 1.0), screen, above);
         let what = format!("opacity {opacity}");
@@ -264,13 +260,7 @@ fn a_sky_and_its_image_light_a_floor_by_the_cosine() {
 fn a_small_bright_sun_in_an_image_is_found() {
     let mut scene = grey_floor();
     // One texel 39 degrees from straight up.
-    let bright = |x, y| {
-        if (x, y) == (20, 6) {
-            [1000.0; 3]
-        } else {
-            [0.0; 3]
-        }
-    };
+    let bright = |x, y| [f32::from((x, y) == (20, 6)) * 1000.0; 3];
     scene.background = map(64, 0.0, bright);
     // The bilinear tent around the texel's middle, by the midpoint rule.
     let steps = 200;

@@ -174,9 +174,10 @@ fn invalid_shutters_are_refused() {
     for never in [trapezoid(nan, 0.0), trapezoid(0.0, nan), table(&[1.0, nan])] {
         assert!(never.check().is_err(), "{never}");
     }
+    let (rolling, efficiency) = (-infinite, Efficiency::Box);
     let profile = ShutterProfile {
-        rolling: -infinite,
-        ..ShutterProfile::default()
+        efficiency,
+        rolling,
     };
     assert_eq!(profile.check(), Err(ShutterError::Rolling(-infinite)));
     let reversed = Shutter::new(0.75, 0.25).unwrap_err().to_string();

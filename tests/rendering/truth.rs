@@ -8,7 +8,7 @@ use glam::{DVec3, Vec3};
 use tests::shapes::*;
 use tests::statistics::{estimate_pixels, expect_pooled_agreement};
 use tests::unwatched;
-use tracer::{Background, Parent, RenderSettings, Scene, TruthTracer, trace_ladder};
+use tracer::{Background, Parent, Progress, RenderSettings, Scene, TruthTracer, trace_ladder};
 
 use crate::renders::{render_frame, render_ladder, render_truth, settings};
 use crate::scenery::sun;
@@ -131,9 +131,8 @@ fn a_ladder_s_rungs_average_midpoint_instants() {
         for half in &rung.halves {
             let found = half.coverage[1].pixels.chunks(WIDTH as usize);
             let off = found.flat_map(|row| row.iter().zip(&exact));
-            let squares: f64 = off
-                .map(|(found, exact)| (f64::from(*found) - exact).powi(2))
-                .sum();
+            let off = off.map(|(found, exact)| f64::from(*found) - exact);
+            let squares: f64 = off.map(|off| off * off).sum();
             let rms = (squares / f64::from(WIDTH * HEIGHT)).sqrt();
             // Still edges at 32 samples and more: 0.02 (prototype), and few pixels are edges.
             assert!(rms < 0.02, "{count} sub-frames: rms {rms}");
@@ -150,11 +149,11 @@ fn a_ladder_equals_the_truth_at_still_pixels_and_costs_no_more() {
     let settings = own_settings(512);
     let truth = render_truth(&scene, &settings, Alignment::Trailing);
     let work = AtomicU64::new(0);
-    let ladder = trace_ladder(&scene, &settings, &truth, &store::LADDER, &|progress| {
+    let watch = |progress: Progress| {
         work.store(progress.total, Ordering::Relaxed);
         ControlFlow::Continue(())
-    })
-    .expect("allowed");
+    };
+    let ladder = trace_ladder(&scene, &settings, &truth, &store::LADDER, &watch).expect("allowed");
     let whole = u64::from(WIDTH * HEIGHT * settings.samples_per_pixel);
     assert!(work.into_inner() <= whole);
     let mean = truth.mean();
@@ -176,13 +175,11 @@ fn the_motion_mask_is_the_coverage_of_objects_that_move_on_screen() {
     }
     // A dashboard.
     scene.objects[2].parent = Parent::Camera;
+    let along = drift(DVec3::ZERO, SPEED * DVec3::X);
     // Camera still, moving along, turning.
     for (camera, moving) in [
         (placed(DVec3::ZERO), [false, true, false, false]),
-        (
-            drift(DVec3::ZERO, SPEED * DVec3::X),
-            [false, false, true, false],
-        ),
+        (along, [false, false, true, false]),
         (spin(DVec3::ZERO, DVec3::Y, 0.2), [true, true, true, false]),
     ] {
         scene.camera.motion = camera;

@@ -29,10 +29,8 @@ fn intervals_of(pictures: &[&Picture], frame: &Frame, replicates: &[Replicate]) 
     let parts = truths_without_pairs(replicates).unwrap();
     assert_eq!(parts.len() as u64, REPLICATES / 2);
     let reference = |truth| Reference::new(frame, truth, None, &frame.display.into()).unwrap();
-    let (whole, parts) = (
-        reference(&truth),
-        parts.iter().map(reference).collect::<Vec<_>>(),
-    );
+    let whole = reference(&truth);
+    let parts: Vec<_> = parts.iter().map(reference).collect();
     let scores =
         |reference: &Reference, picture: &Picture| reference.measure(picture).unwrap().scores;
     let of_picture = |picture: &&Picture| {
@@ -74,12 +72,10 @@ fn trace_intervals(
     let truth = trace_truth(&scene, &converged, Alignment::Trailing, &unwatched).unwrap();
     let ladder = trace_ladder(&scene, &converged, &truth, &[4, 8], &unwatched).unwrap();
     let [four, eight] = [0, 1].map(|rung| Picture::mean(&ladder.rungs[rung].halves));
+    let oracle = scatter_oracle(&frame, truth.shutter, &truth.shutter_profile);
     let pictures = [
         ("the frame", frame.picture()),
-        (
-            "the oracle",
-            scatter_oracle(&frame, truth.shutter, &truth.shutter_profile),
-        ),
+        ("the oracle", oracle),
         ("4 sub-frames", four),
         ("8 sub-frames, moved", shift(&eight)),
     ];
@@ -97,10 +93,7 @@ fn trace_intervals(
         .collect();
     std::array::from_fn(|at| {
         let (name, picture) = &pictures[at];
-        let own = found
-            .iter()
-            .map(|intervals| intervals[at].clone())
-            .collect();
+        let own = found.iter().map(|it| it[at].clone()).collect();
         (*name, (own, measure_scores(picture, &frame, &truth)))
     })
 }

@@ -2,6 +2,7 @@
 
 /// Parts of a message: a list, or one text of them, `part | part`.
 pub trait Parts {
+    /// Lists the parts.
     fn list(&self) -> Vec<&str>;
 }
 

@@ -1,7 +1,5 @@
 //! Limits on scores of sequences.
 
-use std::fs;
-
 use judge::Outcome;
 use metrics::{Metric, SequenceMetric};
 use suite::Run;

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use suite::{Monitor, TRAVERSALS, Verification};
-use tests::text::assert_contains;
+use tests::text::{Parts, assert_contains};
 
 use super::{
     QUICK, change_manifest, change_replicate, entries, pack_forged, packed, refuse_forged,
@@ -148,7 +148,7 @@ fn no_pack_turns_a_failed_check_into_a_success() {
         });
     }
     renew_truth(&sandbox);
-    let refuse = |parts: &[&str]| {
+    let refuse = |parts: &dyn Parts| {
         let output = check("forged.tar.zst");
         assert_eq!(output.status.code(), Some(2), "{}", stdout(&output));
         assert_contains(&stderr(&output), parts);

@@ -12,6 +12,7 @@ use std::process::Output;
 
 use frame::{Replicate, Truth};
 use store::Manifest;
+use tests::text::Parts;
 
 use crate::sandbox::{Sandbox, assert_refused, split};
 use crate::shared_runs::QUICK;
@@ -44,7 +45,7 @@ fn pack_forged(sandbox: &Sandbox) {
 
 /// Checks that `verify` refuses `forged.tar.zst` with this exit code, and that a run refuses it and leaves nothing of it.
 #[track_caller]
-fn refuse_forged(sandbox: &Sandbox, code: i32, parts: &[&str]) {
+fn refuse_forged(sandbox: &Sandbox, code: i32, parts: &(impl Parts + ?Sized)) {
     let verified = sandbox.shuttertruth(&split("truths verify forged.tar.zst"));
     assert_refused(&verified, code, parts);
     let line = "run --filter identity --truths forged.tar.zst --out fresh";

@@ -5,8 +5,6 @@ mod layers;
 mod page;
 mod tuning;
 
-use std::fs;
-
 use crate::sandbox::Sandbox;
 
 const REPORT: &str = "report out/run.json --html page/report.html";

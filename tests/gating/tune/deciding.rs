@@ -58,6 +58,13 @@ fn make_trials(rows: &[(i32, [f64; 4])]) -> Vec<Trial> {
         flip: *flip,
         bleed: None,
     };
+    let scenes = |flips: &[f64; 4]| {
+        ["a", "b", "c", "d"]
+            .map(str::to_owned)
+            .into_iter()
+            .zip(flips.iter().map(score))
+            .collect()
+    };
     let make = |(trial, (samples, flips)): (usize, &(i32, [f64; 4]))| Trial {
         trial,
         values: BTreeMap::from([("samples".to_owned(), Value::Integer(*samples))]),
@@ -66,11 +73,7 @@ fn make_trials(rows: &[(i32, [f64; 4])]) -> Vec<Trial> {
         error: None,
         bleed: Some(f64::from(*samples) / 8.0),
         cost: Some(f64::from(*samples) / 8.0),
-        scenes: ["a", "b", "c", "d"]
-            .map(str::to_owned)
-            .into_iter()
-            .zip(flips.iter().map(score))
-            .collect(),
+        scenes: scenes(flips),
     };
     rows.iter().enumerate().map(make).collect()
 }
@@ -109,13 +112,8 @@ fn the_choice_among_equal_candidates_is_the_nearest_to_the_start() {
 
 #[test]
 fn limits_and_failures_keep_trials_out_of_the_choice() {
-    let rows = [
-        (8, [0.1; 4]),
-        (16, [0.02; 4]),
-        (12, [0.05; 4]),
-        (4, [0.06; 4]),
-    ];
-    let mut trials = make_trials(&rows);
+    let rows = [(8, 0.1), (16, 0.02), (12, 0.05), (4, 0.06)];
+    let mut trials = make_trials(&rows.map(|(samples, flip)| (samples, [flip; 4])));
     let chosen = |trials: &[Trial], cost, bleed| choose(trials, ChoiceLimits { cost, bleed }).trial;
     assert_eq!(chosen(&trials, None, None), 1);
     assert_eq!(chosen(&trials, Some(1.5), None), 2);
@@ -138,12 +136,8 @@ fn a_choice_that_suits_only_one_family_shows_its_gap() {
     let validate = |families: &[(&'static str, &str)]| {
         let names = |scenes: &str| scenes.split(' ').map(str::to_owned).collect();
         let families = families.iter().map(|(name, scenes)| (*name, names(scenes)));
-        cross_validate(
-            &trials,
-            &space(),
-            ChoiceLimits::default(),
-            &families.collect(),
-        )
+        let limits = ChoiceLimits::default();
+        cross_validate(&trials, &space(), limits, &families.collect())
     };
     let folds = validate(&[("camera", "a b"), ("thin", "c d")]);
     let two = 2f64.ln();
@@ -165,12 +159,12 @@ fn lower_error_on_every_scene_is_better_and_on_half_of_them_undecided() {
             flip,
             bleed: Some(10.0 * flip),
         };
-        let pairs = first.iter().zip(second).enumerate();
-        PairedComparison::new(
-            pairs
-                .map(|(scene, (one, other))| (scene.to_string(), [score(*one), score(*other)]))
-                .collect(),
-        )
+        let pairs = first
+            .iter()
+            .zip(second)
+            .map(|(a, b)| [score(*a), score(*b)]);
+        let names = ["a", "b", "c", "d", "e"].map(str::to_owned);
+        PairedComparison::new(names.into_iter().zip(pairs).collect())
     };
     let high = [0.2, 0.3, 0.1, 0.2, 0.1];
     let low = [0.1, 0.2, 0.08, 0.15, 0.07];

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use filters::{Filter, Value};
-use tests::text::assert_contains;
+use tests::text::{assert_contains, read_rows};
 use tune::{Search, Space};
 
 fn jump_flood() -> Filter {
@@ -19,12 +19,11 @@ fn make_space(vary: &[&str]) -> Result<Space, String> {
 
 #[test]
 fn exactly_the_tunable_parameters_are_axes() {
-    let names: Vec<String> = (make_space(&[]).unwrap().axes.iter())
-        .map(|axis| axis.name.clone())
-        .collect();
-    assert!(names.contains(&"samples".to_owned()));
+    let axes = make_space(&[]).unwrap().axes;
+    let has = |name: &str| axes.iter().any(|axis| axis.name == name);
+    assert!(has("samples"));
     for fixed in ["intensity", "metric", "near_plane"] {
-        assert!(!names.contains(&fixed.to_owned()), "{fixed} is not tunable");
+        assert!(!has(fixed), "{fixed} is not tunable");
     }
 }
 
@@ -71,33 +70,18 @@ fn the_search_reaches_every_whole_number_and_choice_and_no_other() {
 
 #[test]
 fn fixed_parameters_are_refused_with_the_variable_ones() {
-    for (words, parts) in [
-        (
-            "sample",
-            "parameter sample:|no parameter \"sample\"|allowed: samples",
-        ),
-        (
-            "metric",
-            "parameter metric:|tunable = false|allowed: samples",
-        ),
-        (
-            "samples=16..4",
-            "parameter samples=16..4:|the range is empty|from 1 to 64|samples=4..16",
-        ),
-        ("samples=4..4", "parameter samples=4..4:|the range is empty"),
-        (
-            "samples=0..4",
-            "parameter samples=0..4:|no range within|from 1 to 64",
-        ),
-        ("samples=4", "parameter samples=4:|no range within"),
-        (
-            "jitter=a..b",
-            "parameter jitter=a..b:|a choice has no range",
-        ),
-        ("samples samples", "named twice"),
-    ] {
+    for (words, parts) in read_rows(
+        "
+        sample => parameter sample: | no parameter \"sample\" | allowed: samples
+        metric => parameter metric: | tunable = false | allowed: samples
+        samples=16..4 => parameter samples=16..4: | the range is empty | from 1 to 64 | samples=4..16
+        samples=4..4 => parameter samples=4..4: | the range is empty
+        samples=0..4 => parameter samples=0..4: | no range within | from 1 to 64
+        samples=4 => parameter samples=4: | no range within
+        jitter=a..b => parameter jitter=a..b: | a choice has no range
+        samples samples => named twice",
+    ) {
         let words: Vec<&str> = words.split(' ').collect();
-        let parts: Vec<&str> = parts.split('|').collect();
         assert_contains(&make_space(&words).unwrap_err(), &parts);
     }
     let identity = Filter::builtin("identity").unwrap();

@@ -8,7 +8,7 @@ mod placement;
 use frame::{Alignment, Truth};
 use glam::DVec3;
 use tests::shapes::*;
-use tracer::{RenderSettings, Scene};
+use tracer::Scene;
 
 use crate::renders::{render_truth, settings_of_two};
 
@@ -25,10 +25,8 @@ const EXPOSURE: f64 = 0.75;
 const STEP_ERROR: f64 = 0.012;
 
 fn render(scene: &Scene, alignment: Alignment, samples_per_pixel: u32) -> Truth {
-    let settings = RenderSettings {
-        exposure: Some(EXPOSURE),
-        ..settings_of_two([WIDTH, HEIGHT], samples_per_pixel)
-    };
+    let mut settings = settings_of_two([WIDTH, HEIGHT], samples_per_pixel);
+    settings.exposure = Some(EXPOSURE);
     render_truth(scene, &settings, alignment)
 }
 

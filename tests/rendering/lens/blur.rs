@@ -41,11 +41,8 @@ fn motion_and_defocus_are_the_convolution_of_a_box_and_a_disc() {
         let [aperture, focus] = blur;
         let normal = DVec2::from_angle(angle);
         let along = |time: f64| 2.3 + speed * time;
-        let scene = with_lens(
-            half_plane_scene(normal, &[-1.0, 1.0], along),
-            aperture,
-            focus,
-        );
+        let edge = half_plane_scene(normal, &[-1.0, 1.0], along);
+        let scene = with_lens(edge, aperture, focus);
         let what = format!("speed {speed}, focus {focus}");
         expect_coverage(&what, &scene, alignment, |pixel, shutter| {
             // Dense enough for an edge blurred by a lens.

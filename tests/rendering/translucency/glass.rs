@@ -35,10 +35,8 @@ fn a_slanted_pane_mirrors_what_lies_beside_it() {
     // At 45 degrees the pane shows the sky at the zenith.
     let mut scene = empty_scene("slanted");
     scene.background = heights(0.0, 0.0, 1.0);
-    let tilted = turned(
-        DVec3::new(0.0, 0.0, -4.0),
-        DQuat::from_rotation_x(-FRAC_PI_4),
-    );
+    let turn = DQuat::from_rotation_x(-FRAC_PI_4);
+    let tilted = turned(DVec3::new(0.0, 0.0, -4.0), turn);
     let pane = glass(1.5, Vec3::ONE);
     add(&mut scene, rectangle(1.0, 1.0), pane, tilted);
     scene.camera.vertical_fov = vec![(0.0, 0.002)];

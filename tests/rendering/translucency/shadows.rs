@@ -19,10 +19,8 @@ fn floor_scene(panes: &[Material]) -> Scene {
 }
 
 fn mean(scene: &Scene, samples_per_pixel: u32) -> Vec3 {
-    let pixels = render_small_truth(scene, samples_per_pixel)
-        .mean()
-        .color
-        .pixels;
+    let pixels = render_small_truth(scene, samples_per_pixel).mean();
+    let pixels = pixels.color.pixels;
     pixels.iter().map(|pixel| Vec3::from(*pixel)).sum::<Vec3>() / pixels.len() as f32
 }
 

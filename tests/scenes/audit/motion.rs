@@ -58,20 +58,13 @@ fn other_motion_of_shipped_scenes_is_named() {
 #[test]
 fn a_wrong_sign_is_named_together_with_another_cause() {
     let scene = load_moving();
-    let over_0_4 = PointMotion {
-        over: 0.4,
-        ..PointMotion::RIGHT
-    };
-    let derivative = trace_motion(
-        &scene,
-        &settings(VelocityKind::Instantaneous),
-        &PointMotion::RIGHT,
-    );
+    let mut over_0_4 = PointMotion::RIGHT;
+    over_0_4.over = 0.4;
+    let instant = settings(VelocityKind::Instantaneous);
+    let derivative = trace_motion(&scene, &instant, &PointMotion::RIGHT);
+    let without_camera = trace_velocity(&scene, &PointMotion::WITHOUT_CAMERA);
     for (cause, velocity) in [
-        (
-            Cause::CameraMotionMissing,
-            trace_velocity(&scene, &PointMotion::WITHOUT_CAMERA),
-        ),
+        (Cause::CameraMotionMissing, without_camera),
         (Cause::HalfFrameOff, derivative.unwrap().velocity),
         (Cause::MotionOver(60.0), trace_velocity(&scene, &over_0_4)),
     ] {

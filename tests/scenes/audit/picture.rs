@@ -84,15 +84,12 @@ fn rows_upside_down_are_named() {
         changes.iter().for_each(|change| change(&mut capture));
         capture
     };
+    let ids: Change = |it| flip(it.object_id.as_mut().unwrap());
     let rows: [(Change, Buffer, bool); 4] = [
         (|it| flip(&mut it.color), Buffer::Color, true),
         (|it| flip(&mut it.depth), Buffer::Depth, true),
         (|it| flip(&mut it.velocity), Buffer::Velocity, true),
-        (
-            |it| flip(it.object_id.as_mut().unwrap()),
-            Buffer::ObjectId,
-            false,
-        ),
+        (ids, Buffer::ObjectId, false),
     ];
     let all = changed(&rows.map(|(change, ..)| change));
     let alone = rows.map(|(change, buffer, shows)| (changed(&[change]), buffer, shows));

@@ -11,20 +11,10 @@ fn a_constant_picture_keeps_the_energy_and_fails_everything_else() {
     let [scores] = &disc.score_pictures([constant(&disc.truth.mean())]);
     // The mean matte times the pixels, rounded to 32 bits.
     assert_scores("a constant", scores, &[("energy", 1.0, 1e-4)]);
-    let pixels = [
-        "bleed_lateral",
-        "bleed_leading",
-        "bleed_trailing",
-        "lateral_growth",
-        "row_loss",
-    ];
-    assert_large("a constant", scores, &pixels);
-    for (name, least) in [
-        ("misplacement", 10.0),
-        ("extent", 2.0),
-        ("label_tv", 0.1),
-        ("flip_moving", 0.1),
-    ] {
+    let pixels = "bleed_lateral bleed_leading bleed_trailing lateral_growth row_loss";
+    assert_large("a constant", scores, pixels);
+    let others = "misplacement extent label_tv flip_moving".split(' ');
+    for (name, least) in others.zip([10.0, 2.0, 0.1, 0.1]) {
         let found = find_value(scores, name);
         assert!(found > least, "{name}: {found}");
     }

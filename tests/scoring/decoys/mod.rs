@@ -13,9 +13,7 @@ use tests::synthetic::{Blur, Object, Sampling, Scene, Shape, VIEWING};
 use crate::{clean_truth, find_value, scene};
 
 const RADIUS: f64 = 14.0;
-
 const TRAVEL: f64 = 30.0;
-
 const ANGLES: [f64; 4] = [0.0, 30.0, 45.0, 90.0];
 
 /// Tolerance of the mass of rows. A box pixel samples the outline of rows at an angle inexactly: measured below 0.02 px
@@ -73,8 +71,8 @@ fn discs() -> impl Iterator<Item = (f64, &'static Case)> {
 
 /// Expects scores above 1: pixels that everybody notices.
 #[track_caller]
-fn assert_large(what: &str, scores: &Scores, names: &[&str]) {
-    for name in names {
+fn assert_large(what: &str, scores: &Scores, names: &str) {
+    for name in names.split(' ') {
         let found = find_value(scores, name);
         assert!(found > 1.0, "{name} of {what}: {found}");
     }

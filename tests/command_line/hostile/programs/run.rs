@@ -1,6 +1,5 @@
 //! Filters that are programs: permission, environment, end.
 
-use std::fs;
 use std::process::{Command, Output};
 
 use frame::{ExrFile, Raster, write_exr};

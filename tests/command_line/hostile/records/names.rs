@@ -4,7 +4,7 @@ use std::fs;
 
 use frame::Frame;
 
-use crate::sandbox::{SCENE, Sandbox, split};
+use crate::sandbox::{SCENE, Sandbox};
 
 const RENDER: &str = "truths render --quiet --out r --samples-per-pixel 16";
 

@@ -5,7 +5,7 @@ use std::fs;
 use frame::{Raster, Replicate, read_exr, write_exr};
 
 use super::pictures::enlarge;
-use crate::sandbox::{Sandbox, make_fifo, split};
+use crate::sandbox::{Sandbox, make_fifo};
 
 const SECOND: &str = "b/plate/truth_trailing/replicate_001.exr";
 

@@ -4,7 +4,7 @@ use std::fs;
 
 use crate::hostile::claims::{Claim, claims, png};
 use crate::rows::rows;
-use crate::sandbox::{Sandbox, split};
+use crate::sandbox::Sandbox;
 use frame::{ExrFile, Samples, read_exr, write_exr};
 
 const TRUTH: &str = "out/plate/truth_trailing.exr";

@@ -6,7 +6,7 @@ use std::path::Path;
 use tests::text::assert_contains;
 
 use super::{RENDER, with_sky, with_texture};
-use crate::sandbox::{SCENE, Sandbox, make_fifo, split};
+use crate::sandbox::{SCENE, Sandbox, make_fifo};
 
 #[cfg(unix)]
 #[test]
