@@ -6,8 +6,7 @@ use std::process::{Command, Output};
 use tests::root;
 use tests::text::assert_contains;
 
-use crate::python::python_with;
-use crate::sandbox::{stderr, stdout};
+use crate::sandbox::{python_with, stderr, stdout};
 
 /// Runs examples/fidelity/compare.py.
 fn compare(more: &[&str]) -> Output {

@@ -5,8 +5,7 @@ use std::process::Command;
 use serde_json::Value;
 use tests::text::assert_contains;
 
-use crate::python::python_with;
-use crate::sandbox::{Sandbox, assert_done, split, stderr, stdout};
+use crate::sandbox::{Sandbox, assert_done, python_with, split, stderr, stdout};
 
 #[test]
 fn a_run_of_copies_is_merged_judged_and_reported() {

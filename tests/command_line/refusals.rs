@@ -4,10 +4,9 @@ use std::fs;
 
 use tests::filter_folder::write_manifest;
 
-use crate::rows::rows;
 use crate::sandbox::{
-    OBJ, SCENE, Sandbox, assert_done, assert_ends_at_ctrl_c, assert_refused, files_below, split,
-    wait_until_busy,
+    OBJ, SCENE, Sandbox, assert_done, assert_ends_at_ctrl_c, assert_refused, files_below, rows,
+    split, wait_until_busy,
 };
 
 #[test]

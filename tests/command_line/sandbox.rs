@@ -403,3 +403,38 @@ pub fn quick_command<'a>(command: &'a str, samples_per_pixel: &'a str) -> Vec<&'
     let words = split("--quiet --out out --size 64x32 --samples-per-pixel");
     [&[command], &words[..], &[samples_per_pixel]].concat()
 }
+
+/// Returns a Python with these packages. `make test` installs them and names it in PYTHON.
+pub fn python_with(packages: &[&str]) -> String {
+    let python = std::env::var("PYTHON").unwrap_or("python3".to_owned());
+    // Finding them is faster than importing them.
+    let find = "import sys; from importlib.util import find_spec; \
+        sys.exit(any(not find_spec(own) for own in sys.argv[1:]))";
+    let found = Command::new(&python)
+        .args(["-c", find])
+        .args(packages)
+        .output();
+    assert!(
+        found.is_ok_and(|output| output.status.success()),
+        "{python} lacks one of {packages:?}: `make test` installs them; or pip install them, and set \
+         PYTHON to the Python that has them"
+    );
+    python
+}
+
+/// Reads the rows of a table, with a static lifetime.
+pub fn rows(toml: &str, table: &str) -> Vec<Vec<&'static str>> {
+    let tables: toml::Table = toml.parse().unwrap();
+    let rows: Vec<Vec<String>> = tables[table].clone().try_into().unwrap();
+    assert!(!rows.is_empty(), "{table} has no rows");
+    let leak = |row: Vec<String>| row.into_iter().map(|text| &*text.leak());
+    rows.into_iter().map(|row| leak(row).collect()).collect()
+}
+
+/// Divides a row into changes, each `from => to`, and the required words of an error.
+pub fn divide(row: &[&'static str]) -> (Vec<(&'static str, &'static str)>, Vec<&'static str>) {
+    let (changes, words): (Vec<&str>, Vec<&str>) =
+        row.iter().partition(|text| text.contains(" => "));
+    let change = |text: &'static str| text.split_once(" => ").unwrap();
+    (changes.into_iter().map(change).collect(), words)
+}

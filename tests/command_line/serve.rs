@@ -9,8 +9,7 @@ use std::process::{ChildStdin, Command, Stdio};
 use serde_json::{Value, json};
 use tests::text::{assert_contains, read_rows};
 
-use crate::python::python_with;
-use crate::sandbox::{Sandbox, split, stderr, stdout, wait_until};
+use crate::sandbox::{Sandbox, python_with, split, stderr, stdout, wait_until};
 
 pub const SERVE: &str = "tune serve --quiet --filter jump_flood --objective flip --size 64x32 \
     --samples-per-pixel 16 --out out";

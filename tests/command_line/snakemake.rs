@@ -7,8 +7,7 @@ use std::time::{Duration, Instant};
 
 use tests::text::assert_contains;
 
-use crate::python::python_with;
-use crate::sandbox::{Sandbox, split, stderr, stdout};
+use crate::sandbox::{Sandbox, python_with, split, stderr, stdout};
 
 /// Words after `plan` and `run`.
 const WORDS: &str =

@@ -1,18 +1,18 @@
-//! A worker process, as its parent sees it.
+//! A worker process: as its parent sees it, and its work. Its end does not end the fuzzer.
 
 use std::fs::File;
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, Write};
 use std::ops::Range;
 use std::os::unix::process::{CommandExt, ExitStatusExt};
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, Command, ExitCode, Stdio};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
 use crate::options::Options;
-use crate::place::last_lines;
+use crate::place::{Place, last_lines};
+use crate::seeds::Seeds;
 use crate::target::Target;
-use crate::worker::MARK;
 
 /// Address space of a worker, and of every program that it starts, in KiB.
 const MEMORY: u64 = 4 << 20;
@@ -120,4 +120,38 @@ fn describe_end(child: &mut Child, panic: Option<String>, stderr: &Path) -> Opti
         (code, None) => format!("exit code {}", code.unwrap_or_default()),
     };
     Some(format!("ended by {how}: {}", last_lines(stderr)))
+}
+
+/// Prefix of every line for the parent.
+pub const MARK: &str = "@fuzz ";
+
+/// Tries inputs one by one and reports each to the parent; ends at the first panic.
+pub fn work(options: &Options, cases: Range<u64>) -> ExitCode {
+    std::panic::set_hook(Box::new(|panic| {
+        say(&panic.to_string().replace('\n', " "));
+    }));
+    let target = options.targets[0];
+    let mut place = Place::new(target.name, &options.fixture);
+    let seeds = Seeds::read(target, options, &place);
+    for case in cases {
+        let input = seeds.make(&place, case);
+        say(&format!("begin {case}"));
+        let read = (target.run)(&mut place, &input);
+        let is_refused = read.is_none() && seeds.is_valid(case);
+        assert!(!is_refused, "a valid seed was refused");
+        place.check();
+        say("done");
+    }
+    ExitCode::SUCCESS
+}
+
+fn say(line: &str) {
+    let mut out = std::io::stdout().lock();
+    // If the parent is gone, nobody reads the line.
+    if writeln!(out, "{MARK}{line}")
+        .and_then(|()| out.flush())
+        .is_err()
+    {
+        std::process::exit(0);
+    }
 }

@@ -14,8 +14,7 @@ use tracer::{
 };
 
 use crate::lens::with_lens;
-use crate::renders::{render_frame, render_ladder, render_truth, settings};
-use crate::scenery::sun;
+use crate::renders::{render_frame, render_ladder, render_truth, settings, sun};
 use crate::translucency::{film, glass};
 
 const RUNGS: [u32; 3] = [1, 4, 16];

@@ -6,8 +6,7 @@ use tests::shapes::*;
 use tests::unwatched;
 use tracer::{Background, Key, Scene, TraceError, Turn, trace_frame};
 
-use crate::renders::{render_frame, settings, settings_with};
-use crate::scenery::{key, through};
+use crate::renders::{key, render_frame, settings, settings_with, through};
 
 const SIZE: [u32; 2] = [36, 24];
 

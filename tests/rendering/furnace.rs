@@ -9,8 +9,10 @@ use tests::statistics::{estimate_pixels, expect_pooled_agreement};
 use tracer::{Background, EnvironmentMap, Key, Material, Scene, Texture};
 
 use crate::deforming::deforming_mesh;
-use crate::renders::{expect_near, mean_radiance, render_small_truth};
-use crate::scenery::{facing_up, floor_scene, heights, sun, through, turned};
+use crate::renders::{
+    expect_near, facing_up, floor_scene, heights, mean_radiance, render_small_truth, sun, through,
+    turned,
+};
 use crate::translucency::{film, glass};
 
 /// Fails unless the first component agrees with one known value.

@@ -9,8 +9,7 @@ use tests::random::{Numbers, hash};
 use tests::shapes::*;
 use tracer::{Background, Key, Mesh, Motion, Ray, Scene, Stage};
 
-use crate::renders::{expect_near, render_truth, settings_of_two};
-use crate::scenery::sun;
+use crate::renders::{expect_near, render_truth, settings_of_two, sun};
 
 #[test]
 fn a_square_has_no_hole_along_its_diagonals() {

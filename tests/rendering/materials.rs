@@ -4,8 +4,7 @@ use glam::{DVec3, Vec3};
 use tests::shapes::*;
 use tracer::{Background, Finish, Material};
 
-use crate::renders::{expect_near, mean_radiance};
-use crate::scenery::{floor_scene, fresnel, heights};
+use crate::renders::{expect_near, floor_scene, fresnel, heights, mean_radiance};
 
 const fn metal(roughness: f32) -> Finish {
     Finish::Conductor { roughness }

@@ -8,8 +8,7 @@ use tests::shapes::*;
 use tests::statistics::{coverage_estimates, expect_agreement, expect_total};
 use tracer::{Key, Mesh, RenderSettings, Scene};
 
-use crate::renders::{render_truth, settings};
-use crate::scenery::through;
+use crate::renders::{render_truth, settings, through};
 
 pub const WIDTH: u32 = 32;
 pub const HEIGHT: u32 = 18;

@@ -9,8 +9,7 @@ use tracer::{
     trace_frame_part, trace_motion_on,
 };
 
-use crate::renders::{render_frame, settings_with};
-use crate::scenery::{key, through};
+use crate::renders::{key, render_frame, settings_with, through};
 
 const WIDTH: u32 = 36;
 const HEIGHT: u32 = 24;

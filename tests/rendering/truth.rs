@@ -1,17 +1,19 @@
-//! Truths and accumulations: stillness, independent halves, sub-frames, motion masks.
+//! Truths and accumulations: stillness, independent halves, sub-frames and their worth, motion masks.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use frame::{Alignment, FAR_DEPTH, Plane, Replicate, Truth};
+use frame::{Alignment, FAR_DEPTH, Picture, Plane, Replicate, Truth};
 use glam::{DVec3, Vec3};
+use metrics::{Metric, Reference};
 use tests::shapes::*;
 use tests::statistics::{estimate_pixels, expect_pooled_agreement};
 use tests::unwatched;
-use tracer::{Background, Parent, Progress, RenderSettings, Scene, TruthTracer, trace_ladder};
+use tracer::{
+    Background, Parent, Progress, RenderSettings, Scene, TruthTracer, load_scene, trace_ladder,
+};
 
-use crate::renders::{render_frame, render_ladder, render_truth, settings};
-use crate::scenery::sun;
+use crate::renders::{expect_near, render_frame, render_ladder, render_truth, settings, sun};
 
 const WIDTH: u32 = 48;
 const HEIGHT: u32 = 18;
@@ -204,5 +206,31 @@ fn a_frame_holds_the_instant_and_not_the_shutter() {
         assert!((frame.depth.at(x, y) / depth - 1.0).abs() < 1e-6);
         let velocity = if inside { SPEED } else { 0.0 };
         assert!((f64::from(frame.velocity.at(x, y)[0]) - velocity).abs() < 1e-5);
+    }
+}
+
+#[test]
+fn n_subframes_are_worth_n() {
+    let folder = tests::scenes().join("sliding_panel");
+    // 128 px per frame at 640x360 are 8 px over this shutter and size: 8 sub-frames are a pixel apart, so the error of each count is
+    // well above the noise.
+    let scene = load_scene(&folder, Some("128px_30deg")).unwrap();
+    let mut settings = settings([80, 45], 512);
+    settings.exposure = Some(1.0);
+    let mut coarse = settings;
+    coarse.samples_per_pixel = 64;
+    let frame = render_frame(&scene, &coarse);
+    let truth = render_truth(&scene, &settings, Alignment::Trailing);
+    let ladder = render_ladder(&scene, &settings, &truth, &store::LADDER);
+    let reference = Reference::new(&frame, &truth, Some(&ladder), &scene.display.into()).unwrap();
+    // Another seed than the reference's.
+    let mut again = settings;
+    again.seed = 2;
+    for rung in render_ladder(&scene, &again, &truth, &[2, 4, 8]).rungs {
+        let measured = reference.measure(&Picture::mean(&rung.halves));
+        let scores = measured.unwrap().scores;
+        let n = f64::from(rung.subframes);
+        let found = scores.get(Metric::SUBFRAMES).value().unwrap();
+        expect_near(&format!("{n} sub-frames"), found, n, 0.05 * n);
     }
 }

@@ -3,7 +3,7 @@
 use image::{ImageBuffer, Rgb32FImage};
 use tracer::{Background, Finish};
 
-use crate::scene_folder::Folder;
+use crate::Folder;
 
 /// Loads the finish of the second object's material `paint`, with more MTL statements and more keys of its table in the scene.
 fn load_finish(statements: &str, keys: &str) -> Finish {

@@ -5,8 +5,7 @@ use tests::text::{assert_contains, read_rows};
 use tests::{settings, unwatched};
 use tracer::{FrameRate, RenderSettings, Scene, load_scene, trace_frame, trace_truth};
 
-use crate::scene_folder::Folder;
-use crate::{load_shipped, shipped};
+use crate::{Folder, load_shipped, shipped};
 
 const WIDTH: u32 = 64;
 const HEIGHT: u32 = 18;

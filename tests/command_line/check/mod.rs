@@ -1,7 +1,6 @@
 //! `check`: bounds as users see them.
 
 mod calibrated;
-mod finished_run;
 mod formats;
 mod outcomes;
 mod sequences;

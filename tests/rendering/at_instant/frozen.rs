@@ -8,8 +8,9 @@ use tests::shapes::*;
 use tracer::{Background, Finish, Key, Material};
 
 use super::{DISTANCE, EXPOSURE, HEIGHT, SPEED, WIDTH, panel_over_wall, render};
-use crate::renders::{expect_near, mean_of, render_frame, settings};
-use crate::scenery::{facing_up, heights, sun, through};
+use crate::renders::{
+    expect_near, facing_up, heights, mean_of, render_frame, settings, sun, through,
+};
 
 #[test]
 fn the_frozen_truth_of_a_still_scene_equals_its_truth() {

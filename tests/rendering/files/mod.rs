@@ -110,7 +110,7 @@ fn a_truth_that_was_changed_is_refused() {
         |file| file.set("shutter_efficiency", "table 1 x"),
         |file| file.set("shutter_efficiency", "table 1 2"),
     ];
-    let words = "truth.exr: holds no support; make it anew with `shuttertruth truths render`
+    let words = "truth.exr: holds no support (channels support.*), which older versions of shuttertruth did not write; make it anew with `shuttertruth truths render`
         lacks the channel \"support.unknowable\"
         holds 0.5; allowed: 0 and 1
         attribute \"shutter_efficiency\" holds \"round\", which cannot be read

@@ -12,8 +12,7 @@ use crate::moving_shapes::{
     DISTANCE, HEIGHT, SPEED, WIDTH, expect_coverage, half_plane_scene, mean_over_pixel,
     pixel_corner,
 };
-use crate::renders::{expect_near, render_frame, settings};
-use crate::scenery::heights;
+use crate::renders::{expect_near, heights, render_frame, settings};
 
 /// Apertures and focus distances in front of the shapes and behind them. The circle of confusion at the shapes has a diameter of
 /// aperture x |distance - focus| / focus = 5 metres, and a metre there is a pixel.

@@ -7,8 +7,7 @@ use tests::unwatched;
 use tracer::{PixelGrid, Scene, trace_frame_part};
 
 use super::with_lens;
-use crate::renders::{expect_near, render_frame, render_truth, settings_of_two};
-use crate::scenery::{heights, turned};
+use crate::renders::{expect_near, heights, render_frame, render_truth, settings_of_two, turned};
 
 const SIZE: [u32; 2] = [20, 12];
 /// Focal length in pixels, at a vertical field of view of 90 degrees.

@@ -1,7 +1,6 @@
 //! Translucent surfaces against known answers.
 
 mod buffers;
-mod glass;
 mod panes;
 mod shadows;
 

@@ -5,12 +5,11 @@ use tests::shapes::*;
 use tracer::{Background, Material, Scene};
 
 use super::{assert_near, film, glass};
-use crate::renders::render_small_truth;
-use crate::scenery::{self, facing_up, heights, sun};
+use crate::renders::{self, facing_up, heights, render_small_truth, sun};
 
 /// Makes a floor of albedo 0.6, with a spot around the origin that the camera sees from below any pane.
 fn floor_scene(panes: &[Material]) -> Scene {
-    let mut scene = scenery::floor_scene(diffuse(0.6));
+    let mut scene = renders::floor_scene(diffuse(0.6));
     for (index, pane) in panes.iter().enumerate() {
         let height = facing_up(DVec3::new(0.0, 3.0 + index as f64, 0.0));
         add(&mut scene, rectangle(2000.0, 2000.0), pane.clone(), height);

@@ -3,7 +3,7 @@
 use glam::Vec3;
 use tracer::{Material, Translucency};
 
-use crate::scene_folder::{Folder, SCENE};
+use crate::{Folder, SCENE};
 
 #[test]
 fn a_material_can_change_for_one_object_only() {

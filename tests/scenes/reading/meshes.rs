@@ -3,7 +3,7 @@
 use glam::{Vec2, Vec3};
 use tracer::load_scene;
 
-use crate::scene_folder::{Folder, MTL, OBJ};
+use crate::{Folder, MTL, OBJ};
 
 #[test]
 fn a_group_is_a_mesh_of_its_own_and_faces_keep_their_materials() {

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use glam::DVec3;
 use tracer::{Interpolation, load_scene};
 
-use crate::scene_folder::Folder;
+use crate::Folder;
 
 /// Loads the scene with other keys for its body.
 fn load_with_keys(keys: &str) -> tracer::Scene {

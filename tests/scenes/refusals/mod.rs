@@ -6,7 +6,7 @@ use image::{ImageBuffer, Rgb32FImage};
 use tracer::{SceneError, list_scenes, load_scene};
 
 use crate::appearance::{counting_image, folder_with_background};
-use crate::scene_folder::{Folder, OBJ, SCENE};
+use crate::{Folder, OBJ, SCENE};
 
 /// A mistake in a file of a scene.
 struct Slip<'a> {

@@ -2,7 +2,6 @@
 
 mod names;
 mod pooling;
-mod refusals;
 mod silence;
 
 use tests::synthetic::{Object, Scene, Shape};

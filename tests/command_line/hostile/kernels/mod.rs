@@ -8,8 +8,7 @@ use std::process::Output;
 use filters::Filter;
 
 use crate::hostile::terminal::assert_tame;
-use crate::rows::{divide, rows};
-use crate::sandbox::{Sandbox, assert_refused};
+use crate::sandbox::{Sandbox, assert_refused, divide, rows};
 
 /// Makes a sandbox with the filter `mine`, after these replacements in its files.
 fn write_mine(changes: &[(&str, &str)]) -> Sandbox {

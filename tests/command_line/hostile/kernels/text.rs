@@ -4,8 +4,7 @@ use std::fs;
 use std::time::{Duration, Instant};
 
 use super::{list, load, refuse_rows, write_mine};
-use crate::rows::rows;
-use crate::sandbox::{Sandbox, assert_done, assert_refused, make_fifo, stderr};
+use crate::sandbox::{Sandbox, assert_done, assert_refused, make_fifo, rows, stderr};
 
 #[test]
 fn deep_kernels_load_or_are_refused_with_their_line() {

@@ -13,8 +13,7 @@ use serde_json::{Value, json};
 use suite::{Error, Run, StoredRun};
 use tests::text::assert_contains;
 
-use crate::rows::rows;
-use crate::sandbox::{Sandbox, assert_refused, split};
+use crate::sandbox::{Sandbox, assert_refused, rows, split};
 
 /// Collects the JSON pointers of all values, but only of the first case and object: the others are alike.
 fn pointers(value: &Value, at: &str, all: &mut Vec<String>) {

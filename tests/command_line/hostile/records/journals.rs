@@ -4,8 +4,7 @@ use std::fs;
 
 use serde_json::Value;
 
-use crate::rows::rows;
-use crate::sandbox::{Sandbox, make_fifo};
+use crate::sandbox::{Sandbox, make_fifo, rows};
 
 const TUNE: &str = "tune search --quiet --filter jump_flood --vary samples --objective flip --size 64x32 \
                     --samples-per-pixel 16 --out tuned --budget 3";

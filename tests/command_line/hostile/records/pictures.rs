@@ -2,10 +2,10 @@
 
 use std::fs;
 
-use crate::hostile::claims::{Claim, claims, png};
-use crate::rows::rows;
-use crate::sandbox::Sandbox;
 use frame::{ExrFile, Samples, read_exr, write_exr};
+
+use crate::hostile::claims::{Claim, claims, png};
+use crate::sandbox::{Sandbox, rows};
 
 const TRUTH: &str = "out/plate/truth_trailing.exr";
 const FRAME: &str = "out/plate/frame.exr";

@@ -4,8 +4,7 @@ use std::fs;
 
 use super::{RENDER, with_sky, with_texture};
 use crate::hostile::claims::{claims, png};
-use crate::rows::rows;
-use crate::sandbox::{MTL, OBJ, Sandbox};
+use crate::sandbox::{MTL, OBJ, Sandbox, rows};
 
 #[test]
 fn small_pictures_that_decode_to_huge_ones_are_refused() {
