@@ -100,11 +100,9 @@ fn terminal_and_page_show_the_same_numbers() {
     let cells = texts.collect::<Vec<_>>().join("|");
     let mut found = 0;
     for row in table.lines().filter(|line| line.contains(" to ")) {
-        let own = row
-            .split("  ")
-            .map(str::trim)
-            .filter(|cell| !cell.is_empty());
-        let own = own.skip(1).collect::<Vec<_>>().join("|");
+        let own = row.split("  ").map(str::trim);
+        let own = own.filter(|cell| !cell.is_empty()).skip(1);
+        let own = own.collect::<Vec<_>>().join("|");
         assert_eq!(own.matches('|').count(), 3, "{row}");
         assert!(cells.contains(&own), "the page lacks {own}\n{table}");
         found += 1;
@@ -192,14 +190,10 @@ fn the_page_shows_both_pictures_and_both_runs_and_names_as_text() {
     ] {
         assert_eq!(text.matches(&address(name)).count(), 1, "{name}");
     }
-    let parts = [
-        "plate / velocity_gather:fine",
-        "--out other",
-        " worse</td>",
-        "default-src 'none'",
-        "&lt;script&gt;alert(1)",
-    ];
-    assert_contains(&text, &parts);
+    let parts =
+        "plate / velocity_gather:fine | --out other | default-src 'none' | &lt;script&gt;alert(1)";
+    assert_contains(&text, parts);
+    assert_contains(&text, &[" worse</td>"]);
     for words in [SCRIPT, "http:", "https:"] {
         assert!(!text.contains(words), "{words}");
     }

@@ -66,10 +66,8 @@ fn a_run_takes_every_scene_at_every_rate_and_keeps_it() {
 fn assert_holds(run: &Run, whole: &Run) {
     for case in &whole.cases {
         for rate in [None, FrameRate::in_word("60fps_1-120s")] {
-            let scene = SceneId {
-                rate,
-                ..case.scene.clone()
-            };
+            let mut scene = case.scene.clone();
+            scene.rate = rate;
             let id = |own: &Case| (own.name(), own.is_reference);
             let mut own = run.cases.iter();
             let own = own.find(|own| own.scene == scene && id(own) == id(case));
@@ -82,10 +80,9 @@ fn assert_holds(run: &Run, whole: &Run) {
     assert_eq!(written.cloned().collect::<Vec<_>>(), whole.overall);
     // Skill applies at some rates only: the shutter must be open long enough that the oracle gains more than noise.
     let [all, one] = [run, whole].map(|run| {
-        let means = run.overall.iter();
-        means
-            .filter(|mean| !matches!(mean.metric, Metric::Skill(_)))
-            .count()
+        let metrics = run.overall.iter().map(|mean| mean.metric);
+        let skills = metrics.filter(|metric| matches!(metric, Metric::Skill(_)));
+        run.overall.len() - skills.count()
     });
     assert_eq!(all, 4 * one);
 }
@@ -108,12 +105,9 @@ fn assert_rows_of_rates(printed: &str) {
 
 /// Repeats a run: its rates are read back, stay in a narrower run, compare, and are on its page.
 fn assert_kept(sandbox: &Sandbox, first: &Run) {
-    let written = || {
-        ["plate", "plate@24fps", "plate@60fps_1-120s"].map(|scene| {
-            let truth = sandbox.path("out").join(scene).join("truth_trailing.exr");
-            fs::metadata(truth).unwrap().modified().unwrap()
-        })
-    };
+    let scenes = ["plate", "plate@24fps", "plate@60fps_1-120s"];
+    let truths = scenes.map(|scene| format!("out/{scene}/truth_trailing.exr"));
+    let written = || truths.each_ref().map(|truth| sandbox.written(truth));
     let before = written();
     sandbox.measure(RATES);
     let ids = |run: &Run| -> Vec<_> { run.cases.iter().map(|case| case.id.clone()).collect() };

@@ -8,9 +8,7 @@ use frame::{read_exr, write_exr};
 use tests::text::assert_contains;
 
 use crate::kept_cases::damage;
-use crate::sandbox::{
-    Sandbox, assert_refused, assert_same_files, files_below, read_below, split, stderr, wait_until,
-};
+use crate::sandbox::*;
 
 const REPLICATE: &str = "plate/truth_trailing/replicate_002.exr";
 
@@ -130,10 +128,9 @@ fn damaged_replicates_are_rendered_again_and_never_merged() {
 fn files_of_an_older_version_are_made_again() {
     let sandbox = rendered();
     let is_truth = |path: &Path| path.to_string_lossy().contains("truth_");
-    let files = files_below(&sandbox.path("out")).into_iter();
-    files
-        .filter(|path| is_truth(path))
-        .for_each(|path| remove_support(&path));
+    let mut files = files_below(&sandbox.path("out"));
+    files.retain(|path| is_truth(path));
+    files.iter().for_each(|path| remove_support(path));
     sandbox.execute(&render("out", &[]));
     assert_whole(&sandbox, "out");
 }

@@ -4,10 +4,7 @@ use std::fs;
 
 use tests::filter_folder::write_manifest;
 
-use crate::sandbox::{
-    OBJ, SCENE, Sandbox, assert_done, assert_ends_at_ctrl_c, assert_refused, files_below, rows,
-    split, wait_until_busy,
-};
+use crate::sandbox::*;
 
 #[test]
 fn a_missing_adapter_gives_exit_code_3_and_the_way_out() {

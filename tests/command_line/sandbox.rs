@@ -254,6 +254,13 @@ impl Sandbox {
         serde_json::from_slice(&fs::read(self.path(below)).unwrap()).unwrap()
     }
 
+    /// Reads run.json without the command line, which names other folders.
+    pub fn read_comparable(&self, out: &str) -> serde_json::Value {
+        let mut run: serde_json::Value = self.read_json(&format!("{out}/run.json"));
+        run["command"].take();
+        run
+    }
+
     /// Reads the colour of an OpenEXR file.
     pub fn read_color(&self, below: &str) -> frame::Image {
         let file = frame::read_exr(&self.path(below)).unwrap();

@@ -142,8 +142,7 @@ fn a_png_is_converted_back_to_radiance() {
         let png = OUTPUT.replace(".exr", ".png");
         let found = scores(&sandbox, &format!("{png} {LADDER}"));
         let [flip, due] = [&found, &expected].map(|own| own.moving.flip.value().unwrap());
-        // Steps of 1/255 in sRGB are small compared with the blur's error. A forgotten stop is not: the whole picture becomes
-        // half or twice as bright.
+        // Steps of 1/255 in sRGB are small beside the blur's error. A forgotten stop is not: the picture becomes half or twice as bright.
         assert!((flip - due).abs() < 0.004, "{flip} {due}");
         assert_eq!(found.full.flip_hdr.value(), None);
         let text = score(&sandbox, &png);

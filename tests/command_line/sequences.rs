@@ -23,12 +23,14 @@ fn find<'a>(run: &'a Run, filter: &str) -> &'a Sequence {
 /// Reads the modification times of all measured and rendered files below `out/plate`.
 fn read_times(sandbox: &Sandbox) -> BTreeMap<String, SystemTime> {
     let out = sandbox.path("out/plate");
-    let is_kept = |name: &String| name.ends_with("case.json") || name.ends_with(".exr");
-    (files_below(&out).into_iter())
-        .map(|path| (path.strip_prefix(&out).unwrap().display().to_string(), path))
-        .filter(|(name, _)| is_kept(name))
-        .map(|(name, path)| (name, fs::metadata(path).unwrap().modified().unwrap()))
-        .collect()
+    let mut times = BTreeMap::new();
+    for path in files_below(&out) {
+        let name = path.strip_prefix(&out).unwrap().display().to_string();
+        if name.ends_with("case.json") || name.ends_with(".exr") {
+            times.insert(name, fs::metadata(path).unwrap().modified().unwrap());
+        }
+    }
+    times
 }
 
 #[test]
@@ -114,10 +116,10 @@ fn a_filter_with_history_reads_the_frame_before() {
     let write = |history: &str| sandbox.write_kernel("before", history, &textures, body);
     write("history = [\"color\", \"velocity\", \"depth\"]");
     sandbox.measure("--filter ./before --frames 3");
-    let color = |name: &str| sandbox.read_color(&format!("out/plate/{name}"));
-    let frames = ["", "0001/", "0002/"].map(|frame| color(&format!("{frame}frame.exr")));
-    let outputs =
-        ["", "0001/", "0002/"].map(|frame| color(&format!("{frame}before_default/output.exr")));
+    let [frames, outputs] = ["frame.exr", "before_default/output.exr"].map(|name| {
+        let paths = ["", "0001/", "0002/"].map(|frame| format!("out/plate/{frame}{name}"));
+        paths.map(|path| sandbox.read_color(&path))
+    });
     // The first frame has no previous one; it serves as its own.
     for (index, before) in [0, 0, 1].into_iter().enumerate() {
         let due = frames[before].map(|pixel| pixel.map(|value| value + index as f32));
@@ -157,8 +159,7 @@ fn parts_of_a_rendered_sequence_merge_to_what_a_run_reads_back() {
         sandbox.done(&format!("{words} --replicates {part}"));
     }
     sandbox.done("truths merge --quiet one two --out out");
-    let truth = sandbox.path("out/plate/0001/truth_trailing.exr");
-    let written = || fs::metadata(&truth).unwrap().modified().unwrap();
+    let written = || sandbox.written("out/plate/0001/truth_trailing.exr");
     let before = written();
     sandbox.measure(TWO);
     assert_eq!(written(), before);

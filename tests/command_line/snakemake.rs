@@ -80,8 +80,7 @@ fn a_killed_job_is_resumed_and_the_merged_run_equals_that_of_one_process() {
     let said = stderr(&first);
     assert!(!first.status.success(), "a killed job fails:\n{said}");
     assert!(!shared.path("out/run.json").exists());
-    let truth = shared.path("out/parts/truths/plate/truth_trailing.exr");
-    let written = || fs::metadata(&truth).unwrap().modified().unwrap();
+    let written = || shared.written("out/parts/truths/plate/truth_trailing.exr");
     let before = written();
 
     finish(&shared);

@@ -3,7 +3,7 @@
 use frame::read_png;
 use tests::text::assert_contains;
 
-use crate::sandbox::Sandbox;
+use crate::sandbox::{Sandbox, split};
 
 #[test]
 fn a_run_ranks_filters_in_at_most_40_lines_and_names_the_report() {
@@ -25,10 +25,9 @@ fn a_run_ranks_filters_in_at_most_40_lines_and_names_the_report() {
 fn filters_within_noise_share_ranks() {
     let filters = "--filters jump_flood:paper,jump_flood_packed:paper,identity";
     let text = Sandbox::new().measure(filters);
-    let ranks: Vec<&str> = (text.lines())
-        .filter(|line| line.contains(":paper") || line.contains("identity:"))
-        .filter_map(|line| line.split_whitespace().next())
-        .collect();
+    let is_filter = |line: &&str| line.contains(":paper") || line.contains("identity:");
+    let rows = text.lines().filter(is_filter);
+    let ranks: Vec<&str> = rows.map(|line| split(line)[0]).collect();
     assert_eq!(ranks, ["1-2", "1-2", "3"], "{text}");
 }
 

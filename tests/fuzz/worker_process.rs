@@ -70,23 +70,18 @@ fn start(target: &Target, cases: &Range<u64>, options: &Options, stderr: File) -
     let input = options.input.iter();
     let numbers = [options.seed, cases.start, cases.end];
     let [seed, start, end] = numbers.map(|number| number.to_string());
-    Command::new("sh")
-        .args(["-c", &limited])
-        .arg(own)
-        .args(["--targets", target.name, "--seed", &seed])
-        .args(["--work", &start, &end, "--fixture"])
-        .arg(&options.fixture)
-        .args(input.flat_map(|path| [Path::new("--input"), path]))
-        // Stacks and arenas of many threads would fill the address space.
-        .envs([("RAYON_NUM_THREADS", "2"), ("MALLOC_ARENA_MAX", "4")])
-        .env("RUST_BACKTRACE", "0")
-        .env_remove("CI")
-        .stdin(Stdio::null())
-        .stdout(Stdio::piped())
-        .stderr(stderr)
-        .process_group(0)
-        .spawn()
-        .expect("sh can be started")
+    let mut sh = Command::new("sh");
+    sh.args(["-c", &limited]).arg(own);
+    sh.args(["--targets", target.name, "--seed", &seed]);
+    sh.args(["--work", &start, &end, "--fixture"]);
+    sh.arg(&options.fixture);
+    sh.args(input.flat_map(|path| [Path::new("--input"), path]));
+    // Stacks and arenas of many threads would fill the address space.
+    sh.envs([("RAYON_NUM_THREADS", "2"), ("MALLOC_ARENA_MAX", "4")]);
+    sh.env("RUST_BACKTRACE", "0").env_remove("CI");
+    sh.stdin(Stdio::null()).stdout(Stdio::piped());
+    let child = sh.stderr(stderr).process_group(0).spawn();
+    child.expect("sh can be started")
 }
 
 /// Reads the worker's lines on a thread.

@@ -36,8 +36,7 @@ const METRICS: &str = "mse_moving flip_moving flip_p99_moving gather_spread flip
 const CALIBRATED_WITH: [u64; 2] = [1, 2];
 const CHECKED_WITH: u64 = CALIBRATED_WITH[0];
 
-/// Side of McGuire's tiles. Relative to these small pictures it equals 20 pixels at 320x180: trails reach from tile to
-/// tile.
+/// Side of McGuire's tiles. Relative to these small pictures it equals 20 pixels at 320x180: trails reach from tile to tile.
 const SMALL_TILES: &str = "8";
 
 /// Filters without defects.

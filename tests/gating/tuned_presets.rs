@@ -24,8 +24,7 @@ fn held_out(names: &[&str], used: &[String]) -> Vec<(Scene, SceneBounds)> {
     (choices.map(|choice| (choice.scene, bounds(choice.folder)))).collect()
 }
 
-/// Compares a filter's tuned preset with the search's start preset. Lengths in pixels are as written, or scaled to the picture as
-/// for users.
+/// Compares a filter's tuned preset with the search's start. Lengths in pixels are as written, or scaled to the picture as for users.
 ///
 /// Both presets have the same noise, which only hides differences, so few samples give the same verdict.
 fn compare(name: &str, names: &[&str], width: u32, as_written: bool) -> (PairedComparison, String) {

@@ -10,7 +10,7 @@ use tracer::{Key, Mesh, Motion, Scene, Shape};
 
 use crate::intersection::expect_no_leak;
 use crate::moving_shapes::{DISTANCE, HEIGHT, WIDTH, expect_coverage, pixel_corner};
-use crate::renders::{key, render_frame, settings_with, through};
+use crate::renders::{render_frame, settings_with};
 
 /// Makes a mesh with key shapes: `place` moves each vertex.
 pub fn deforming_mesh(mesh: Mesh, times: &[f64], place: impl Fn(Vec3, f64) -> Vec3) -> Mesh {

@@ -9,8 +9,8 @@ use tests::shapes::*;
 use tests::text::read_rows;
 use tests::unwatched;
 use tracer::{
-    Background, Lens, Material, Progress, RenderSettings, Scene, TraceError, frame_hash,
-    ladder_hash, replicate_hash, trace_ladder, trace_truth, truth_hash,
+    Background, Lens, Progress, RenderSettings, Scene, TraceError, frame_hash, ladder_hash,
+    replicate_hash, trace_ladder, trace_truth, truth_hash,
 };
 
 use crate::lens::with_lens;
@@ -29,10 +29,8 @@ fn busy_scene() -> Scene {
     };
     scene.sun = sun(DVec3::new(0.6, 0.8, 0.0), 1.0, 0.02);
     let at = |x: f64, z: f64| DVec3::new(x, 0.0, z);
-    let smoke = Material {
-        diffuse: Vec3::splat(0.8),
-        ..film(Vec3::ZERO, 0.4, Vec3::new(0.8, 0.9, 1.0))
-    };
+    let mut smoke = film(Vec3::ZERO, 0.4, Vec3::new(0.8, 0.9, 1.0));
+    smoke.diffuse = Vec3::splat(0.8);
     let lamp = film(Vec3::splat(4.0), 0.6, Vec3::ONE);
     let tinted = glass(1.6, Vec3::new(0.9, 1.0, 0.8));
     let turning = spin(at(1.0, -4.0), DVec3::Y, 2.0);

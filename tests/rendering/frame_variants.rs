@@ -1,12 +1,12 @@
 //! Frames in engines' forms: velocity from only the camera, colour at pixel centres, a still sky, a guard band.
 
-use frame::{ColorSampling, Frame, VelocityKind};
+use frame::{ColorSampling, VelocityKind};
 use glam::{DQuat, DVec3, Vec3};
 use tests::shapes::*;
 use tests::unwatched;
 use tracer::{Background, Key, Scene, TraceError, Turn, trace_frame};
 
-use crate::renders::{key, render_frame, settings, settings_with, through};
+use crate::renders::{render_frame, settings, settings_with};
 
 const SIZE: [u32; 2] = [36, 24];
 
@@ -107,10 +107,8 @@ fn a_frame_inside_its_guard_band_equals_the_bare_frame() {
         padded.guard_band = 5;
         let padded = render_frame(&scene, &padded);
         assert_eq!(padded.size(), (SIZE[0] + 10, SIZE[1] + 10));
-        let cropped = Frame {
-            provenance: bare.provenance.clone(),
-            ..padded.cropped()
-        };
+        let mut cropped = padded.cropped();
+        cropped.provenance = bare.provenance.clone();
         assert_eq!(cropped, bare, "{velocity}");
     }
 }

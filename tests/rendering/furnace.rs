@@ -6,13 +6,10 @@ use frame::Truth;
 use glam::{DQuat, DVec3, Vec2, Vec3};
 use tests::shapes::*;
 use tests::statistics::{estimate_pixels, expect_pooled_agreement};
-use tracer::{Background, EnvironmentMap, Key, Material, Scene, Texture};
+use tracer::{Background, EnvironmentMap, Key, Scene, Texture};
 
 use crate::deforming::deforming_mesh;
-use crate::renders::{
-    expect_near, facing_up, floor_scene, heights, mean_radiance, render_small_truth, sun, through,
-    turned,
-};
+use crate::renders::*;
 use crate::translucency::{film, glass};
 
 /// Fails unless the first component agrees with one known value.
@@ -44,11 +41,8 @@ fn a_textured_panel_hangs_upright_and_has_its_holes() {
     // One metre is one pixel; the panel fills the picture.
     let mut panel = rectangle(16.0, 9.0);
     panel.texcoords = vec![Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y];
-    let paint = Material {
-        emission_texture: Some(0),
-        opacity_texture: Some(0),
-        ..glowing(2.0)
-    };
+    let mut paint = glowing(2.0);
+    (paint.emission_texture, paint.opacity_texture) = (Some(0), Some(0));
     let at = placed(DVec3::new(0.0, 0.0, -4.5));
     add(&mut scene, panel, paint, at);
     let mean = render_small_truth(&scene, 64).mean();
@@ -57,8 +51,7 @@ fn a_textured_panel_hangs_upright_and_has_its_holes() {
         let found = mean.color.at(x, y)[0];
         assert!((found - expected).abs() < 1e-6, "{found} at ({x}, {y})");
     }
-    // Interpolated alpha is below 0.5 in a square of two texels with rounded corners: 4 (0.5 + 0.75 - ln(2) / 2) of 16
-    // texels.
+    // Interpolated alpha is below 0.5 in a square of two texels with rounded corners: 4 (0.5 + 0.75 - ln(2) / 2) of 16 texels.
     let area: f64 = mean.coverage[0].pixels.iter().copied().map(f64::from).sum();
     let expected = 144.0 / 16.0 * 4.0 * (1.25 - 0.5 * 2f64.ln());
     // Rms 0.02 in about 25 border pixels: 0.1 in the sum.
@@ -85,11 +78,8 @@ fn white_things_under_a_white_sky_cannot_be_seen() {
     let away = |x: f64| DVec3::new(x, 0.0, -4.0);
     let pillar = cuboid(Vec3::new(0.3, 3.0, 0.3));
     let clear = glass(1.5, Vec3::ONE);
-    let dirty = Material {
-        opacity: 0.3,
-        diffuse: Vec3::ONE,
-        ..glass(1.9, Vec3::ONE)
-    };
+    let mut dirty = glass(1.9, Vec3::ONE);
+    (dirty.opacity, dirty.diffuse) = (0.3, Vec3::ONE);
     let white = || diffuse(1.0);
     // Smooth normals, concave corners, glass and motion must neither take nor give energy.
     for (mesh, material, motion) in [

@@ -144,8 +144,7 @@ fn a_convex_surface_never_meets_its_own_rays_from_1_mm_to_10_km() {
         add(&mut scene, ball, diffuse(0.5), placed(DVec3::ZERO));
         // Closer than the radius: only the ball is in view.
         for_each_color(scene, place(offset), 1.1 * radius, |color| {
-            // Every path scatters once and leaves. A path that hit the surface again would lose half its light, a part of 1 / 64 of the
-            // pixel.
+            // Every path scatters once and leaves. A path that hit the surface again would lose half its light, 1 / 64 of the pixel.
             let is_half = color.iter().all(|part| (part - 0.5).abs() < 1e-6);
             assert!(is_half, "{radius} m, {offset} m from the origin: {color:?}");
         });
@@ -206,10 +205,8 @@ fn the_first_of_equally_near_surfaces_is_seen() {
             panel.positions.extend(wing);
             panel.triangles.push([4, 5, 6]);
             panel.slots.push(0);
-            let pose = Key {
-                scale: DVec3::new(1.0, 1.0, z),
-                ..Key::REST
-            };
+            let mut pose = Key::REST;
+            pose.scale = DVec3::new(1.0, 1.0, z);
             add(&mut scene, panel, glowing(1.0), Motion::still(pose));
         }
         scene

@@ -9,7 +9,7 @@ use tracer::{
     trace_frame_part, trace_motion_on,
 };
 
-use crate::renders::{key, render_frame, settings_with, through};
+use crate::renders::{render_frame, settings_with};
 
 const WIDTH: u32 = 36;
 const HEIGHT: u32 = 24;

@@ -4,6 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use frame::{Alignment, Frame, Image, Ladder, Truth, VelocityKind};
 use glam::{DQuat, DVec3, Vec3};
+pub use tests::near::expect_near;
 pub use tests::settings;
 use tests::shapes::*;
 use tests::{scenes, settings_of, unwatched};
@@ -73,22 +74,6 @@ pub fn rms_difference(a: &Image, b: &Image) -> f64 {
     (squares.sum::<f64>() / a.pixels.len() as f64).sqrt()
 }
 
-/// Fails unless two numbers are as near as the tolerance.
-#[track_caller]
-pub fn expect_near(what: &str, found: f64, expected: f64, tolerance: f64) {
-    let off = (found - expected).abs();
-    assert!(off <= tolerance, "{what}: {found}, not {expected}");
-}
-
-/// Makes a pose without rotation at a time.
-pub fn key(time: f64, translation: DVec3) -> Key {
-    Key {
-        time,
-        translation,
-        ..Key::REST
-    }
-}
-
 /// Makes a still pose.
 pub fn turned(translation: DVec3, orientation: DQuat) -> Motion {
     Motion::still(Key {
@@ -101,14 +86,6 @@ pub fn turned(translation: DVec3, orientation: DQuat) -> Motion {
 /// Makes the still pose of a rectangle or disc that faces upwards.
 pub fn facing_up(at: DVec3) -> Motion {
     turned(at, DQuat::from_rotation_x(-FRAC_PI_2))
-}
-
-/// Makes a motion at constant velocities through keys.
-pub fn through(keys: impl Into<Vec<Key>>) -> Motion {
-    Motion {
-        keys: keys.into(),
-        ..Motion::default()
-    }
 }
 
 /// Makes a grey sky that changes with the height.

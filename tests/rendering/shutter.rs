@@ -6,9 +6,7 @@ use tests::half_plane::{area, half_plane};
 use tests::unwatched;
 use tracer::{Interpolation, Scene, TraceError, trace_truth};
 
-use crate::moving_shapes::{
-    HEIGHT, SPEED, WIDTH, expect_coverage, half_plane_scene, pixel_corner, truth_settings,
-};
+use crate::moving_shapes::*;
 use crate::renders::{render_ladder, render_truth, settings};
 
 /// Efficiency, and its formula over the parts of the interval.

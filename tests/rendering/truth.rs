@@ -212,8 +212,7 @@ fn a_frame_holds_the_instant_and_not_the_shutter() {
 #[test]
 fn n_subframes_are_worth_n() {
     let folder = tests::scenes().join("sliding_panel");
-    // 128 px per frame at 640x360 are 8 px over this shutter and size: 8 sub-frames are a pixel apart, so the error of each count is
-    // well above the noise.
+    // 128 px per frame at 640x360 are 8 px over this shutter and size: 8 sub-frames are a pixel apart, each count's error well above noise.
     let scene = load_scene(&folder, Some("128px_30deg")).unwrap();
     let mut settings = settings([80, 45], 512);
     settings.exposure = Some(1.0);

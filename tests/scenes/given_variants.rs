@@ -37,10 +37,8 @@ fn every_scene_has_sealed_variants_that_move_otherwise() {
 fn a_mirrored_scene_is_seen_left_for_right() {
     for name in shipped() {
         let scene = load_shipped(&name);
-        let seal = Seal {
-            mirrored: true,
-            ..Seal::NOTHING
-        };
+        let mut seal = Seal::NOTHING;
+        seal.mirrored = true;
         let [before, after] = [&scene, &seal.apply(scene.clone())].map(|scene| render(scene, 1));
         let mut same = 0;
         for y in 0..HEIGHT {

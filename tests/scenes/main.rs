@@ -42,12 +42,12 @@ fn shipped_with_variants() -> Vec<String> {
     all.collect()
 }
 
-pub const SCENE: &str = include_str!("../fixtures/square/scene.toml");
-pub const OBJ: &str = include_str!("../fixtures/square/mesh.obj");
-pub const MTL: &str = include_str!("../fixtures/square/mesh.mtl");
+const SCENE: &str = include_str!("../fixtures/square/scene.toml");
+const OBJ: &str = include_str!("../fixtures/square/mesh.obj");
+const MTL: &str = include_str!("../fixtures/square/mesh.mtl");
 
 /// Temporary folder of a scene, deleted with the value.
-pub struct Folder {
+struct Folder {
     _parent: tempfile::TempDir,
     /// Path of the scene.
     pub path: PathBuf,
@@ -55,7 +55,7 @@ pub struct Folder {
 
 impl Folder {
     /// Writes the scene to a new folder.
-    pub fn new() -> Self {
+    fn new() -> Self {
         let parent = tempfile::tempdir().unwrap();
         let folder = Self {
             path: parent.path().join("square"),
@@ -74,23 +74,23 @@ impl Folder {
         folder
     }
 
-    pub fn read(&self, file: &str) -> String {
+    fn read(&self, file: &str) -> String {
         std::fs::read_to_string(self.path.join(file)).unwrap()
     }
 
-    pub fn write(&self, file: &str, content: impl AsRef<[u8]>) {
+    fn write(&self, file: &str, content: impl AsRef<[u8]>) {
         std::fs::write(self.path.join(file), content).unwrap();
     }
 
     /// Replaces a text that a file contains once.
-    pub fn edit(&self, file: &str, from: &str, to: &str) {
+    fn edit(&self, file: &str, from: &str, to: &str) {
         let text = self.read(file);
         let count = text.matches(from).count();
         assert_eq!(count, 1, "\"{from}\" must stand once in {file}");
         self.write(file, text.replace(from, to));
     }
 
-    pub fn load(&self) -> Result<Scene, SceneError> {
+    fn load(&self) -> Result<Scene, SceneError> {
         load_scene(&self.path, None)
     }
 }

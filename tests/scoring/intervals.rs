@@ -162,8 +162,7 @@ fn about_95_of_100_intervals_of_larger_pictures_contain_the_converged_score() {
 /// Scores that the truth's noise raises by as much as itself where a picture is perfect.
 const RAISED_BY_NOISE: &str = "mae_moving mae_full smape_moving smape_full row_loss";
 
-/// Expects that intervals of traced truths contain the converged scores: those that noise raises for all pictures, others for the moved
-/// one.
+/// Expects that intervals of traced truths contain the converged scores: those that noise raises for all pictures, others for the moved.
 fn assert_traced(scene: &str, size: [u32; 2], seeds: u64, of_moved: &str) {
     let traced = trace_intervals(scene, size, 2048, seeds);
     // Four standard deviations below the mean: of 48 intervals 45.6, with one of 1.5.

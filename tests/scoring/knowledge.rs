@@ -37,10 +37,8 @@ fn errors_are_split_into_knowable_and_unknowable() {
     assert_eq!(known + unknown, count(&pools.moving));
     assert!(known > 100 && unknown > 100);
     let mean = truth.mean();
-    let guessed = Picture {
-        color: brighten(&mean.color, 0.1, |x, _| x >= 36),
-        ..mean.clone()
-    };
+    let mut guessed = mean.clone();
+    guessed.color = brighten(&mean.color, 0.1, |x, _| x >= 36);
     let part = unknown as f64 / (known + unknown) as f64;
     // Squares of 32-bit sums.
     let expected = [
@@ -121,8 +119,7 @@ fn skill_is_the_share_of_the_way_from_a_sharp_picture_to_the_one_frame_oracle() 
         ("skill_mse", 0.75 / (1.0 - 1.0 / 16.0), 1e-5),
     ];
     assert_scores("half of the way", &half, &expected);
-    // The truth is better than any one-frame oracle. A negative with mover and background exchanged is worse than
-    // none.
+    // The truth is better than any one-frame oracle. A negative with mover and background exchanged is worse than none.
     let worse = Picture {
         color: (frame.color).map(|color| color.map(|part| (1.0 - part).max(0.0))),
         coverage: frame.coverage.iter().rev().cloned().collect(),

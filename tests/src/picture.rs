@@ -195,10 +195,8 @@ pub fn ramp_length(image: &Image) -> f64 {
 
 /// Makes a picture that is black left of the middle and white right of it, all in one motion at one depth.
 pub fn moving_edge(width: u32, height: u32, velocity: [f32; 2]) -> Picture {
-    let ahead = Surface {
-        velocity,
-        ..white(0.0)
-    };
+    let mut ahead = white(0.0);
+    ahead.velocity = velocity;
     Picture::halves(width, height, ahead.gray(0.0), ahead)
 }
 

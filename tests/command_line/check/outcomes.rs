@@ -82,8 +82,7 @@ fn a_limit_inside_the_interval_gives_exit_code_4_and_the_samples_to_decide() {
     let sandbox = make_bounded(0.9, "required");
     let found = &json(&sandbox, "--filters identity")["findings"][0];
     let [low, high] = ["low", "high"].map(|end| found["interval"][end].as_f64().unwrap());
-    // The distance of the limit from the interval's middle is a little more than a quarter of its half width. 16 times the
-    // samples halve the width twice.
+    // The limit is a little more than a quarter of the half width off the interval's middle. 16 times the samples halve the width twice.
     let limit = 0.5 * (low + high) + 0.26 * 0.5 * (high - low);
     sandbox.write("bounds.toml", &bound("flip_moving", limit, "required"));
     let parts = "UNDECIDED flip_moving | 1024 samples per pixel would settle it | raise the samples per pixel";

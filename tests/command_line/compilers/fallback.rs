@@ -6,10 +6,7 @@ use tests::root;
 use tests::text::{assert_contains, read_rows};
 
 use super::installed::install_glslang;
-use super::{
-    BINDINGS, COPY, find_module, list, read_log, refuse, write_compiler, write_honest_compiler,
-    write_pass,
-};
+use super::*;
 use crate::sandbox::{Sandbox, assert_done, read_below, split, stdout};
 
 /// Writes a pass over HLSL, and the texture after it.

@@ -4,9 +4,7 @@ use std::path::PathBuf;
 use std::process::Output;
 use std::time::{Duration, Instant};
 
-use crate::sandbox::{
-    OBJ, SCENE, Sandbox, assert_done, assert_refused, files_below, split, stderr,
-};
+use crate::sandbox::*;
 
 /// Renders the scene, and fails if that takes long. These cases once took longer, or ended the program.
 fn render(sandbox: &Sandbox, more: &str) -> Output {

@@ -6,10 +6,7 @@ use std::path::Path;
 use suite::{Monitor, TRAVERSALS, Verification};
 use tests::text::{Parts, assert_contains};
 
-use super::{
-    QUICK, change_manifest, change_replicate, entries, pack_forged, packed, refuse_forged,
-    renew_truth, replicate_file, replicate_files, run, write,
-};
+use super::*;
 use crate::sandbox::{Sandbox, assert_refused, split, stderr, stdout};
 
 const VERIFY: &str = "truths verify";

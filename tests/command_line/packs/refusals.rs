@@ -6,9 +6,7 @@ use store::Manifest;
 use tar::EntryType;
 use tests::text::Parts;
 
-use super::{
-    Packed, change_manifest, compress, entries, manifest, packed, quick, refuse_forged, run, write,
-};
+use super::*;
 use crate::sandbox::{Sandbox, assert_refused, make_fifo, quick_command, split};
 
 #[track_caller]

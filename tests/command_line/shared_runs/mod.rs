@@ -22,10 +22,7 @@ fn plan(sandbox: &Sandbox, words: &str) -> Vec<Value> {
 
 /// Lists texts of a job.
 fn list(job: &Value, key: &str) -> Vec<String> {
-    let texts = job[key].as_array().unwrap().iter();
-    texts
-        .map(|text| text.as_str().unwrap().to_owned())
-        .collect()
+    serde_json::from_value(job[key].clone()).unwrap()
 }
 
 /// Runs a job with existing inputs, which must leave all its outputs. Returns its messages.

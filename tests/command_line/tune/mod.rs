@@ -55,10 +55,8 @@ fn read_journal(sandbox: &Sandbox, out: &str) -> String {
 
 fn read_trials(sandbox: &Sandbox) -> Vec<Trial> {
     let journal = read_journal(sandbox, "out");
-    let lines = journal.lines().skip(1);
-    lines
-        .map(|line| serde_json::from_str(line).unwrap())
-        .collect()
+    let trials = journal.lines().skip(1).map(serde_json::from_str);
+    trials.collect::<Result<_, _>>().unwrap()
 }
 
 fn read_tuning(sandbox: &Sandbox) -> Tuning {

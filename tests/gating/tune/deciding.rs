@@ -54,16 +54,11 @@ fn the_front_holds_unbeaten_candidates() {
 
 /// Makes a start with samples = 8, and trials with other numbers of samples and the given FLIP on scenes a, b, c, d.
 fn make_trials(rows: &[(i32, [f64; 4])]) -> Vec<Trial> {
-    let score = |flip: &f64| SceneScore {
-        flip: *flip,
-        bleed: None,
-    };
     let scenes = |flips: &[f64; 4]| {
-        ["a", "b", "c", "d"]
-            .map(str::to_owned)
-            .into_iter()
-            .zip(flips.iter().map(score))
-            .collect()
+        let names = ["a", "b", "c", "d"].map(str::to_owned).into_iter();
+        let bleed = None;
+        let scores = flips.map(|flip| SceneScore { flip, bleed });
+        names.zip(scores).collect()
     };
     let make = |(trial, (samples, flips)): (usize, &(i32, [f64; 4]))| Trial {
         trial,
@@ -128,11 +123,8 @@ fn limits_and_failures_keep_trials_out_of_the_choice() {
 #[test]
 fn a_choice_that_suits_only_one_family_shows_its_gap() {
     // One trial suits the camera, the other suits thin things; each doubles the other's error.
-    let trials = make_trials(&[
-        (8, [0.1; 4]),
-        (9, [0.05, 0.05, 0.2, 0.2]),
-        (10, [0.2, 0.2, 0.05, 0.05]),
-    ]);
+    let [camera, thin] = [[0.05, 0.05, 0.2, 0.2], [0.2, 0.2, 0.05, 0.05]];
+    let trials = make_trials(&[(8, [0.1; 4]), (9, camera), (10, thin)]);
     let validate = |families: &[(&'static str, &str)]| {
         let names = |scenes: &str| scenes.split(' ').map(str::to_owned).collect();
         let families = families.iter().map(|(name, scenes)| (*name, names(scenes)));
@@ -155,14 +147,12 @@ fn a_choice_that_suits_only_one_family_shows_its_gap() {
 #[test]
 fn lower_error_on_every_scene_is_better_and_on_half_of_them_undecided() {
     let compare = |first: &[f64], second: &[f64]| {
-        let score = |flip: f64| SceneScore {
-            flip,
-            bleed: Some(10.0 * flip),
+        let score = |flip: f64| {
+            let bleed = Some(10.0 * flip);
+            SceneScore { flip, bleed }
         };
-        let pairs = first
-            .iter()
-            .zip(second)
-            .map(|(a, b)| [score(*a), score(*b)]);
+        let pairs = first.iter().zip(second);
+        let pairs = pairs.map(|(a, b)| [score(*a), score(*b)]);
         let names = ["a", "b", "c", "d", "e"].map(str::to_owned);
         PairedComparison::new(names.into_iter().zip(pairs).collect())
     };

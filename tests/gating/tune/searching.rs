@@ -92,8 +92,7 @@ fn fixed_parameters_are_refused_with_the_variable_ones() {
     assert!(text.contains("nothing to tune"), "{text}");
 }
 
-/// Returns the height of a valley that is narrow along a diagonal, with its lowest point off every axis and off the
-/// middle.
+/// Returns the height of a valley that is narrow along a diagonal, with its lowest point off every axis and off the middle.
 fn valley(point: &[f64]) -> f64 {
     let lowest = [0.31, 0.62, 0.18, 0.77];
     let off: Vec<f64> = point.iter().zip(lowest).map(|(at, low)| at - low).collect();

@@ -5,12 +5,10 @@ use std::f64::consts::PI;
 use frame::Alignment;
 use glam::{DQuat, DVec3, Vec3};
 use tests::shapes::*;
-use tracer::{Background, Finish, Key, Material};
+use tracer::{Background, Finish, Key};
 
 use super::{DISTANCE, EXPOSURE, HEIGHT, SPEED, WIDTH, panel_over_wall, render};
-use crate::renders::{
-    expect_near, facing_up, heights, mean_of, render_frame, settings, sun, through,
-};
+use crate::renders::*;
 
 #[test]
 fn the_frozen_truth_of_a_still_scene_equals_its_truth() {
@@ -77,10 +75,8 @@ fn an_unlit_panel_needs_no_light_of_the_instant() {
 #[test]
 fn a_frozen_mirror_shows_the_view_of_the_instant_s_camera() {
     let mut scene = empty_scene("mirror");
-    let mirror = Material {
-        finish: Finish::Conductor { roughness: 0.0 },
-        ..diffuse(1.0)
-    };
+    let mut mirror = diffuse(1.0);
+    mirror.finish = Finish::Conductor { roughness: 0.0 };
     let floor = facing_up(DVec3::ZERO);
     add(&mut scene, rectangle(500.0, 500.0), mirror, floor);
     scene.background = heights(0.0, 0.0, 1.0);

@@ -11,7 +11,7 @@ use glam::DVec3;
 use tests::shapes::*;
 use tracer::{Key, Scene, Turn};
 
-use crate::renders::{expect_near, render_truth, settings_of_two, through};
+use crate::renders::{expect_near, render_truth, settings_of_two};
 
 const WIDTH: u32 = 32;
 const HEIGHT: u32 = 12;
@@ -21,8 +21,7 @@ const DISTANCE: f64 = 0.5 * HEIGHT as f64;
 const SPEED: f64 = 12.0;
 /// Exposure in frames.
 const EXPOSURE: f64 = 0.75;
-/// Tolerance for 1024 stratified samples of a step. They err by less than 0.003 in nearly every pixel (measured for
-/// coverage: 0.0022 rms in the worst).
+/// Tolerance for 1024 stratified samples of a step: they err by less than 0.003 in nearly every pixel (coverage: 0.0022 rms in the worst).
 const STEP_ERROR: f64 = 0.012;
 
 fn render(scene: &Scene, alignment: Alignment, samples_per_pixel: u32) -> Truth {

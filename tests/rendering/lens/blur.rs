@@ -8,10 +8,7 @@ use tests::shapes::*;
 use tracer::Scene;
 
 use super::with_lens;
-use crate::moving_shapes::{
-    DISTANCE, HEIGHT, SPEED, WIDTH, expect_coverage, half_plane_scene, mean_over_pixel,
-    pixel_corner,
-};
+use crate::moving_shapes::*;
 use crate::renders::{expect_near, heights, render_frame, settings};
 
 /// Apertures and focus distances in front of the shapes and behind them. The circle of confusion at the shapes has a diameter of

@@ -12,10 +12,7 @@ use tracer::{Background, Scene};
 
 use super::{assert_near, film, glass, hang};
 use crate::moving_shapes::{SPEED, half_plane_scene, pixel_corner, truth_settings};
-use crate::renders::{
-    self, expect_near, fresnel, heights, mean_radiance, render_small_truth, render_truth, settings,
-    turned,
-};
+use crate::renders::*;
 
 const SKY: Vec3 = Vec3::new(0.4, 0.8, 1.2);
 
@@ -29,7 +26,7 @@ fn sky_scene(name: &str) -> Scene {
 fn render_frame(scene: &Scene, size: [u32; 2], sampling: ColorSampling) -> Frame {
     let mut settings = settings(size, 16);
     settings.options.color = sampling;
-    renders::render_frame(scene, &settings)
+    crate::renders::render_frame(scene, &settings)
 }
 
 #[test]

@@ -2,10 +2,7 @@
 
 use engine::{Buffer, Cause};
 
-use super::{
-    HEIGHT, WIDTH, audit, audit_depth, audit_velocity, draw, expect, id_of, load_moving,
-    load_shipped, load_small, without_ids,
-};
+use super::*;
 
 /// Returns whether two causes are of one kind, with numbers that differ by a hundredth at most.
 fn is_like(found: &Cause, due: &Cause) -> bool {

@@ -115,8 +115,7 @@ impl RenderedScene {
         number.unwrap_or_else(|| panic!("{metric} of {object}: {score:?}"))
     }
 
-    /// Returns the mean squared error of a filter's radiance over the pixels that count. It is unbiased, since the
-    /// truth's halves are independent.
+    /// Returns the mean squared error of a filter's radiance over the pixels that count, unbiased since the truth's halves are independent.
     pub fn squared_error(&self, filter: &str, counts: impl Fn(u32, u32) -> bool) -> f64 {
         let output = self.blur(filter).color;
         let [a, b] = &self.truth(find_preset(filter).0.alignment).halves;

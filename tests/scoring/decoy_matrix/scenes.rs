@@ -13,10 +13,8 @@ fn scene(objects: Vec<Object>) -> Scene {
 /// Makes scenes by name: a translation, a rotation, two crossing paths, thin objects, and a mover between still objects.
 pub fn scenes() -> Vec<(&'static str, Scene)> {
     let still = [0.0, 0.0];
-    let turning = Object {
-        turn: 1.2,
-        ..Object::sliding(bar([28.0, 5.0], 0.4), [56.3, 42.2], still)
-    };
+    let mut turning = Object::sliding(bar([28.0, 5.0], 0.4), [56.3, 42.2], still);
+    turning.turn = 1.2;
     let wires = [34.3, 50.3, 66.3]
         .map(|x| Object::sliding(bar([24.0, 1.2], FRAC_PI_2), [x + 9.0, 42.2], [18.0, 0.0]));
     let disc = Object::sliding(Shape::Disc(12.0), [68.3, 44.2], [28.0, 5.0]);

@@ -42,20 +42,18 @@ fn check_lowest(changes: &[(&str, &str)]) -> Result<(), String> {
 #[test]
 fn the_lowest_common_limits_hold_if_no_adapter_is_there() {
     let written = |names: &[&str]| {
-        let (mut declared, mut stored, mut textures) =
-            (String::new(), String::new(), String::new());
+        let [mut declared, mut stored, mut textures] = [(); 3].map(|()| String::new());
         for (index, name) in names.iter().enumerate() {
             let (at, texture) = (10 + index, "texture_storage_2d<rgba32float, write>");
             declared += &format!("@group(0) @binding({at}) var {name}_out: {texture};\n");
             stored += &format!("textureStore({name}_out, pixel, value);\n");
             textures += &format!("[[texture]]\nname = \"{name}\"\nformat = \"rgba32float\"\n");
         }
-        let pass = textures + "\n[[pass]]";
-        check_lowest(&[
-            ("// declarations", &declared),
+        let code = [
+            ("// declarations", &declared[..]),
             ("// statements", &stored),
-            ("[[pass]]", &pass),
-        ])
+        ];
+        check_lowest(&[code[0], code[1], ("[[pass]]", &(textures + "\n[[pass]]"))])
     };
     written(&["a", "b", "c"]).unwrap();
     let parts = "pass \"work\": 5 textures that it writes | allowed: at most 4 | lowest common limits | divide the pass";

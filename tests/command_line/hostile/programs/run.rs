@@ -5,9 +5,7 @@ use std::process::{Command, Output};
 use frame::{ExrFile, Raster, write_exr};
 use tests::text::assert_contains;
 
-use crate::sandbox::{
-    Sandbox, assert_done, assert_ends_at_ctrl_c, assert_refused, split, wait_until,
-};
+use crate::sandbox::*;
 
 /// Makes a sandbox with a frame of 16 x 16 pixels, which is quick to blur.
 fn set_up() -> Sandbox {

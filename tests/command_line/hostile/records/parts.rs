@@ -53,10 +53,8 @@ fn replicates_of_different_truths_are_refused() {
     refused(&fewer, &["another list of objects than replicate 0"]);
 
     for index in [u32::MAX - 1, 4000, 0] {
-        let far = Replicate {
-            index,
-            ..whole.clone()
-        };
+        let mut far = whole.clone();
+        far.index = index;
         let held = format!("replicate_001.exr holds plate/truth_trailing/replicate_{index:03}.exr");
         refused(&far, &[&held, "leave folders and names"]);
     }
