@@ -12,10 +12,9 @@ use crate::sandbox::{python_with, stderr, stdout};
 fn compare(more: &[&str]) -> Output {
     let out = tempfile::tempdir().unwrap();
     let mut command = Command::new(python_with(&["numpy", "OpenEXR"]));
-    command
-        .arg("-B")
-        .arg(root().join("examples/fidelity/compare.py"))
-        .args(["--program", env!("CARGO_BIN_EXE_shuttertruth")]);
+    let script = root().join("examples/fidelity/compare.py");
+    command.arg("-B").arg(script);
+    command.args(["--program", env!("CARGO_BIN_EXE_shuttertruth")]);
     command.arg("--scenes-dir").arg(tests::scenes());
     command.arg("--out").arg(out.path()).args(more);
     command.output().unwrap()

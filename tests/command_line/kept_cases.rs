@@ -228,12 +228,10 @@ fn missing_truncated_and_altered_files_are_made_again() {
     let path = |name: &str| sandbox.path("out/plate").join(name);
     let first = run_json(&sandbox);
     const TWO: &str = "identity_default velocity_gather_fine";
+    let pictures = "identity_default/errors.exr velocity_gather_fine/flip.png";
     // Files of two cases, which one run makes again; and files that no case is measured for.
     for (files, due) in [
-        (
-            "identity_default/errors.exr velocity_gather_fine/flip.png",
-            TWO,
-        ),
+        (pictures, TWO),
         ("identity_default/case.json", "identity_default"),
         ("frame.png", ""),
         ("frame.exr", ""),
@@ -241,10 +239,8 @@ fn missing_truncated_and_altered_files_are_made_again() {
         ("ladder_trailing/n4.exr", ""),
     ] {
         let read = || {
-            split(files)
-                .into_iter()
-                .map(|name| fs::read(path(name)).unwrap())
-                .collect::<Vec<_>>()
+            let files = split(files).into_iter().map(|name| fs::read(path(name)));
+            files.map(Result::unwrap).collect::<Vec<_>>()
         };
         let whole = read();
         for kind in ["missing", "cut", "altered"] {

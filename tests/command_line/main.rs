@@ -2,7 +2,6 @@
 
 mod arguments;
 mod audit;
-mod baseline;
 #[cfg(unix)]
 mod blender;
 mod check;
@@ -41,7 +40,6 @@ mod report;
 mod results;
 mod sandbox;
 mod score;
-mod sequence_ranking;
 mod sequences;
 mod serve;
 mod set_up;

@@ -49,10 +49,8 @@ fn read_mistakes() -> Vec<Mistake> {
                 panic!("\"{head}\" shows no mistake");
             };
             // The block ends at the first line without indentation.
-            let lines: Vec<&str> = (code.lines())
-                .take_while(|line| line.starts_with("      "))
-                .map(|line| &line[6..])
-                .collect();
+            let lines = code.lines().map_while(|line| line.strip_prefix("      "));
+            let lines: Vec<&str> = lines.collect();
             Mistake {
                 from,
                 to,

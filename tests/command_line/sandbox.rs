@@ -417,15 +417,11 @@ pub fn python_with(packages: &[&str]) -> String {
     // Finding them is faster than importing them.
     let find = "import sys; from importlib.util import find_spec; \
         sys.exit(any(not find_spec(own) for own in sys.argv[1:]))";
-    let found = Command::new(&python)
-        .args(["-c", find])
-        .args(packages)
-        .output();
-    assert!(
-        found.is_ok_and(|output| output.status.success()),
-        "{python} lacks one of {packages:?}: `make test` installs them; or pip install them, and set \
-         PYTHON to the Python that has them"
-    );
+    let mut command = Command::new(&python);
+    let found = command.args(["-c", find]).args(packages).output();
+    let is_there = found.is_ok_and(|output| output.status.success());
+    let way_out = "`make test` installs them; or pip install them, and set PYTHON to the Python that has them";
+    assert!(is_there, "{python} lacks one of {packages:?}: {way_out}");
     python
 }
 

@@ -102,10 +102,8 @@ fn optuna(sandbox: &Sandbox, more: &[&str]) -> Command {
     let program = Path::new(env!("CARGO_BIN_EXE_shuttertruth"));
     let path = std::env::var("PATH").unwrap_or_default();
     let mut command = Command::new(python_with(&["optuna"]));
-    command
-        .current_dir(sandbox.path(""))
-        .arg(example)
-        .args(more);
+    command.current_dir(sandbox.path(""));
+    command.arg(example).args(more);
     let folder = program.parent().unwrap().display();
     command.env("PATH", format!("{folder}:{path}"));
     let words = SERVE.replace("flip ", "flip,bleed ");

@@ -25,9 +25,7 @@ fn curves() -> [Curve; 5] {
         }),
         (trapezoid(1.0, 0.0), |part| part),
         (trapezoid(0.0, 0.5), |part| (2.0 - 2.0 * part).min(1.0)),
-        (trapezoid(0.4, 0.6), |part| {
-            (part / 0.4).min((1.0 - part) / 0.6)
-        }),
+        (trapezoid(0.4, 0.6), |p| (p / 0.4).min((1.0 - p) / 0.6)),
         (Efficiency::Table(TABLE.to_vec()), |part| {
             let step = ((3.0 * part) as usize).min(2);
             let rest = 3.0 * part - step as f64;

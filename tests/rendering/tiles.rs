@@ -18,13 +18,8 @@ fn settings() -> RenderSettings {
 /// Tiles at the corners, inside, of one pixel, and the whole of a picture.
 fn tiles(width: u32, height: u32) -> [Tile; 5] {
     let corner = [width - 5, height - 7, 5, 7];
-    let places = [
-        [0, 0, 8, 8],
-        corner,
-        [9, 6, 16, 12],
-        [17, 11, 1, 1],
-        [0, 0, width, height],
-    ];
+    let (inside, pixel, whole) = ([9, 6, 16, 12], [17, 11, 1, 1], [0, 0, width, height]);
+    let places = [[0, 0, 8, 8], corner, inside, pixel, whole];
     places.map(|[x, y, width, height]| Tile {
         x,
         y,

@@ -157,10 +157,8 @@ fn gather_probes(taps: &[([i32; 2], f32)]) -> Probes {
         Raster::from_fn(72, 48, |x, y| {
             let mut sum = [0.0; 3];
             for ([right, down], weight) in taps {
-                let [u, v] = [
-                    (x as i32 + right).clamp(0, 71),
-                    (y as i32 + down).clamp(0, 47),
-                ];
+                let u = (x as i32 + right).clamp(0, 71);
+                let v = (y as i32 + down).clamp(0, 47);
                 let at = image.at(u as u32, v as u32);
                 sum = std::array::from_fn(|c| sum[c] + weight * at[c]);
             }

@@ -38,10 +38,8 @@ pub fn settings([width, height]: [u32; 2], samples_per_pixel: u32) -> RenderSett
 
 /// Makes settings of a truth in another number of replicates.
 pub fn settings_of(size: [u32; 2], samples_per_pixel: u32, replicates: u32) -> RenderSettings {
-    RenderSettings {
-        replicates,
-        ..settings(size, samples_per_pixel)
-    }
+    let own = settings(size, samples_per_pixel);
+    RenderSettings { replicates, ..own }
 }
 
 /// Watches a render and lets it continue.

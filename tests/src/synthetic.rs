@@ -244,10 +244,8 @@ impl Scene {
 
     fn names(&self) -> Vec<String> {
         let objects = (1..=self.objects.len()).map(|id| format!("object{id}"));
-        ["background".to_owned()]
-            .into_iter()
-            .chain(objects)
-            .collect()
+        let background = std::iter::once("background".to_owned());
+        background.chain(objects).collect()
     }
 
     /// Poses the objects for a blur, with their ids; still ones are not blurred.

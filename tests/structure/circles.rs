@@ -36,10 +36,8 @@ fn find_circles(pairs: &Pairs) -> String {
         circle.retain(|it| reach(pairs, it).contains(module));
         circles.insert(circle);
     }
-    circles
-        .iter()
-        .map(|circle| describe(pairs, circle))
-        .collect()
+    let texts = circles.iter().map(|circle| describe(pairs, circle));
+    texts.collect()
 }
 
 /// Finds the modules that a module uses, directly or through others.

@@ -4,7 +4,6 @@ pub mod capture;
 mod forms;
 mod picture;
 mod refusals;
-mod use_of_folders;
 
 use std::fs;
 

@@ -37,10 +37,8 @@ fn a_truth_of_an_engine_is_no_success() {
 fn a_kept_file_that_says_that_an_engine_drew_it_is_rendered_again() {
     let sandbox = packed();
     let files = ["frame.exr", "truth_trailing.exr", "ladder_trailing/n4.exr"];
-    let all = files
-        .map(str::to_owned)
-        .into_iter()
-        .chain(replicate_files());
+    let files = files.map(str::to_owned).into_iter();
+    let all = files.chain(replicate_files());
     for file in all.clone() {
         mark_drawn(&sandbox.path("out/plate").join(file));
     }

@@ -3,7 +3,6 @@
 mod forgeries;
 mod refusals;
 mod round_trip;
-mod verification;
 
 use std::fs;
 use std::io::{Read, Write};

@@ -2,7 +2,7 @@
 
 use fastrand::Rng;
 
-use super::pieces::Format;
+use super::Format;
 use super::{Source, magnitude};
 use crate::dictionary::words;
 

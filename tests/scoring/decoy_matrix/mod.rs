@@ -1,15 +1,13 @@
 //! Wrong blurs against the bounds for all filters. On every scene each wrong blur breaks a bound, and the right ones break none.
 
 pub mod decoys;
-mod scenes;
 
 use std::collections::BTreeMap;
 
-use decoys::{APART, decoys};
+use decoys::{APART, decoys, scenes};
 use frame::Picture;
 use judge::{Bounds, Outcome, judge_scores, read_bounds_file};
 use metrics::{Measured, Metric, Reference, Scores};
-use scenes::scenes;
 use tests::synthetic::{Blur, Scene, VIEWING};
 
 use crate::noisy;
