@@ -3,11 +3,9 @@
 use judge::Outcome;
 use metrics::{Metric, SequenceMetric};
 use suite::Run;
-
 use tests::text::assert_contains;
 
-use super::calibrated::{assert_limits, calibrate};
-use super::{assert_ends, check, json};
+use super::{assert_ends, assert_limits, calibrate, check, json};
 use crate::sandbox::{Sandbox, assert_refused, split};
 
 /// Makes a sandbox whose plate has limits on a single frame and on sequences of three frames. The identity's flicker is some hundredths

@@ -196,7 +196,7 @@ fn answers_to_a_page_become_a_scale_beside_the_scores_of_the_run() {
     let table = sandbox.execute(&preferences(&names, &[]));
     let parts = "1 session, 8 answers | fewer than 5 sessions | the prior alone holds | 0 of 2 checks failed";
     assert_contains(&squeeze(&table), &parts);
-    refusals::assert_answers_are_refused(&sandbox, &study);
+    assert_answers_are_refused(&sandbox, &study);
 }
 
 /// Makes a page where a killed process had begun another one.
