@@ -107,6 +107,8 @@ fn no_change_of_a_filter_matches_its_original() {
         ("jimenez:wicked", "border=clamp"),
         ("realism_effects:default", "jitter=0.5"),
         ("dagor:default", "vignette=0.5"),
+        ("godot:addon", "tile_motion=exact"),
+        ("godot:engine", "arrival=half"),
         ("vort:default", "depth_scale=50"),
         ("bevy:msaa", "fetch=filtered"),
         ("three:default", "coordinates=texture"),

@@ -13,6 +13,7 @@ mod compilers;
 mod conventions;
 mod earlier_run;
 mod empty_folder;
+mod exclusion;
 mod failures;
 mod fidelity;
 mod finished_sequence;

@@ -94,6 +94,17 @@ fn the_panel_moves_at_the_speed_of_its_variant() {
 }
 
 #[test]
+fn the_lorry_stops_within_a_sequence() {
+    let scene = load_shipped("reversal@stopping");
+    let lorry = object_index(&scene, "lorry");
+    let at = |time| scene.object_to_world(lorry, time).translation.x;
+    let steps = [-1.0, 0.0, 1.0, 2.0].map(|time| at(time + 1.0) - at(time));
+    let due = [0.6, 0.6, 0.0, 0.0];
+    let is_due = |(step, due): (f64, f64)| (step - due).abs() < 1e-9;
+    assert!(steps.into_iter().zip(due).all(is_due), "{steps:?}");
+}
+
+#[test]
 fn the_panel_keeps_clear_of_the_border() {
     let all = shipped_with_variants();
     for name in all.iter().filter(|name| name.contains("panel")) {

@@ -5,6 +5,7 @@
 mod babylon;
 mod dagor;
 mod gathers;
+mod godot;
 mod jimenez;
 mod kino;
 mod tiles;
@@ -81,6 +82,7 @@ pub fn place_taps(filter: &str, preset: &str, steady: &Steady, noise: f64) -> Ve
         "urp" => gathers::urp(preset, steady, noise),
         "vort" => gathers::vort(steady, noise),
         "dagor" => dagor::place_taps(preset, steady, noise),
+        "godot" => godot::place_taps(preset, steady, noise),
         "mcguire" => tiles::mcguire(preset, steady, noise),
         "guertin" => tiles::guertin(steady, noise),
         _ => panic!("say here what {filter} averages"),

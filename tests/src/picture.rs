@@ -1,7 +1,7 @@
 //! Small frames of surfaces, each with its own motion, and their blurs.
 
 use filters::{Blur, Filter, Input, Settings};
-use frame::{Frame, Image, Plane, Raster, Vectors};
+use frame::{Frame, Image, Plane, Raster, Reprojection, Vectors};
 
 use crate::ramp::Ramp;
 use crate::random::Random;
@@ -101,18 +101,19 @@ impl Picture {
         self
     }
 
-    /// Makes the input of a filter with these colours in place of its own.
+    /// Makes the input of a filter with these colours in place of its own, from a still camera.
     pub fn input<'a>(&'a self, color: &'a [&'a Image]) -> Input<'a> {
         Input {
             color,
             velocity: &self.velocity,
             velocity_next: Some(&self.velocity),
             velocity_z: None,
+            exclusion: None,
             depth: &self.depth,
             exposure: self.exposure,
             frames_per_second: None,
             frame_index: 0,
-            reprojection: None,
+            reprojection: Some(Reprojection::STILL),
             camera: None,
         }
     }
@@ -165,6 +166,7 @@ pub fn frame_input<'a>(frame: &'a Frame, color: &'a [&'a Image]) -> Input<'a> {
         velocity: &frame.velocity,
         velocity_next: frame.velocity_next.as_ref().or(Some(&frame.velocity)),
         velocity_z: frame.velocity_z.as_ref(),
+        exclusion: None,
         depth: &frame.depth,
         reprojection: Some(frame.reprojection.moved(f64::from(frame.guard_band))),
         camera: frame.camera,

@@ -66,6 +66,7 @@ fn draw(scene: &Scene, time: f64) -> Capture {
         velocity: frame.velocity,
         velocity_next: None,
         velocity_z: None,
+        exclusion: None,
         depth: frame.depth,
         object_id: Some(frame.object_id),
         blurred: None,
