@@ -84,13 +84,8 @@ impl Picture {
 
     /// Makes a picture of one surface left of the middle, and of another one right of it.
     pub fn halves(width: u32, height: u32, left: Surface, right: Surface) -> Self {
-        Self::new(
-            width,
-            height,
-            |x, _| {
-                if x < width / 2 { left } else { right }
-            },
-        )
+        let side = |x: u32| if x < width / 2 { left } else { right };
+        Self::new(width, height, |x, _| side(x))
     }
 
     /// Gives the pixels of these columns and rows their own greys, from 0 to 1.
@@ -197,10 +192,8 @@ pub fn ramp_length(image: &Image) -> f64 {
 
 /// Makes a picture that is black left of the middle and white right of it, all in one motion at one depth.
 pub fn moving_edge(width: u32, height: u32, velocity: [f32; 2]) -> Picture {
-    let ahead = Surface {
-        velocity,
-        ..white(0.0)
-    };
+    let mut ahead = white(0.0);
+    ahead.velocity = velocity;
     Picture::halves(width, height, ahead.gray(0.0), ahead)
 }
 

@@ -76,7 +76,7 @@ fn frames_without_them_are_refused() {
         let mut blur = ready(&filter, (61, 43)).unwrap();
         for (input, says) in &wrong {
             let error = blur.run(input).unwrap_err().to_string();
-            assert_contains(&error, &[&filter.name, says]);
+            assert_contains(&error, &[filter.name.as_str(), says]);
         }
     }
     let identity = Filter::builtin("identity").unwrap();
