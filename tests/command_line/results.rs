@@ -183,7 +183,10 @@ fn results_of_two_runs_are_those_of_one() {
     let mut other = whole.clone();
     other.common_alignment = Alignment::Centred;
     let refused = part.update(other).unwrap_err().to_string();
-    assert_contains(&refused, &["is against a centred shutter", "against a trailing one"]);
+    assert_contains(
+        &refused,
+        &["is against a centred shutter", "against a trailing one"],
+    );
 
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("kept.json");
