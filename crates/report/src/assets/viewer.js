@@ -75,11 +75,13 @@
     for (const single of singles) single.hidden = mode !== "side";
     const { left, right } = picked();
     const at = stops();
-    const drawing = (picture) => [`${open.id} ${picture.word} ${at}`, () => pictures.painterOf(picture, at)];
+    // A picture that this page computed has a version, and is drawn again with each.
+    const key = ({ word, version = "" }) => `${word}${version}`;
+    const drawing = (picture) => [`${open.id} ${key(picture)} ${at}`, () => pictures.painterOf(picture, at)];
     const isLight = left.painter === "radiance" && right.painter === "radiance";
     const differs = mode === "difference" && isLight;
     const below = differs
-      ? [`${open.id} ${left.word} ${right.word} ${at}`, () => pictures.differenceOf(left, right, at)]
+      ? [`${open.id} ${key(left)} ${key(right)} ${at}`, () => pictures.differenceOf(left, right, at)]
       : drawing(right);
     const swapped = "swapped" in viewer.dataset;
     const shown = differs ? "signed" : mode === "blink" && !swapped ? left.word : right.word;
@@ -371,6 +373,7 @@
   Object.assign(pictures, {
     isOpen: () => open !== null,
     show: openCase,
+    redraw: show,
     settings,
     setMode,
     next,

@@ -1,0 +1,392 @@
+"use strict";
+// "Try it" of a case: the parameters and the shader of its filter, which runs on the reader's graphics card.
+{
+  const pictures = window.shuttertruth;
+  const { card, scores, folder, load, inflate, planes, put } = pictures;
+  // Pictures that a panel adds to its case, with the numbers of their planes.
+  const LAYERS = { live: [-1, -2, -3], live_flip: [-4] };
+  // Differences from the stored scores up to these are those of graphics cards.
+  const SAME = { flip: 0.0005, psnr: 0.05 };
+  // Time after the last key before the shader is compiled, in milliseconds.
+  const PAUSE = 250;
+  // What files next to the page contain, by name.
+  const loaded = new Map();
+  // The panel that is open, if any, and the graphics card once it was used.
+  let tried = null;
+  let opened = null;
+
+  const element = (kind, words = {}, ...children) => {
+    const made = Object.assign(document.createElement(kind), words);
+    made.append(...children);
+    return made;
+  };
+  const button = (textContent, onclick) => element("button", { type: "button", textContent, onclick });
+
+  const loadOnce = (name, prepare) => {
+    if (!loaded.has(name)) loaded.set(name, load(name).then(prepare));
+    loaded.get(name).catch(() => loaded.delete(name));
+    return loaded.get(name);
+  };
+
+  const floatsOf = async (inputs) => {
+    const read = async ([name, text]) => [name, new Float32Array((await inflate(text)).buffer)];
+    return Object.fromEntries(await Promise.all(Object.entries(inputs).map(read)));
+  };
+
+  // Opens the graphics card, unless it is open.
+  const openCard = () => {
+    opened ??= card.open(() => {
+      opened = null;
+      say("The graphics card stopped answering: a pass may take too long. The next change starts it again.");
+    });
+    opened.catch(() => (opened = null));
+    return opened;
+  };
+
+  const say = (words) => {
+    if (tried) tried.said.textContent = words;
+  };
+
+  // Name by name the numbers that blocks may contain: a choice is its index.
+  const numbersOf = ({ filter, values, data }) => {
+    const number = ({ name, choices }) => (choices?.length > 0 ? choices.indexOf(values[name]) : values[name]);
+    return { ...data.values, ...Object.fromEntries(filter.parameters.map((parameter) => [parameter.name, number(parameter)])) };
+  };
+
+  const wordsOf = (mine) => ({ filter: mine.filter, scene: mine.scene, passes: mine.passes, numbers: numbersOf(mine) });
+
+  // Blurs the frame with the values and shaders of the panel, scores the result and shows it.
+  const run = async (mine) => {
+    const start = performance.now();
+    const { device } = await openCard();
+    if (mine.device !== device) await compile(mine, device);
+    const output = await card.blur(device, wordsOf(mine));
+    const { width, height, truth, seen, region, scene, noise } = mine;
+    const map = scores.mapFlip(seen, scores.see(output, width, height, scene.stops));
+    if (mine !== tried) return;
+    LAYERS.live.forEach((number, at) => put(number, output[at]));
+    put(LAYERS.live_flip[0], map);
+    mine.found = { flip: scores.meanOver(region, map), psnr: scores.psnr(output, truth, region, scene.stops, noise) };
+    mine.version += 1;
+    fillScores(mine);
+    say("");
+    if (mine.version === 1) showLive(mine);
+    else pictures.redraw();
+    mine.place.dataset.milliseconds = (performance.now() - start).toFixed(1);
+    mine.place.dataset.version = mine.version;
+  };
+
+  // Runs the filter again, and once more if something changed meanwhile.
+  const change = async (mine) => {
+    mine.changed = true;
+    if (mine.runs) return;
+    mine.runs = true;
+    while (mine.changed) {
+      mine.changed = false;
+      try {
+        await run(mine);
+      } catch (error) {
+        say(error.message);
+      }
+    }
+    mine.runs = false;
+  };
+
+  // Compiles the shaders. Broken ones leave the passes and the picture as they are.
+  const compile = async (mine, device) => {
+    const { passes, errors = [] } = await card.compile(device, mine.filter, mine.texts);
+    mine.errors = errors;
+    if (mine.editor) fillErrors(mine);
+    if (!passes) throw new Error(errors[0].message);
+    Object.assign(mine, { passes, device });
+  };
+
+  const recompile = async (mine) => {
+    try {
+      await compile(mine, (await openCard()).device);
+    } catch {
+      return say("The shader has errors, so the picture is the last one.");
+    }
+    return change(mine);
+  };
+
+  // Adds the pictures to the case and shows them.
+  const showLive = ({ section, home, layers }) => {
+    home.dataset.layers = [layers, ...Object.entries(LAYERS).map(([word, numbers]) => `${word}:${numbers}`)].join(" ");
+    const settings = Object.fromEntries(pictures.settings());
+    pictures.show(section, { ...settings, left: "live", right: "live_flip", mode: "side" });
+  };
+
+  const close = () => {
+    if (!tried) return;
+    const { section, home, place, layers, start } = tried;
+    tried = null;
+    home.dataset.layers = layers;
+    section.classList.remove("trying");
+    place.replaceChildren(start);
+    for (const name of ["milliseconds", "version"]) delete place.dataset[name];
+  };
+
+  const fillScores = ({ found, data: { stored }, table }) => {
+    const rows = [["FLIP", "flip", 3, -1, ""], ["PSNR", "psnr", 2, 1, " dB"]].map(([title, name, digits, sign, unit]) => {
+      const [now, before] = [found[name], stored[name]];
+      const gain = sign * (now - before);
+      const verdict = Math.abs(gain) <= SAME[name] ? "same" : gain > 0 ? "better" : "worse";
+      const texts = [now, before].map((value) => `${value.toFixed(digits)}${unit}`);
+      const cells = [...texts, verdict].map((textContent) => element("td", { textContent }));
+      cells[2].className = verdict;
+      return element("tr", {}, element("th", { scope: "row", textContent: title }), ...cells);
+    });
+    const titles = ["", "now", "stored run", ""].map((textContent) => element("th", { scope: "col", textContent }));
+    table.replaceChildren(element("tr", {}, ...titles), ...rows);
+  };
+
+  // Sets parameters to values, and everything that shows them.
+  const set = (mine, values) => {
+    Object.assign(mine.values, values);
+    for (const sync of mine.syncs) sync();
+    for (const [one, preset] of mine.presets) {
+      const isChosen = Object.entries(preset.values).every(([name, value]) => mine.values[name] === value);
+      one.setAttribute("aria-pressed", isChosen);
+    }
+    change(mine);
+  };
+
+  const choiceOf = (mine, { name, choices }) => {
+    const menu = element("select", { ariaLabel: name }, ...choices.map((choice) => new Option(choice)));
+    menu.addEventListener("change", () => set(mine, { [name]: menu.value }));
+    mine.syncs.push(() => (menu.value = mine.values[name]));
+    return [menu];
+  };
+
+  // A slider and a field for a number.
+  const numberOf = (mine, { name, kind, min, max, scale }) => {
+    const isWhole = kind === "integer";
+    const isLog = scale === "log" && min > 0;
+    const steps = isWhole && !isLog ? max - min : 1000;
+    const within = (value) => Math.min(max, Math.max(min, isWhole ? Math.round(value) : value));
+    const partOf = (value) => (isLog ? Math.log(value / min) / Math.log(max / min) : (value - min) / (max - min));
+    const valueOf = (part) => within(Number((isLog ? min * (max / min) ** part : min + (max - min) * part).toPrecision(isWhole ? 12 : 3)));
+    const slider = element("input", { type: "range", min: 0, max: steps, step: 1, ariaLabel: name });
+    const field = element("input", { type: "number", min, max, step: "any", ariaLabel: `${name}, as a number` });
+    slider.addEventListener("input", () => set(mine, { [name]: valueOf(slider.value / steps) }));
+    field.addEventListener("change", () => set(mine, { [name]: field.value === "" ? mine.values[name] : within(Number(field.value)) }));
+    mine.syncs.push(() => {
+      const value = mine.values[name];
+      field.value = value;
+      // A slider between two whole numbers stays where its reader put it.
+      if (valueOf(slider.value / steps) !== value) slider.value = Math.round(steps * partOf(value));
+      slider.ariaValueText = String(value);
+    });
+    return [slider, field];
+  };
+
+  const parameterRow = (mine, parameter) => {
+    const { name, doc, min, max, scale, unit, choices } = parameter;
+    const isChoice = choices?.length > 0;
+    const range = isChoice ? "" : ` ${min} to ${max}${unit === "pixels" ? " pixels" : ""}${scale === "log" ? ", in equal ratios" : ""}.`;
+    const controls = isChoice ? choiceOf(mine, parameter) : numberOf(mine, parameter);
+    const title = element("div", { className: "title" }, element("code", { textContent: name }), ...controls);
+    return element("div", { className: "parameter" }, title, element("p", { className: "note", textContent: `${doc}${range}` }));
+  };
+
+  const presetButtons = (mine) => {
+    mine.presets = mine.filter.presets.map((preset) => {
+      const one = button(preset.name, () => set(mine, preset.values));
+      one.title = preset.doc;
+      return [one, preset];
+    });
+    return element("div", { className: "presets" }, "Presets ", ...mine.presets.map(([one]) => one));
+  };
+
+  const copyPreset = async (mine) => {
+    try {
+      await navigator.clipboard.writeText(folder.presetOf(mine.filter, mine.values, nameOfScene(mine)));
+      say("Copied: paste it at the end of filter.toml.");
+    } catch (error) {
+      say(`The browser does not let the page copy: ${error.message}`);
+    }
+  };
+
+  const nameOfScene = ({ section }) => section.dataset.title.split(" / ")[0];
+
+  const saveFolder = (mine) => {
+    const command = folder.save(mine.filter, mine.values, mine.texts, nameOfScene(mine));
+    say(`Unpack it, and run: ${command}`);
+  };
+
+  // The lines of the shader that the editor shows, and what the compiler says about them.
+  const fillErrors = ({ errors, editor, module }) => {
+    const own = errors.filter((error) => error.module === module);
+    const lines = editor.text.value.split("\n").map((_, at) => {
+      const isBroken = own.some(({ line }) => line === at + 1);
+      return element("span", { className: isBroken ? "broken" : "", textContent: `${at + 1}\n` });
+    });
+    editor.lines.replaceChildren(...lines);
+    const said = errors.map(({ line, message }) => element("li", {}, goTo(editor, line), ` ${message}`));
+    editor.errors.replaceChildren(...said);
+    editor.text.setAttribute("aria-invalid", errors.length > 0);
+  };
+
+  // A button that selects a line of the shader.
+  const goTo = ({ text }, line) => {
+    if (!line) return "In what is appended to the shader:";
+    return button(`line ${line}`, () => {
+      const lines = text.value.split("\n");
+      const start = lines.slice(0, line - 1).join("\n").length + (line > 1 ? 1 : 0);
+      text.focus();
+      text.setSelectionRange(start, start + lines[line - 1].length);
+      text.scrollTop = ((line - 4) * text.scrollHeight) / lines.length;
+    });
+  };
+
+  // An editor of the modules that may be edited, one at a time.
+  const shaderEditor = (mine) => {
+    const { filter } = mine;
+    const own = filter.modules.map((module, index) => [module, index]).filter(([module]) => module.editable);
+    if (own.length === 0) return "";
+    const nameOf = ({ file = filter.file }) => file;
+    const text = element("textarea", { spellcheck: false, wrap: "off", ariaLabel: "Shader" });
+    const lines = element("pre", { ariaHidden: "true" });
+    const menu = element("select", { ariaLabel: "File", hidden: own.length === 1 }, ...own.map(([module, index]) => new Option(nameOf(module), index)));
+    mine.editor = { text, lines, errors: element("ul", { className: "errors", role: "alert" }) };
+    let waits = null;
+    const edit = () => {
+      mine.texts[mine.module] = text.value;
+      fillErrors({ ...mine, errors: [] });
+      clearTimeout(waits);
+      waits = setTimeout(() => recompile(mine), PAUSE);
+    };
+    const fill = () => {
+      mine.module = Number(menu.value);
+      text.value = mine.texts[mine.module];
+      fillErrors(mine);
+    };
+    const reset = () => {
+      text.value = filter.modules[mine.module].wgsl;
+      edit();
+    };
+    text.addEventListener("input", edit);
+    text.addEventListener("scroll", () => (lines.scrollTop = text.scrollTop));
+    menu.addEventListener("change", fill);
+    fill();
+    const title = own.length === 1 ? `Shader: ${nameOf(own[0][0])}` : "Shaders";
+    return element(
+      "details",
+      { className: "shader" },
+      element("summary", { textContent: title }),
+      menu,
+      element("div", { className: "code" }, lines, text),
+      mine.editor.errors,
+      button("Reset the shader", reset),
+    );
+  };
+
+  const timeTable = (mine) => {
+    const said = element("p", { className: "note" });
+    const table = element("table");
+    const measure = async () => {
+      const { device, name } = await openCard();
+      if (!device.features.has("timestamp-query")) return (said.textContent = "This browser does not measure the time of a pass.");
+      said.textContent = "Measuring ..";
+      try {
+        const spent = await card.time(device, wordsOf(mine));
+        const all = spent.reduce((sum, [, time]) => sum + time, 0);
+        const rows = [...spent, ["all passes", all]].map(([entry, time]) =>
+          element("tr", {}, element("th", { scope: "row", textContent: entry }), element("td", { textContent: `${time.toFixed(3)} ms` })));
+        table.replaceChildren(...rows);
+        said.textContent = `Median of 64 runs on ${name}, ${mine.scene.width}x${mine.scene.height}. Most browsers round it to 0.1 ms.`;
+      } catch (error) {
+        said.textContent = error.message;
+      }
+      return null;
+    };
+    return element("details", { className: "times" }, element("summary", { textContent: "Time per pass" }), button("Measure", measure), table, said);
+  };
+
+  const fillPanel = (mine) => {
+    mine.table = element("table", { className: "compared" });
+    const reset = button("Reset", () => set(mine, mine.before));
+    reset.title = "Values of the stored run";
+    const buttons = [reset, button("Copy as preset", () => copyPreset(mine)), button("Download filter", () => saveFolder(mine))];
+    mine.place.replaceChildren(
+      element("div", { className: "head" }, element("h3", { textContent: "Try it" }), button("Close", leave)),
+      mine.table,
+      mine.said,
+      presetButtons(mine),
+      element("div", { className: "parameters" }, ...mine.filter.parameters.map((parameter) => parameterRow(mine, parameter))),
+      element("div", { className: "presets" }, ...buttons),
+      shaderEditor(mine),
+      timeTable(mine),
+    );
+    mine.section.classList.add("trying");
+    mine.home.after(mine.place);
+  };
+
+  const leave = () => {
+    const { section, start } = tried;
+    close();
+    pictures.show(section, { ...Object.fromEntries(pictures.settings()), left: "truth", right: "output", mode: "slide" });
+    start.focus();
+  };
+
+  // Opens the panel of a case.
+  const start = async (place) => {
+    close();
+    const section = place.closest("article");
+    const data = JSON.parse(place.dataset.live);
+    const home = section.querySelector(".viewer_place");
+    const mine = { section, data, place, home, start: place.querySelector("button"), syncs: [], errors: [], version: 0, layers: home.dataset.layers, module: 0 };
+    tried = Object.assign(mine, { said: element("p", { className: "said note", role: "status", textContent: "Loading .." }) });
+    place.replaceChildren(mine.start, mine.said);
+    try {
+      const { device } = await openCard();
+      const filter = await loadOnce(`live_filter_${data.filter}`, (own) => own);
+      const obstacle = card.findObstacle(filter, device);
+      if (obstacle) throw new Error(obstacle);
+      const scene = await loadOnce(`live_scene_${data.scene}`, async (own) => ({ ...own, inputs: await floatsOf(own.inputs) }));
+      const { width, height } = scene.crop;
+      const truth = await planes(scene.truth[data.alignment]);
+      const [region] = await planes([scene.moving[data.alignment]]);
+      const seen = scores.see(truth, width, height, scene.stops);
+      if (mine !== tried) return;
+      const preset = filter.presets.find(({ name }) => name === data.preset)?.values;
+      const defaults = Object.fromEntries(filter.parameters.map((parameter) => [parameter.name, parameter.default]));
+      const before = { ...defaults, ...preset, ...data.parameters };
+      const texts = filter.modules.map(({ wgsl }) => wgsl);
+      Object.assign(mine, { filter, scene, width, height, truth, region, seen, texts, before, values: {}, noise: scene.noise?.[data.alignment] ?? [0, 0] });
+      fillPanel(mine);
+      set(mine, before);
+    } catch (error) {
+      say(error.message);
+    }
+  };
+
+  // What the viewer has to know about a picture of the open panel.
+  const find = (word) => {
+    if (!tried || !LAYERS[word]) return undefined;
+    return { version: tried.version, ...(word === "live" ? { score: `FLIP ${tried.found.flip.toFixed(3)}` } : {}) };
+  };
+
+  document.addEventListener("click", (event) => {
+    const place = event.target.closest(".live");
+    if (place && event.target.matches(".live > button")) start(place);
+  });
+  // What is typed is no command to the page.
+  document.addEventListener(
+    "keydown",
+    (event) => {
+      if (event.target.matches?.(".live :is(input, textarea, select)")) event.stopImmediatePropagation();
+    },
+    { capture: true },
+  );
+
+  const show = pictures.show;
+  pictures.show = (section, settings) => {
+    if (tried && section !== tried.section) close();
+    show(section, settings);
+  };
+  pictures.live = { find };
+
+  for (const place of document.querySelectorAll("div.live")) place.hidden = false;
+}
