@@ -58,7 +58,7 @@
   const save = (filter, values, texts, scene) => {
     const toml = `${filter.toml.trimEnd()}\n\n${presetOf(filter, values, scene)}`;
     const shaders = filter.modules.map(({ file = filter.file }, index) => [file, texts[index]]).filter(([file]) => file);
-    const files = [["filter.toml", toml], ...shaders].map(([path, text]) => [`${filter.name}/${path}`, text]);
+    const files = [["filter.toml", toml], ...shaders].map(([path, text]) => [`${filter.name}/${path}`, `${text.trimEnd()}\n`]);
     const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(zip(files)), download: `${filter.name}.zip` });
     link.click();
     setTimeout(() => URL.revokeObjectURL(link.href), 60000);

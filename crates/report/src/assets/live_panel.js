@@ -9,6 +9,9 @@
   const SAME = { flip: 0.0005, psnr: 0.05 };
   // Time after the last key before the shader is compiled, in milliseconds.
   const PAUSE = 250;
+  const BROKEN = "The shader has errors: the picture and the scores are those of the last one without.";
+  // Narrower windows show one picture, in pixels.
+  const NARROW = 700;
   // What files next to the page contain, by name.
   const loaded = new Map();
   // The panel that is open, if any, and the graphics card once it was used.
@@ -69,7 +72,7 @@
     mine.found = { flip: scores.meanOver(region, map), psnr: scores.psnr(output, truth, region, scene.stops, noise) };
     mine.version += 1;
     fillScores(mine);
-    say("");
+    say(mine.errors.length > 0 ? BROKEN : "");
     if (mine.version === 1) showLive(mine);
     else pictures.redraw();
     mine.place.dataset.milliseconds = (performance.now() - start).toFixed(1);
@@ -105,7 +108,7 @@
     try {
       await compile(mine, (await openCard()).device);
     } catch {
-      return say("The shader has errors, so the picture is the last one.");
+      return say(BROKEN);
     }
     return change(mine);
   };
@@ -114,7 +117,7 @@
   const showLive = ({ section, home, layers }) => {
     home.dataset.layers = [layers, ...Object.entries(LAYERS).map(([word, numbers]) => `${word}:${numbers}`)].join(" ");
     const settings = Object.fromEntries(pictures.settings());
-    pictures.show(section, { ...settings, left: "live", right: "live_flip", mode: "side" });
+    pictures.show(section, { ...settings, left: "live", right: "live_flip", mode: innerWidth > NARROW ? "side" : "slide" });
   };
 
   const close = () => {
@@ -173,7 +176,7 @@
     field.addEventListener("change", () => set(mine, { [name]: field.value === "" ? mine.values[name] : within(Number(field.value)) }));
     mine.syncs.push(() => {
       const value = mine.values[name];
-      field.value = value;
+      field.value = Number(value.toPrecision(6));
       // A slider between two whole numbers stays where its reader put it.
       if (valueOf(slider.value / steps) !== value) slider.value = Math.round(steps * partOf(value));
       slider.ariaValueText = String(value);
@@ -200,11 +203,12 @@
   };
 
   const copyPreset = async (mine) => {
+    const preset = folder.presetOf(mine.filter, mine.values, nameOfScene(mine));
     try {
-      await navigator.clipboard.writeText(folder.presetOf(mine.filter, mine.values, nameOfScene(mine)));
-      say("Copied: paste it at the end of filter.toml.");
-    } catch (error) {
-      say(`The browser does not let the page copy: ${error.message}`);
+      await navigator.clipboard.writeText(preset);
+      say("Copied. Paste it at the end of filter.toml.");
+    } catch {
+      say(`Copy this to the end of filter.toml:\n${preset}`);
     }
   };
 
@@ -304,10 +308,19 @@
     return element("details", { className: "times" }, element("summary", { textContent: "Time per pass" }), button("Measure", measure), table, said);
   };
 
+  const resetAll = (mine) => {
+    const isEdited = mine.filter.modules.some(({ wgsl }, index) => wgsl !== mine.texts[index]);
+    set(mine, mine.before);
+    if (!isEdited) return;
+    mine.texts = mine.filter.modules.map(({ wgsl }) => wgsl);
+    mine.editor.text.value = mine.texts[mine.module];
+    recompile(mine);
+  };
+
   const fillPanel = (mine) => {
     mine.table = element("table", { className: "compared" });
-    const reset = button("Reset", () => set(mine, mine.before));
-    reset.title = "Values of the stored run";
+    const reset = button("Reset", () => resetAll(mine));
+    reset.title = "Values and shader of the stored run";
     const buttons = [reset, button("Copy as preset", () => copyPreset(mine)), button("Download filter", () => saveFolder(mine))];
     mine.place.replaceChildren(
       element("div", { className: "head" }, element("h3", { textContent: "Try it" }), button("Close", leave)),
@@ -383,8 +396,9 @@
 
   const show = pictures.show;
   pictures.show = (section, settings) => {
-    if (tried && section !== tried.section) close();
-    show(section, settings);
+    const leaves = tried && section !== tried.section;
+    if (leaves) close();
+    show(section, leaves && section ? { left: "truth", right: "output", ...settings } : settings);
   };
   pictures.live = { find };
 

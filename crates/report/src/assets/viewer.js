@@ -41,9 +41,11 @@
 
   const draw = async (mine, places) => {
     const canvases = [];
-    for (const [place, [key, load]] of Object.entries(places)) {
+    for (const [place, [key, load, changes]] of Object.entries(places)) {
       const canvas = viewer.querySelector(`[data-place=${place}] canvas`);
-      if (canvas.dataset.shows !== key) canvases.push([canvas, key, await load()]);
+      // What changes with every move of a slider is drawn only where it is seen.
+      if (canvas.dataset.shows === key || (changes && !canvas.checkVisibility())) continue;
+      canvases.push([canvas, key, await load()]);
       if (mine !== asked) return;
     }
     for (const [canvas, key, color] of canvases) {
@@ -77,7 +79,7 @@
     const at = stops();
     // A picture that this page computed has a version, and is drawn again with each.
     const key = ({ word, version = "" }) => `${word}${version}`;
-    const drawing = (picture) => [`${open.id} ${key(picture)} ${at}`, () => pictures.painterOf(picture, at)];
+    const drawing = (picture) => [`${open.id} ${key(picture)} ${at}`, () => pictures.painterOf(picture, at), "version" in picture];
     const isLight = left.painter === "radiance" && right.painter === "radiance";
     const differs = mode === "difference" && isLight;
     const below = differs
