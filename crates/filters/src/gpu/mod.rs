@@ -30,5 +30,7 @@ pub use buffer_copy::BufferCopy;
 pub use device::{AdapterDescription, Clock, Gpu, LoopLimit};
 pub use kernels::Kernels;
 pub use limits::Limits;
+pub(crate) use targets::output_format;
 pub use timing::{LoadedBlur, PassTime};
 pub use trial::try_out;
+pub(crate) use uniforms::FrameValues;
