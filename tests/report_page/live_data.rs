@@ -115,10 +115,7 @@ fn filters_with_kernels_are_live_and_get_the_frame_of_the_run() {
     assert_eq!(kino["stored"]["flip"], score.value);
     let own = read_case(&text, "own:default").unwrap();
     let filter = read_file(&page, &format!("live_filter_{}", own["filter"]));
-    assert_contains(
-        filter["modules"][0]["wgsl"].as_str().unwrap(),
-        &[body],
-    );
+    assert_contains(filter["modules"][0]["wgsl"].as_str().unwrap(), &[body]);
     let scene = read_file(&page, "live_scene_0");
     let frame = Frame::read(&sandbox.path("out/plate/frame.exr")).unwrap();
     assert_eq!(

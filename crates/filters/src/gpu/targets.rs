@@ -96,7 +96,7 @@ pub(crate) fn output_format(filter: &Filter) -> Format {
 }
 
 /// Lists the formats of the render targets of a pass, by location.
-pub(super) fn list_target_formats(filter: &Filter, pass: &Pass) -> Vec<wgpu::TextureFormat> {
+pub(crate) fn list_target_formats(filter: &Filter, pass: &Pass) -> Vec<wgpu::TextureFormat> {
     let formats = pass.list_targets().map(|name| match filter.texture(name) {
         Some(texture) => texture.format.wgpu(),
         None => output_format(filter).wgpu(),

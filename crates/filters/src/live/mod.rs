@@ -1,26 +1,30 @@
 //! A filter as data for a program that runs it elsewhere, such as a page in a browser: all that `gpu` binds and dispatches.
 
 mod bindings;
+mod inputs;
+mod modules;
 mod passes;
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
 
 use serde::Serialize;
 
-use crate::filter::{INPUTS, Kind, Rounding};
+use crate::filter::{Kind, Rounding};
 use crate::gpu::{FrameValues, output_format};
 use crate::load::read_text;
-use crate::shader::{COMMON, FRAME_PREFIX};
+use crate::shader::FRAME_PREFIX;
 use crate::{Expression, Filter, Format, Input, Scale, Unit, Value};
+use bindings::LiveBinding;
+use inputs::{LiveInput, list_inputs};
+use modules::{LiveModule, list_modules};
 use passes::{LivePass, find_features};
 
 /// A filter with everything that a WebGPU device needs to run it. Places, sizes and values are those of [`Blur`](crate::Blur).
 #[derive(Clone, Debug, Serialize)]
 pub struct LiveFilter {
     name: String,
-    /// Its WGSL file.
-    file: String,
+    /// Its WGSL file; none if its passes name their own.
+    file: Option<String>,
     /// Text of filter.toml.
     toml: String,
     /// `reference_width` of a new preset, so that its values in pixels stay as they are; none if no value is in pixels.
@@ -33,6 +37,8 @@ pub struct LiveFilter {
     inputs: Vec<LiveInput>,
     /// Format of the output.
     output: Format,
+    /// Divisor of the output.
+    output_scale: f64,
     textures: Vec<LiveTexture>,
     modules: Vec<LiveModule>,
     passes: Vec<LivePass>,
@@ -60,15 +66,6 @@ struct LivePreset {
     values: BTreeMap<String, Value>,
 }
 
-#[derive(Clone, Debug, Serialize)]
-struct LiveInput {
-    /// Name of the texture.
-    name: &'static str,
-    /// Input of the frame that fills it.
-    from: &'static str,
-    format: Format,
-}
-
 /// A texture between the passes.
 #[derive(Clone, Debug, Serialize)]
 struct LiveTexture {
@@ -80,48 +77,36 @@ struct LiveTexture {
     copies: usize,
 }
 
-/// A module: two texts, compiled as one.
-#[derive(Clone, Debug, Serialize)]
-struct LiveModule {
-    /// Kernels of the filter.
-    wgsl: String,
-    /// Text that the program appends after a line break.
-    appended: &'static str,
-    /// True if a person may change the kernels.
-    editable: bool,
-}
-
 impl LiveFilter {
     /// Describes a filter for pictures of a width, without their guard band; `as_written` leaves the presets' values in pixels unscaled.
     ///
     /// # Errors
-    /// It is a program, its shaders are bound in filter.toml, or its files cannot be read again: a sentence for the page's reader.
+    /// It is a program, WGSL cannot say what its shaders do, or its files cannot be read again: a sentence for the page's reader.
     pub fn new(filter: &Filter, width: u32, as_written: bool) -> Result<Self, String> {
-        if filter.command.is_some() || filter.passes.iter().any(|pass| pass.shader.is_some()) {
-            return Err("This page cannot run the filter: filter.toml binds its shaders.".into());
+        if filter.command.is_some() {
+            return Err("A browser cannot run this filter: it is a program.".into());
         }
         let in_pixels = |parameter: &crate::Parameter| parameter.unit == Some(Unit::Pixels);
-        let kernels = &filter.shaders[0].path;
-        let read = |path: &Path| read_text(filter, path).map_err(|error| error.to_string());
+        let toml = read_text(filter, &filter.lines.path);
+        let mut modules = list_modules(filter)?;
+        let passes = (filter.passes.iter())
+            .map(|pass| LivePass::new(filter, pass, &mut modules))
+            .collect();
         Ok(Self {
             name: filter.name.clone(),
-            file: format!("{}.wgsl", filter.name),
-            toml: read(&filter.lines.path)?,
+            file: (filter.passes.iter().any(|pass| pass.shader.is_none()))
+                .then(|| format!("{}.wgsl", filter.name)),
+            toml: toml.map_err(|error| error.to_string())?,
             reference_width: filter.parameters.iter().any(in_pixels).then_some(width),
             parameters: filter.parameters.iter().map(LiveParameter::new).collect(),
             presets: list_presets(filter, width, as_written),
             features: find_features(filter),
             inputs: list_inputs(filter),
             output: output_format(filter),
+            output_scale: filter.convention.color_scale.unwrap_or(1.0),
             textures: list_textures(filter),
-            modules: vec![LiveModule {
-                wgsl: read(kernels)?.trim_end().to_owned(),
-                appended: COMMON,
-                editable: true,
-            }],
-            passes: (filter.passes.iter())
-                .map(|pass| LivePass::new(filter, pass))
-                .collect(),
+            passes,
+            modules,
         })
     }
 }
@@ -167,20 +152,6 @@ fn list_presets(filter: &Filter, width: u32, as_written: bool) -> Vec<LivePreset
     filter.presets.iter().map(describe).collect()
 }
 
-/// Lists the textures that the frame fills; those of the frame before show the first frame of a sequence itself.
-fn list_inputs(filter: &Filter) -> Vec<LiveInput> {
-    let own = INPUTS.into_iter().chain(filter.further_inputs());
-    let own = own.map(|name| (name, name));
-    let before = (filter.history.iter()).map(|history| (history.texture(), history.input()));
-    own.chain(before)
-        .map(|(name, from)| LiveInput {
-            name,
-            from,
-            format: filter.convention.format_of(name),
-        })
-        .collect()
-}
-
 fn list_textures(filter: &Filter) -> Vec<LiveTexture> {
     let describe = |texture: &crate::Texture| LiveTexture {
         name: texture.name.clone(),
@@ -202,12 +173,20 @@ impl Filter {
         let variables = entries
             .flat_map(|(shader, entry)| entry.variables.iter().map(|it| (shader, *it)))
             .flat_map(|(shader, index)| shader.list_expressions(index));
+        let levels = self.passes.iter().filter_map(|pass| pass.shader.as_ref());
+        let levels = levels.filter_map(|shader| shader.level.as_ref());
+        let inputs = list_inputs(self);
+        let converted = inputs.iter().flat_map(LiveInput::list_expressions);
         let divisors = self.textures.iter().flat_map(|it| &it.divided_by).flatten();
-        let names = variables.chain(divisors).flat_map(Expression::list_names);
+        let names = variables
+            .chain(divisors)
+            .chain(levels)
+            .chain(converted)
+            .flat_map(Expression::list_names);
         let is_parameter = |name: &str| self.parameters.iter().any(|it| it.name == name);
         let is_of_run = |name: &str| {
             let name = name.strip_prefix(FRAME_PREFIX).unwrap_or(name);
-            ["iteration", "iterations"].contains(&name)
+            ["iteration", "iterations", "value"].contains(&name)
         };
         names
             .filter(|name| !is_parameter(name) && !is_of_run(name))

@@ -69,7 +69,9 @@ impl<'a> LiveFiles<'a> {
     /// Finds the filter that a case ran, as its run's folder or this program has it, and writes its file.
     fn find_filter(&mut self, case: &Case) -> Result<Result<(usize, Filter), String>, Error> {
         if case.command.is_some() {
-            return Ok(Err("A browser cannot run this filter: it is a program.".into()));
+            return Ok(Err(
+                "A browser cannot run this filter: it is a program.".into()
+            ));
         }
         let own = self.folder.join(MEASURED_FILTERS).join(&case.filter);
         let found = match own.join("filter.toml").is_file() {
