@@ -19,7 +19,7 @@ const STYLES: [&str; 10] = [
 /// Permissions of a page: a browser may show its contents, and fetch only the allowed files next to it. Browsers differ in what counts as
 /// files next to a page on a disk.
 fn policy(siblings: Siblings) -> String {
-    let [pictures, scripts] = [Siblings::Pictures, Siblings::Numbers].map(|kind| match kind {
+    let [pictures, scripts] = [Siblings::Pictures, Siblings::Scripts].map(|kind| match kind {
         _ if kind == siblings => " 'self' file:",
         _ => "",
     });
@@ -33,8 +33,8 @@ fn policy(siblings: Siblings) -> String {
 #[derive(Clone, Copy, PartialEq)]
 pub enum Siblings {
     None,
-    /// Scripts with numbers.
-    Numbers,
+    /// Scripts with data.
+    Scripts,
     Pictures,
 }
 

@@ -78,15 +78,19 @@ impl SceneTexts {
         }
         for text in self.texts.drain(..) {
             let name = format!("{}_{}", self.name, self.written.len());
-            let path = (self.html)
-                .with_file_name(folder_name(&self.html))
-                .join(format!("{name}.js"));
-            let script = format!("shuttertruth.arrived(\"{name}\", {text});\n");
-            write_atomically(&path, script.as_bytes())?;
-            self.written.push(path);
+            self.written.push(write_script(&self.html, &name, &text)?);
         }
         Ok(())
     }
+}
+
+/// Writes JSON to a file next to the page at `html`, which loads it as `name`; returns its path.
+pub fn write_script(html: &Path, name: &str, json: &str) -> Result<PathBuf, FileError> {
+    let folder = html.with_file_name(folder_name(html));
+    let path = folder.join(format!("{name}.js"));
+    let script = format!("shuttertruth.arrived(\"{name}\", {json});\n");
+    write_atomically(&path, script.as_bytes())?;
+    Ok(path)
 }
 
 /// Returns the name of the folder next to the page at `html`.

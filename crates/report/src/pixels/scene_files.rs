@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use frame::{Alignment, ExrFile, Frame, Image, Picture, Plane, Regions, Truth, read_exr, regions};
 use metrics::{Side, object_sides};
 use store::RenderFile;
-use suite::{ACCUMULATE, Case, Error, ErrorMaps, Run};
+use suite::{ACCUMULATE, Case, Error, ErrorMaps, Run, read_further_velocities};
 
 use super::layer::Layer;
 use super::planes::Planes;
@@ -19,6 +19,8 @@ pub type Layers = Vec<(Layer, Vec<usize>)>;
 pub struct SceneFiles {
     /// Without its guard band.
     pub frame: Frame,
+    /// With it, and with all velocities that filters got, but without coverage.
+    pub whole: Frame,
     /// Truths by alignment.
     pub truths: BTreeMap<Alignment, TruthFile>,
     /// The planes of all its cases.
@@ -49,6 +51,13 @@ pub struct TruthFile {
     layers: Layers,
 }
 
+impl TruthFile {
+    /// Returns the planes of its red, green and blue.
+    pub fn color_planes(&self) -> Vec<usize> {
+        self.layers[0].1.clone()
+    }
+}
+
 /// Files of one case in a run.
 pub struct CaseFiles<'a> {
     pub output: Image,
@@ -60,7 +69,10 @@ impl SceneFiles {
     /// Reads the frame of a scene and the accumulations of its profiles; `cases` are all of the scene, `folder` is the run's.
     pub fn read(run: &Run, cases: &[&Case], folder: &Path) -> Result<Self, Error> {
         let path = cases[0].render_path(folder, RenderFile::Frame);
-        let frame = Frame::read(&path)?.cropped();
+        let mut whole = Frame::read(&path)?;
+        let frame = whole.cropped();
+        whole.coverage.clear();
+        read_further_velocities(&mut whole, path.parent().unwrap_or(folder))?;
         check_size(&path, frame.size(), (run.render.width, run.render.height))?;
         let mut accumulations = BTreeMap::new();
         for case in cases.iter().filter(|case| is_in_profiles(case)) {
@@ -87,6 +99,7 @@ impl SceneFiles {
             traced: find_traced(run, cases[0]).map(|case| folder.join(case.scene.folder())),
             folder: folder.to_owned(),
             frame,
+            whole,
             planes,
         })
     }
@@ -170,7 +183,7 @@ impl SceneFiles {
         let truth = &self.truths[&case.alignment];
         let bleeds = read_bleeds(&file, &self.frame.objects, truth)?;
         let colors = self.planes.add_image(&output);
-        let truths = truth.layers[0].1.clone();
+        let truths = truth.color_planes();
         let mut layers = [self.shared.clone(), truth.layers.clone()].concat();
         layers.push((Layer::SignedError, [colors.clone(), truths].concat()));
         layers.push((Layer::Output, colors));

@@ -9,6 +9,7 @@ use super::sequence::measure_sequences;
 use crate::Error;
 use crate::run::Run;
 use crate::run::case::Case;
+use crate::run::measured_filters::copy_filters;
 use crate::stats::overall::overall;
 
 /// Renders, filters, measures and writes every case below `plan.out`, but not `run.json` itself. Reads back an earlier run's measurements
@@ -18,6 +19,7 @@ pub fn measure_scenes(
     gpu: Option<&Gpu>,
     command: Vec<String>,
 ) -> Result<Run, Error> {
+    copy_filters(plan)?;
     // With a single scene, its steps show all of the progress.
     let count = count_frames(plan);
     let monitor = match count {

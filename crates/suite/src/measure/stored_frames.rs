@@ -7,6 +7,7 @@ use super::plan::RunPlan;
 use super::run_scene::RunScene;
 use crate::Error;
 use crate::inputs::input_format::InputFormat;
+use crate::render::velocities::write_further_velocities;
 
 /// A frame in one of the forms that filters get.
 pub(crate) struct StoredFrame {
@@ -24,6 +25,9 @@ pub(super) fn store_frames(
     frame: &Frame,
 ) -> Result<Vec<StoredFrame>, Error> {
     let whole = read_further_velocities(plan, scene)?;
+    if let Some(whole) = whole.as_ref().filter(|_| scene.id().frame == 0) {
+        write_further_velocities(whole, &plan.out.join(scene.id().folder()))?;
+    }
     let frame = whole.as_ref().unwrap_or(frame);
     let before = read_frame_before(plan, scene)?;
     let store = |format: &InputFormat, frame: &Frame, scene: Option<&Scene>| {
