@@ -169,12 +169,11 @@
     return all / count;
   };
 
-  // PSNR over a region, in dB. `shift` is what the truth's noise adds to the mean squared error, and a smaller error than `floor` counts as
-  // that.
-  const psnr = (output, truth, region, stops, [shift, floor]) => {
+  // PSNR over a region, in dB, at most `limit`, which is what the truth's noise allows. `noise` is what that adds to the squared error.
+  const psnr = (output, truth, region, stops, noise, limit) => {
     const squared = region.map((_, at) => output.reduce((all, plane, c) => all + (plane[at] - truth[c][at]) ** 2, 0) / 3);
-    const error = meanOver(region, squared) * 4 ** stops - shift;
-    return -10 * Math.log10(Math.max(error, floor, 10 ** (-PSNR_LIMIT / 10)));
+    const error = (meanOver(region, squared) - noise) * 4 ** stops;
+    return Math.min(limit, -10 * Math.log10(Math.max(error, 10 ** (-PSNR_LIMIT / 10))));
   };
 
   window.shuttertruth.scores = { see, mapFlip, meanOver, psnr };

@@ -1,5 +1,5 @@
 "use strict";
-// A tried filter as a folder that `shuttertruth run --filter` takes: filter.toml with one more preset, and the shaders, in a zip file.
+// A tried filter as a folder that `shuttertruth run --filter` takes: filter.toml with one more preset, and the shader, in a zip file.
 {
   const pictures = window.shuttertruth;
   const encoder = new TextEncoder();
@@ -54,11 +54,10 @@
     return `${lines.join("\n")}\n`;
   };
 
-  // Saves the folder; `texts` are the modules' texts. Returns what to run.
-  const save = (filter, values, texts, scene) => {
+  // Saves the folder with the text of the shader. Returns what to run.
+  const save = (filter, values, text, scene) => {
     const toml = `${filter.toml.trimEnd()}\n\n${presetOf(filter, values, scene)}`;
-    const shaders = filter.modules.map(({ file = filter.file }, index) => [file, texts[index]]).filter(([file]) => file);
-    const files = [["filter.toml", toml], ...shaders].map(([path, text]) => [`${filter.name}/${path}`, `${text.trimEnd()}\n`]);
+    const files = [["filter.toml", toml], [filter.file, `${text.trimEnd()}\n`]].map(([path, content]) => [`${filter.name}/${path}`, content]);
     const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(zip(files)), download: `${filter.name}.zip` });
     link.click();
     setTimeout(() => URL.revokeObjectURL(link.href), 60000);

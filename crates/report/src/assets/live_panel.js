@@ -7,6 +7,8 @@
   const LAYERS = { live: [-1, -2, -3], live_flip: [-4] };
   // Differences from the stored scores up to these are those of graphics cards.
   const SAME = { flip: 0.0005, psnr: 0.05 };
+  // Difference of radiance from the stored output that counts: its halves are off by half as much.
+  const APART = 1e-3;
   // Time after the last key before the shader is compiled, in milliseconds.
   const PAUSE = 250;
   const BROKEN = "The shader has errors: the picture and the scores are those of the last one without.";
@@ -64,16 +66,17 @@
     const { device } = await openCard();
     if (mine.device !== device) await compile(mine, device);
     const output = await card.blur(device, wordsOf(mine));
-    const { width, height, truth, seen, region, scene, noise } = mine;
+    const { data, width, height, truth, seen, region, scene, noise } = mine;
     const map = scores.mapFlip(seen, scores.see(output, width, height, scene.stops));
     if (mine !== tried) return;
     LAYERS.live.forEach((number, at) => put(number, output[at]));
     put(LAYERS.live_flip[0], map);
-    mine.found = { flip: scores.meanOver(region, map), psnr: scores.psnr(output, truth, region, scene.stops, noise) };
+    const limit = data.stored.psnr_limit ?? Infinity;
+    mine.found = { flip: scores.meanOver(region, map), psnr: scores.psnr(output, truth, region, scene.stops, noise, limit) };
     mine.version += 1;
     fillScores(mine);
     say(mine.errors.length > 0 ? BROKEN : "");
-    if (mine.version === 1) showLive(mine);
+    if (mine.version === 1) await showLive(mine, output);
     else pictures.redraw();
     mine.place.dataset.milliseconds = (performance.now() - start).toFixed(1);
     mine.place.dataset.version = mine.version;
@@ -113,8 +116,12 @@
     return change(mine);
   };
 
-  // Adds the pictures to the case and shows them.
-  const showLive = ({ section, home, layers }) => {
+  // Adds the pictures to the case and shows them. Says if the stored output is another picture.
+  const showLive = async ({ section, home, layers }, output) => {
+    const stored = await planes(pictures.own().output);
+    const differs = (_, at) => output.some((plane, c) => Math.abs(plane[at] - stored[c][at]) > APART * Math.max(1, Math.abs(stored[c][at])));
+    const share = output[0].filter(differs).length / output[0].length;
+    if (share > 0.001) say(`On this graphics card ${(100 * share).toFixed(1)} % of the pixels differ from those of the stored run.`);
     home.dataset.layers = [layers, ...Object.entries(LAYERS).map(([word, numbers]) => `${word}:${numbers}`)].join(" ");
     const settings = Object.fromEntries(pictures.settings());
     pictures.show(section, { ...settings, left: "live", right: "live_flip", mode: innerWidth > NARROW ? "side" : "slide" });
@@ -134,8 +141,8 @@
     const rows = [["FLIP", "flip", 3, -1, ""], ["PSNR", "psnr", 2, 1, " dB"]].map(([title, name, digits, sign, unit]) => {
       const [now, before] = [found[name], stored[name]];
       const gain = sign * (now - before);
-      const verdict = Math.abs(gain) <= SAME[name] ? "same" : gain > 0 ? "better" : "worse";
-      const texts = [now, before].map((value) => `${value.toFixed(digits)}${unit}`);
+      const verdict = before === null || Math.abs(gain) <= SAME[name] ? "same" : gain > 0 ? "better" : "worse";
+      const texts = [now, before].map((value) => (value === null ? "none" : `${value.toFixed(digits)}${unit}`));
       const cells = [...texts, verdict].map((textContent) => element("td", { textContent }));
       cells[2].className = verdict;
       return element("tr", {}, element("th", { scope: "row", textContent: title }), ...cells);
@@ -215,11 +222,11 @@
   const nameOfScene = ({ section }) => section.dataset.title.split(" / ")[0];
 
   const saveFolder = (mine) => {
-    const command = folder.save(mine.filter, mine.values, mine.texts, nameOfScene(mine));
+    const command = folder.save(mine.filter, mine.values, mine.texts[mine.module], nameOfScene(mine));
     say(`Unpack it, and run: ${command}`);
   };
 
-  // The lines of the shader that the editor shows, and what the compiler says about them.
+  // Numbers the lines of the shader, and lists what the compiler says about them.
   const fillErrors = ({ errors, editor, module }) => {
     const own = errors.filter((error) => error.module === module);
     const lines = editor.text.value.split("\n").map((_, at) => {
@@ -244,15 +251,13 @@
     });
   };
 
-  // An editor of the modules that may be edited, one at a time.
+  // An editor of the filter's kernels; none for shaders that the program translated.
   const shaderEditor = (mine) => {
     const { filter } = mine;
-    const own = filter.modules.map((module, index) => [module, index]).filter(([module]) => module.editable);
-    if (own.length === 0) return "";
-    const nameOf = ({ file = filter.file }) => file;
-    const text = element("textarea", { spellcheck: false, wrap: "off", ariaLabel: "Shader" });
+    mine.module = filter.modules.findIndex(({ editable }) => editable);
+    if (mine.module < 0) return "";
+    const text = element("textarea", { spellcheck: false, wrap: "off", ariaLabel: "Shader", value: mine.texts[mine.module] });
     const lines = element("pre", { ariaHidden: "true" });
-    const menu = element("select", { ariaLabel: "File", hidden: own.length === 1 }, ...own.map(([module, index]) => new Option(nameOf(module), index)));
     mine.editor = { text, lines, errors: element("ul", { className: "errors", role: "alert" }) };
     let waits = null;
     const edit = () => {
@@ -261,28 +266,19 @@
       clearTimeout(waits);
       waits = setTimeout(() => recompile(mine), PAUSE);
     };
-    const fill = () => {
-      mine.module = Number(menu.value);
-      text.value = mine.texts[mine.module];
-      fillErrors(mine);
-    };
-    const reset = () => {
-      text.value = filter.modules[mine.module].wgsl;
-      edit();
-    };
     text.addEventListener("input", edit);
     text.addEventListener("scroll", () => (lines.scrollTop = text.scrollTop));
-    menu.addEventListener("change", fill);
-    fill();
-    const title = own.length === 1 ? `Shader: ${nameOf(own[0][0])}` : "Shaders";
+    fillErrors(mine);
     return element(
       "details",
       { className: "shader" },
-      element("summary", { textContent: title }),
-      menu,
+      element("summary", { textContent: `Shader: ${filter.file}` }),
       element("div", { className: "code" }, lines, text),
       mine.editor.errors,
-      button("Reset the shader", reset),
+      button("Reset the shader", () => {
+        text.value = filter.modules[mine.module].wgsl;
+        edit();
+      }),
     );
   };
 
@@ -321,7 +317,9 @@
     mine.table = element("table", { className: "compared" });
     const reset = button("Reset", () => resetAll(mine));
     reset.title = "Values and shader of the stored run";
-    const buttons = [reset, button("Copy as preset", () => copyPreset(mine)), button("Download filter", () => saveFolder(mine))];
+    const buttons = [reset, button("Copy as preset", () => copyPreset(mine))];
+    // Shaders that the program translated are no files of the folder.
+    if (mine.filter.modules.every(({ editable }) => editable)) buttons.push(button("Download filter", () => saveFolder(mine)));
     mine.place.replaceChildren(
       element("div", { className: "head" }, element("h3", { textContent: "Try it" }), button("Close", leave)),
       mine.table,
@@ -349,7 +347,7 @@
     const section = place.closest("article");
     const data = JSON.parse(place.dataset.live);
     const home = section.querySelector(".viewer_place");
-    const mine = { section, data, place, home, start: place.querySelector("button"), syncs: [], errors: [], version: 0, layers: home.dataset.layers, module: 0 };
+    const mine = { section, data, place, home, start: place.querySelector("button"), syncs: [], errors: [], version: 0, layers: home.dataset.layers };
     tried = Object.assign(mine, { said: element("p", { className: "said note", role: "status", textContent: "Loading .." }) });
     place.replaceChildren(mine.start, mine.said);
     try {
@@ -367,7 +365,7 @@
       const defaults = Object.fromEntries(filter.parameters.map((parameter) => [parameter.name, parameter.default]));
       const before = { ...defaults, ...preset, ...data.parameters };
       const texts = filter.modules.map(({ wgsl }) => wgsl);
-      Object.assign(mine, { filter, scene, width, height, truth, region, seen, texts, before, values: {}, noise: scene.noise?.[data.alignment] ?? [0, 0] });
+      Object.assign(mine, { filter, scene, width, height, truth, region, seen, texts, before, values: {}, noise: scene.noise[data.alignment] });
       fillPanel(mine);
       set(mine, before);
     } catch (error) {

@@ -110,7 +110,7 @@
   const compilePass = async (device, filter, pass, modules) => {
     const isFragment = pass.stage === "fragment";
     const own = { bindings: pass.bindings, visibility: isFragment ? GPUShaderStage.FRAGMENT : GPUShaderStage.COMPUTE };
-    const vertex = isFragment ? [{ bindings: pass.vertex.bindings ?? [], visibility: GPUShaderStage.VERTEX }] : [];
+    const vertex = isFragment ? [{ bindings: pass.vertex.bindings, visibility: GPUShaderStage.VERTEX }] : [];
     const stages = [own, ...vertex].map(({ bindings, visibility }) => {
       const entries = bindings.map((one) => layoutEntry(device, one, visibility));
       const samplers = new Map(bindings.filter(({ role }) => role === "sampler").map((one) => [one.binding, createSampler(device, one)]));
@@ -144,6 +144,10 @@
       return { errors: [{ module: 0, line: null, message: error.message }] };
     }
   };
+
+  // Numbers of an input in the filter's convention: one expression per component of `frame.value`.
+  const convertAll = (floats, expressions, value) =>
+    floats.map((number, at) => evaluate(expressions[at % expressions.length], (name) => (name === "frame.value" ? number : value(name))));
 
   // Numbers of an input as texels with `components` numbers each; missing ones are 0, and the fourth is 1.
   const texelsOf = (floats, pixels, components) => {
@@ -195,11 +199,12 @@
     }));
   };
 
-  const upload = (device, { filter, scene, size: [width, height], textures }) => {
-    for (const { name, from, format } of filter.inputs) {
+  const upload = (device, { filter, scene, size: [width, height], textures, value }) => {
+    for (const { name, from, format, convert } of filter.inputs) {
       if (!scene.inputs[from]) refuse(`The filter reads ${from}, which this report does not have.`);
+      const floats = convert ? convertAll(scene.inputs[from], convert, value) : scene.inputs[from];
       const [components, array] = FORMATS[format];
-      const texels = encode(texelsOf(scene.inputs[from], width * height, components), array);
+      const texels = encode(texelsOf(floats, width * height, components), array);
       const layout = { bytesPerRow: width * components * array.BYTES_PER_ELEMENT };
       device.queue.writeTexture({ texture: textures.get(name)[0] }, texels, layout, [width, height]);
     }
@@ -317,7 +322,7 @@
     device.queue.submit([encoder.finish()]);
     await buffer.mapAsync(GPUMapMode.READ);
     const numbers = new array(buffer.getMappedRange());
-    const scale = array === Uint8Array ? 1 / 255 : 1;
+    const scale = (array === Uint8Array ? 1 / 255 : 1) / filter.output_scale;
     const planes = [0, 1, 2].map((part) => {
       const plane = new Float32Array(width * height);
       for (let at = 0; at < plane.length; at++) {
