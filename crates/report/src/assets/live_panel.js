@@ -78,8 +78,7 @@
     say(mine.errors.length > 0 ? BROKEN : "");
     if (mine.version === 1) await showLive(mine, output);
     else pictures.redraw();
-    mine.place.dataset.milliseconds = (performance.now() - start).toFixed(1);
-    mine.place.dataset.version = mine.version;
+    Object.assign(mine.place.dataset, { ...mine.found, milliseconds: (performance.now() - start).toFixed(1), version: mine.version });
   };
 
   // Runs the filter again, and once more if something changed meanwhile.
@@ -134,7 +133,7 @@
     home.dataset.layers = layers;
     section.classList.remove("trying");
     place.replaceChildren(start);
-    for (const name of ["milliseconds", "version"]) delete place.dataset[name];
+    for (const name of ["flip", "psnr", "milliseconds", "version"]) delete place.dataset[name];
   };
 
   const fillScores = ({ found, data: { stored }, table }) => {
