@@ -23,7 +23,7 @@
 
   const sum = (numbers) => numbers.reduce((all, one) => all + one, 0);
   const clamp = (value) => Math.min(1, Math.max(0, value));
-  const multiply = ([a, b, c], x, y, z) => a * x + b * y + c * z;
+  const multiply = (row, x, y, z) => row[0] * x + row[1] * y + row[2] * z;
   const taps = (radius, weigh) => Array.from({ length: 2 * radius + 1 }, (_, at) => weigh(at - radius));
 
   // Contrast sensitivity to lightness, to red and green, and twice to blue and yellow, whose two parts add up.
@@ -54,25 +54,36 @@
     });
   })();
 
-  // Filters along rows: weights, and which of the lines below they read. Then along columns: weights, and which of these.
-  const ALONG = [[contrast[0], 0], [contrast[1], 1], [contrast[2], 2], [contrast[3], 2], [feature[0], 3], [feature[1], 3], [feature[2], 3]];
-  const DOWN = [
-    [contrast[0], 0], [contrast[1], 1], [contrast[2], 2], [contrast[3], 3],
-    [feature[0], 5], [feature[1], 4], [feature[0], 6], [feature[2], 4],
-  ];
   // Pixels before and after one that filters reach.
   const REACH = contrast[0].length >> 1;
+  // Weights that are added up at once; their number is filled up with zeros.
+  const AT_ONCE = 4;
+  const TAPS = 2 * REACH + 1 + AT_ONCE;
+  // Weights, which line or plane they read, and how far from the first one in reach they begin.
+  const plan = (own, from) => {
+    const filled = new Float64Array(Math.ceil(own.length / AT_ONCE) * AT_ONCE);
+    filled.set(own);
+    return [filled, from, REACH - (own.length >> 1)];
+  };
+  // Filters along rows, of the lines below; then along columns, of the planes that these make.
+  const ALONG = [...contrast.map((own, at) => plan(own, Math.min(at, 2))), ...feature.map((own) => plan(own, 3))];
+  const DOWN = [...contrast.map(plan), plan(feature[0], 5), plan(feature[1], 4), plan(feature[0], 6), plan(feature[2], 4)];
 
   // Filters a picture along its rows: its lightness, red to green, blue to yellow, and its lightness from 0 to 1. Displays show the
   // picture in sRGB, which cuts it to 0 to 1.
   const filterRows = ([red, green, blue], width, height, scale) => {
     const filtered = ALONG.map(() => new Float64Array(width * height));
-    const lines = [0, 1, 2, 3].map(() => new Float64Array(width + 2 * REACH));
+    const starts = Int32Array.from({ length: TAPS }, (_, tap) => tap);
+    const lines = [0, 1, 2, 3].map(() => new Float64Array(width + TAPS));
     for (let y = 0; y < height; y++) {
       for (let x = 0; x < width; x++) {
         const at = y * width + x;
-        const [r, g, b] = [clamp(red[at] * scale), clamp(green[at] * scale), clamp(blue[at] * scale)];
-        const [cx, cy, cz] = [multiply(TO_XYZ[0], r, g, b) * PER_WHITE[0], multiply(TO_XYZ[1], r, g, b), multiply(TO_XYZ[2], r, g, b) * PER_WHITE[2]];
+        const r = clamp(red[at] * scale);
+        const g = clamp(green[at] * scale);
+        const b = clamp(blue[at] * scale);
+        const cx = multiply(TO_XYZ[0], r, g, b) * PER_WHITE[0];
+        const cy = multiply(TO_XYZ[1], r, g, b);
+        const cz = multiply(TO_XYZ[2], r, g, b) * PER_WHITE[2];
         const lightness = 116 * cy - 16;
         lines[0][REACH + x] = lightness;
         lines[1][REACH + x] = 500 * (cx - cy);
@@ -81,29 +92,19 @@
       }
       // The outermost pixel is repeated beyond the border.
       for (const line of lines) line.fill(line[REACH], 0, REACH).fill(line[REACH + width - 1], REACH + width);
-      ALONG.forEach(([weights, line], filter) => correlate(weights, lines[line], filtered[filter], y * width, width));
+      ALONG.forEach((own, filter) => correlate(own, lines[own[1]], starts, filtered[filter], y * width, width));
     }
     return filtered;
   };
 
-  // Filters a line; pairs of weights around the middle one are added up together.
-  const correlate = (weights, line, filtered, start, width) => {
-    const half = weights.length >> 1;
-    for (let x = 0; x < width; x++) {
-      const middle = REACH + x;
-      let all = weights[half] * line[middle];
-      for (let tap = 1; tap <= half; tap++) all += weights[half - tap] * line[middle - tap] + weights[half + tap] * line[middle + tap];
-      filtered[start + x] = all;
-    }
-  };
-
-  const correlateDown = (weights, plane, y, width, height, row) => {
-    const half = weights.length >> 1;
-    row.fill(0);
-    for (let tap = 0; tap < weights.length; tap++) {
-      const weight = weights[tap];
-      const start = width * Math.min(height - 1, Math.max(0, y + tap - half));
-      for (let x = 0; x < width; x++) row[x] += weight * plane[start + x];
+  // Adds up, for each number of a row, the weights times what begins at the starts. Engines are fast at several at a time.
+  const correlate = ([weights, , inset], values, starts, sums, first, width) => {
+    sums.fill(0, first, first + width);
+    for (let tap = 0; tap < weights.length; tap += AT_ONCE) {
+      const at = inset + tap;
+      const [a, ia, b, ib] = [weights[tap], starts[at], weights[tap + 1], starts[at + 1]];
+      const [c, ic, d, id] = [weights[tap + 2], starts[at + 2], weights[tap + 3], starts[at + 3]];
+      for (let x = 0; x < width; x++) sums[first + x] += a * values[ia + x] + b * values[ib + x] + c * values[ic + x] + d * values[id + x];
     }
   };
 
@@ -112,11 +113,11 @@
 
   // Writes a colour given in XYZ as parts of white as CIELab with Hunt's adjustment: dark colours are less colourful.
   const writeLab = (lab, at, x, y, z) => {
-    const [bx, by, bz] = [bend(x), bend(y), bend(z)];
-    const lightness = 116 * by - 16;
+    const middle = bend(y);
+    const lightness = 116 * middle - 16;
     lab[0][at] = lightness;
-    lab[1][at] = 0.01 * lightness * 500 * (bx - by);
-    lab[2][at] = 0.01 * lightness * 200 * (by - bz);
+    lab[1][at] = 0.01 * lightness * 500 * (bend(x) - middle);
+    lab[2][at] = 0.01 * lightness * 200 * (middle - bend(z));
   };
 
   const distance = (l, a, b) => Math.abs(l) + Math.sqrt(a * a + b * b);
@@ -124,7 +125,8 @@
   // The largest distance of two display colours, green to blue.
   const LARGEST = (() => {
     const lab = [[], [], []];
-    [[0, 1, 0], [0, 0, 1]].forEach((color, at) => writeLab(lab, at, ...TO_XYZ.map((row, axis) => multiply(row, ...color) * PER_WHITE[axis])));
+    const write = (color, at) => writeLab(lab, at, ...TO_XYZ.map((row, axis) => multiply(row, ...color) * PER_WHITE[axis]));
+    [[0, 1, 0], [0, 0, 1]].forEach(write);
     return distance(...lab.map(([green, blue]) => green - blue)) ** 0.7;
   })();
 
@@ -133,15 +135,20 @@
     const filtered = filterRows(planes, width, height, 2 ** stops);
     const seen = [0, 1, 2, 3, 4].map(() => new Float32Array(width * height));
     const rows = DOWN.map(() => new Float64Array(width));
+    const starts = new Int32Array(TAPS);
     for (let y = 0; y < height; y++) {
-      DOWN.forEach(([weights, plane], filter) => correlateDown(weights, filtered[plane], y, width, height, rows[filter]));
+      for (let tap = 0; tap < starts.length; tap++) starts[tap] = width * Math.min(height - 1, Math.max(0, y + tap - REACH));
+      DOWN.forEach((own, filter) => correlate(own, filtered[own[1]], starts, rows[filter], 0, width));
       for (let x = 0; x < width; x++) {
         const at = y * width + x;
         const cy = (rows[0][x] + 16) / 116;
         const cx = (cy + rows[1][x] / 500) * WHITE[0];
         const cz = (cy - (rows[2][x] + rows[3][x]) / 200) * WHITE[2];
-        const [r, g, b] = [clamp(multiply(FROM_XYZ[0], cx, cy, cz)), clamp(multiply(FROM_XYZ[1], cx, cy, cz)), clamp(multiply(FROM_XYZ[2], cx, cy, cz))];
-        writeLab(seen, at, multiply(TO_XYZ[0], r, g, b) * PER_WHITE[0], multiply(TO_XYZ[1], r, g, b), multiply(TO_XYZ[2], r, g, b) * PER_WHITE[2]);
+        const r = clamp(multiply(FROM_XYZ[0], cx, cy, cz));
+        const g = clamp(multiply(FROM_XYZ[1], cx, cy, cz));
+        const b = clamp(multiply(FROM_XYZ[2], cx, cy, cz));
+        const [tx, ty, tz] = TO_XYZ;
+        writeLab(seen, at, multiply(tx, r, g, b) * PER_WHITE[0], multiply(ty, r, g, b), multiply(tz, r, g, b) * PER_WHITE[2]);
         seen[3][at] = Math.sqrt(rows[4][x] ** 2 + rows[5][x] ** 2);
         seen[4][at] = Math.sqrt(rows[6][x] ** 2 + rows[7][x] ** 2);
       }

@@ -14,7 +14,10 @@
   };
 
   // Numbers as little-endian bytes, each given with its size: [4, 1] is 01 00 00 00.
-  const bytesOf = (numbers) => Uint8Array.from(numbers.flatMap(([size, number]) => Array.from({ length: size }, (_, at) => number >>> (8 * at))));
+  const bytesOf = (numbers) => {
+    const bytes = ([size, number]) => Array.from({ length: size }, (_, at) => number >>> (8 * at));
+    return Uint8Array.from(numbers.flatMap(bytes));
+  };
 
   // Writes files, by path, as they are. Dates are 1 January 1980, the first day that zip knows.
   const zip = (files) => {
@@ -23,7 +26,8 @@
     for (const [path, text] of files) {
       const [name, data] = [encoder.encode(path), encoder.encode(text)];
       // Version 2.0, names in UTF-8, stored.
-      const facts = [[2, 20], [2, 0x800], [2, 0], [2, 0], [2, 0x21], [4, crc(data)], [4, data.length], [4, data.length], [2, name.length], [2, 0]];
+      const sizes = [[4, crc(data)], [4, data.length], [4, data.length], [2, name.length], [2, 0]];
+      const facts = [[2, 20], [2, 0x800], [2, 0], [2, 0], [2, 0x21], ...sizes];
       const local = [bytesOf([[4, 0x04034b50], ...facts]), name, data];
       parts.push(...local);
       index.push(bytesOf([[4, 0x02014b50], [2, 20], ...facts, [2, 0], [2, 0], [2, 0], [4, 0], [4, offset]]), name);
@@ -57,8 +61,12 @@
   // Saves the folder with the text of the shader. Returns what to run.
   const save = (filter, values, text, scene) => {
     const toml = `${filter.toml.trimEnd()}\n\n${presetOf(filter, values, scene)}`;
-    const files = [["filter.toml", toml], [filter.file, `${text.trimEnd()}\n`]].map(([path, content]) => [`${filter.name}/${path}`, content]);
-    const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(zip(files)), download: `${filter.name}.zip` });
+    const files = [
+      [`${filter.name}/filter.toml`, toml],
+      [`${filter.name}/${filter.file}`, `${text.trimEnd()}\n`],
+    ];
+    const link = document.createElement("a");
+    Object.assign(link, { href: URL.createObjectURL(zip(files)), download: `${filter.name}.zip` });
     link.click();
     setTimeout(() => URL.revokeObjectURL(link.href), 60000);
     return `shuttertruth run --filter ./${filter.name}:${nameOf(filter)}`;

@@ -58,7 +58,10 @@
     return { ...data.values, ...Object.fromEntries(filter.parameters.map((parameter) => [parameter.name, number(parameter)])) };
   };
 
-  const wordsOf = (mine) => ({ filter: mine.filter, scene: mine.scene, passes: mine.passes, numbers: numbersOf(mine) });
+  const wordsOf = (mine) => {
+    const { filter, scene, passes, texels } = mine;
+    return { filter, scene, passes, texels, numbers: numbersOf(mine) };
+  };
 
   // Blurs the frame with the values and shaders of the panel, scores the result and shows it.
   const run = async (mine) => {
@@ -118,7 +121,8 @@
   // Adds the pictures to the case and shows them. Says if the stored output is another picture.
   const showLive = async ({ section, home, layers }, output) => {
     const stored = await planes(pictures.own().output);
-    const differs = (_, at) => output.some((plane, c) => Math.abs(plane[at] - stored[c][at]) > APART * Math.max(1, Math.abs(stored[c][at])));
+    const isApart = (one, other) => Math.abs(one - other) > APART * Math.max(1, Math.abs(other));
+    const differs = (_, at) => output.some((plane, c) => isApart(plane[at], stored[c][at]));
     const share = output[0].filter(differs).length / output[0].length;
     if (share > 0.001) say(`On this graphics card ${(100 * share).toFixed(1)} % of the pixels differ from those of the stored run.`);
     home.dataset.layers = [layers, ...Object.entries(LAYERS).map(([word, numbers]) => `${word}:${numbers}`)].join(" ");
@@ -300,7 +304,8 @@
       }
       return null;
     };
-    return element("details", { className: "times" }, element("summary", { textContent: "Time per pass" }), button("Measure", measure), table, said);
+    const title = element("summary", { textContent: "Time per pass" });
+    return element("details", { className: "times" }, title, button("Measure", measure), table, said);
   };
 
   const resetAll = (mine) => {
@@ -346,8 +351,9 @@
     const section = place.closest("article");
     const data = JSON.parse(place.dataset.live);
     const home = section.querySelector(".viewer_place");
-    const mine = { section, data, place, home, start: place.querySelector("button"), syncs: [], errors: [], version: 0, layers: home.dataset.layers };
-    tried = Object.assign(mine, { said: element("p", { className: "said note", role: "status", textContent: "Loading .." }) });
+    const said = element("p", { className: "said note", role: "status", textContent: "Loading .." });
+    const mine = { section, data, place, home, said, start: place.querySelector("button"), layers: home.dataset.layers };
+    tried = Object.assign(mine, { values: {}, syncs: [], errors: [], texels: new Map(), version: 0 });
     place.replaceChildren(mine.start, mine.said);
     try {
       const { device } = await openCard();
@@ -364,7 +370,8 @@
       const defaults = Object.fromEntries(filter.parameters.map((parameter) => [parameter.name, parameter.default]));
       const before = { ...defaults, ...preset, ...data.parameters };
       const texts = filter.modules.map(({ wgsl }) => wgsl);
-      Object.assign(mine, { filter, scene, width, height, truth, region, seen, texts, before, values: {}, noise: scene.noise[data.alignment] });
+      const noise = scene.noise[data.alignment];
+      Object.assign(mine, { filter, scene, width, height, truth, region, noise, seen, texts, before });
       fillPanel(mine);
       set(mine, before);
     } catch (error) {

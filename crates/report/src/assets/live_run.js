@@ -9,7 +9,12 @@
   // Features that some filters need, and the clock.
   const FEATURES = ["timestamp-query", "float32-filterable", "rg11b10ufloat-renderable", "texture-formats-tier1"];
   // Limits that some filters reach.
-  const LIMITS = ["maxStorageTexturesPerShaderStage", "maxComputeWorkgroupStorageSize", "maxComputeInvocationsPerWorkgroup", "maxBufferSize"];
+  const LIMITS = [
+    "maxStorageTexturesPerShaderStage",
+    "maxComputeWorkgroupStorageSize",
+    "maxComputeInvocationsPerWorkgroup",
+    "maxBufferSize",
+  ];
   // Numbers of a texel, and how one is kept, of the formats that frames and outputs have.
   const FORMATS = {
     rgba32float: [4, Float32Array],
@@ -135,7 +140,8 @@
     const said = await Promise.all(modules.map((module) => module.getCompilationInfo()));
     const errors = said.flatMap(({ messages }, module) => {
       const lines = texts[module].split("\n").length;
-      return messages.filter(({ type }) => type === "error").map(({ lineNum, message }) => ({ module, line: lineNum > 0 && lineNum <= lines ? lineNum : null, message }));
+      const broken = messages.filter(({ type }) => type === "error");
+      return broken.map(({ lineNum, message }) => ({ module, line: lineNum > 0 && lineNum <= lines ? lineNum : null, message }));
     });
     if (errors.length > 0) return { errors };
     try {
@@ -172,7 +178,9 @@
     const { name, format, divided_by: divisors, rounding, mips = 1 } = texture;
     const [width, height] = size.map((side, axis) => {
       const divisor = divisors ? evaluate(divisors[axis], value) : 1;
-      if (!Number.isInteger(divisor) || divisor < 1) refuse(`The size of texture ${name} is divided by ${divisor}; allowed: whole numbers from 1.`);
+      if (!Number.isInteger(divisor) || divisor < 1) {
+        refuse(`The size of texture ${name} is divided by ${divisor}; allowed: whole numbers from 1.`);
+      }
       return rounding === "down" ? Math.max(1, Math.floor(side / divisor)) : Math.ceil(side / divisor);
     });
     // The last level has one texel.
@@ -199,14 +207,17 @@
     }));
   };
 
-  const upload = (device, { filter, scene, size: [width, height], textures, value }) => {
+  // Fills the textures of the frame. `texels` keeps what they are filled with, by name, for the next run.
+  const upload = (device, { filter, scene, size: [width, height], textures, texels, value }) => {
     for (const { name, from, format, convert } of filter.inputs) {
       if (!scene.inputs[from]) refuse(`The filter reads ${from}, which this report does not have.`);
-      const floats = convert ? convertAll(scene.inputs[from], convert, value) : scene.inputs[from];
       const [components, array] = FORMATS[format];
-      const texels = encode(texelsOf(floats, width * height, components), array);
+      if (!texels.has(name)) {
+        const floats = convert ? convertAll(scene.inputs[from], convert, value) : scene.inputs[from];
+        texels.set(name, encode(texelsOf(floats, width * height, components), array));
+      }
       const layout = { bytesPerRow: width * components * array.BYTES_PER_ELEMENT };
-      device.queue.writeTexture({ texture: textures.get(name)[0] }, texels, layout, [width, height]);
+      device.queue.writeTexture({ texture: textures.get(name)[0] }, texels.get(name), layout, [width, height]);
     }
   };
 
@@ -273,7 +284,9 @@
     const timestampWrites = querySet && { querySet, beginningOfPassWriteIndex: 2 * index, endOfPassWriteIndex: 2 * index + 1 };
     // A fragment that is discarded leaves what was there.
     const colorAttachments = one.attachments.map((attached) => ({ view: attached, loadOp: "load", storeOp: "store" }));
-    const pass = one.isFragment ? encoder.beginRenderPass({ colorAttachments, timestampWrites }) : encoder.beginComputePass({ timestampWrites });
+    const pass = one.isFragment
+      ? encoder.beginRenderPass({ colorAttachments, timestampWrites })
+      : encoder.beginComputePass({ timestampWrites });
     pass.setPipeline(one.pipeline);
     one.groups.forEach((group, at) => pass.setBindGroup(at, group));
     if (one.isFragment) pass.draw(3);
@@ -300,10 +313,10 @@
   };
 
   // Prepares a run of compiled passes on a scene's frame: `numbers` are the values of parameters and of the frame, by name.
-  const prepare = (device, { filter, scene, passes, numbers }) => {
+  const prepare = (device, { filter, scene, passes, texels, numbers }) => {
     const size = [scene.width, scene.height];
     const value = (name) => numbers[name] ?? refuse(`The report does not have the number ${name}.`);
-    const run = { filter, scene, size, value };
+    const run = { filter, scene, size, texels, value };
     run.textures = createTextures(device, run);
     upload(device, run);
     run.dispatches = bindAll(device, run, passes);
