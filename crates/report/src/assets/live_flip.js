@@ -104,7 +104,9 @@
       const at = inset + tap;
       const [a, ia, b, ib] = [weights[tap], starts[at], weights[tap + 1], starts[at + 1]];
       const [c, ic, d, id] = [weights[tap + 2], starts[at + 2], weights[tap + 3], starts[at + 3]];
-      for (let x = 0; x < width; x++) sums[first + x] += a * values[ia + x] + b * values[ib + x] + c * values[ic + x] + d * values[id + x];
+      for (let x = 0; x < width; x++) {
+        sums[first + x] += a * values[ia + x] + b * values[ib + x] + c * values[ic + x] + d * values[id + x];
+      }
     }
   };
 

@@ -48,8 +48,8 @@
     return opened;
   };
 
-  const say = (words) => {
-    if (tried) tried.said.textContent = words;
+  const say = (words, mine = tried) => {
+    if (mine) mine.said.textContent = words;
   };
 
   // Name by name the numbers that blocks may contain: a choice is its index.
@@ -81,6 +81,7 @@
     say(mine.errors.length > 0 ? BROKEN : "");
     if (mine.version === 1) await showLive(mine, output);
     else pictures.redraw();
+    if (mine !== tried) return;
     Object.assign(mine.place.dataset, { ...mine.found, milliseconds: (performance.now() - start).toFixed(1), version: mine.version });
   };
 
@@ -94,7 +95,7 @@
       try {
         await run(mine);
       } catch (error) {
-        say(error.message);
+        say(error.message, mine);
       }
     }
     mine.runs = false;
@@ -113,14 +114,16 @@
     try {
       await compile(mine, (await openCard()).device);
     } catch {
-      return say(BROKEN);
+      return say(BROKEN, mine);
     }
     return change(mine);
   };
 
   // Adds the pictures to the case and shows them. Says if the stored output is another picture.
-  const showLive = async ({ section, home, layers }, output) => {
+  const showLive = async (mine, output) => {
+    const { section, home, layers } = mine;
     const stored = await planes(pictures.own().output);
+    if (mine !== tried) return;
     const isApart = (one, other) => Math.abs(one - other) > APART * Math.max(1, Math.abs(other));
     const differs = (_, at) => output.some((plane, c) => isApart(plane[at], stored[c][at]));
     const share = output[0].filter(differs).length / output[0].length;
@@ -179,7 +182,8 @@
     const steps = isWhole && !isLog ? max - min : 1000;
     const within = (value) => Math.min(max, Math.max(min, isWhole ? Math.round(value) : value));
     const partOf = (value) => (isLog ? Math.log(value / min) / Math.log(max / min) : (value - min) / (max - min));
-    const valueOf = (part) => within(Number((isLog ? min * (max / min) ** part : min + (max - min) * part).toPrecision(isWhole ? 12 : 3)));
+    const exactOf = (part) => (isLog ? min * (max / min) ** part : min + (max - min) * part);
+    const valueOf = (part) => within(Number(exactOf(part).toPrecision(isWhole ? 12 : 3)));
     const slider = element("input", { type: "range", min: 0, max: steps, step: 1, ariaLabel: name });
     const field = element("input", { type: "number", min, max, step: "any", ariaLabel: `${name}, as a number` });
     slider.addEventListener("input", () => set(mine, { [name]: valueOf(slider.value / steps) }));
@@ -295,8 +299,10 @@
       try {
         const spent = await card.time(device, wordsOf(mine));
         const all = spent.reduce((sum, [, time]) => sum + time, 0);
-        const rows = [...spent, ["all passes", all]].map(([entry, time]) =>
-          element("tr", {}, element("th", { scope: "row", textContent: entry }), element("td", { textContent: `${time.toFixed(3)} ms` })));
+        const rows = [...spent, ["all passes", all]].map(([entry, time]) => {
+          const cell = element("td", { textContent: `${time.toFixed(3)} ms` });
+          return element("tr", {}, element("th", { scope: "row", textContent: entry }), cell);
+        });
         table.replaceChildren(...rows);
         said.textContent = `Median of 64 runs on ${name}, ${mine.scene.width}x${mine.scene.height}. Most browsers round it to 0.1 ms.`;
       } catch (error) {
@@ -375,7 +381,7 @@
       fillPanel(mine);
       set(mine, before);
     } catch (error) {
-      say(error.message);
+      say(error.message, mine);
     }
   };
 

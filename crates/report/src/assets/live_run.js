@@ -66,8 +66,16 @@
     return { device, name: description || model || `${vendor} ${architecture}` };
   };
 
-  // Runs `work`; fails with what the card's driver says against it.
-  const caught = async (device, work) => {
+  // Runs `work` after all earlier work; fails with what the card's driver says against it.
+  const caught = (device, work) => {
+    const done = last.then(() => catchErrors(device, work));
+    last = done.catch(() => {});
+    return done;
+  };
+  // Scopes are a stack: two works at once would get each other's errors.
+  let last = Promise.resolve();
+
+  const catchErrors = async (device, work) => {
     device.pushErrorScope("validation");
     device.pushErrorScope("out-of-memory");
     let made;
@@ -105,7 +113,8 @@
 
   const createSampler = (device, { filter, mip, wrap }) => {
     const address = { clamp: "clamp-to-edge", repeat: "repeat", mirror: "mirror-repeat" }[wrap];
-    return device.createSampler({ addressModeU: address, addressModeV: address, magFilter: filter, minFilter: filter, mipmapFilter: mip });
+    const filters = { magFilter: filter, minFilter: filter, mipmapFilter: mip };
+    return device.createSampler({ addressModeU: address, addressModeV: address, ...filters });
   };
 
   // Format of a texture of the filter, by name.
@@ -250,7 +259,8 @@
       if (one.role === "block") return { buffer: fillBlock(device, one, value) };
       const texture = copy(one.resource, one.role === "write");
       if (one.role === "write") return view(texture, written.get(one.resource));
-      return view(texture, one.level === null || one.level === undefined ? null : Math.min(levelOf(one.level), texture.mipLevelCount - 1));
+      // A small texture has fewer levels: the pass gets its last.
+      return view(texture, one.level === null ? null : Math.min(levelOf(one.level), texture.mipLevelCount - 1));
     };
     const groups = stages.map(({ bindings, samplers, layout }) => {
       const entries = bindings.map((one) => ({ binding: one.binding, resource: resourceOf(one, samplers) }));
