@@ -171,7 +171,7 @@ impl Filter {
         let frame = FrameValues::of(input, &self.convention);
         let entries = self.passes.iter().flat_map(|pass| self.stages(pass));
         let variables = entries
-            .flat_map(|(shader, entry)| entry.variables.iter().map(|it| (shader, *it)))
+            .flat_map(|(shader, entry)| entry.variables.iter().map(move |it| (shader, *it)))
             .flat_map(|(shader, index)| shader.list_expressions(index));
         let levels = self.passes.iter().filter_map(|pass| pass.shader.as_ref());
         let levels = levels.filter_map(|shader| shader.level.as_ref());

@@ -31,6 +31,9 @@ pub(super) struct LiveVertex {
     bindings: Vec<LiveBinding>,
 }
 
+/// Entry point of a translated module: naga would change some names.
+pub(super) const ENTRY: &str = "entry_point";
+
 /// Lists the modules, by their indices in the filter.
 pub(super) fn list_modules(filter: &Filter) -> Result<Vec<LiveModule>, String> {
     let mut modules = Vec::new();
@@ -52,9 +55,15 @@ pub(super) fn list_modules(filter: &Filter) -> Result<Vec<LiveModule>, String> {
             );
         }
         let mut module = (*shader.module).clone();
-        if pass.shaders[0] != index {
-            follow_interpolation(&mut module, &filter.entry_point(pass).inputs);
-        }
+        let kernel = match pass.shaders[0] == index {
+            true => &filter.entry_point(pass).name,
+            false => {
+                follow_interpolation(&mut module, &filter.entry_point(pass).inputs);
+                &shader.entry_points[0].name
+            }
+        };
+        module.entry_points.retain(|entry| entry.name == *kernel);
+        module.entry_points[0].name = ENTRY.to_owned();
         modules.push(LiveModule::translate(&module)?);
     }
     Ok(modules)
@@ -96,7 +105,7 @@ impl LiveVertex {
         if let Some((shader, entry)) = stages.get(1) {
             return Some(Self {
                 module: pass.shaders[1],
-                entry: entry.name.clone(),
+                entry: ENTRY.to_owned(),
                 bindings: LiveBinding::list(shader, entry),
             });
         }

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use serde::Serialize;
 
 use super::bindings::LiveBinding;
-use super::modules::{LiveModule, LiveVertex};
+use super::modules::{ENTRY, LiveModule, LiveVertex};
 use crate::filter::Count;
 use crate::gpu::list_target_formats;
 use crate::shader::Role;
@@ -52,7 +52,10 @@ impl LivePass {
                 false => "compute",
             },
             module: pass.shaders[0],
-            kernel: entry.name.clone(),
+            kernel: match pass.shader {
+                Some(_) => ENTRY.to_owned(),
+                None => entry.name.clone(),
+            },
             vertex: LiveVertex::find(filter, pass, modules),
             workgroup: [x, y],
             workgroup_per_texel: pass.workgroup_per_texel,

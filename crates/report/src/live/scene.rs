@@ -13,7 +13,7 @@ use serde::Serialize;
 use crate::pixels::scene_files::SceneFiles;
 
 #[derive(Serialize)]
-struct LiveScene<'a> {
+struct LiveScene {
     /// Pixels per row and rows of the inputs.
     width: u32,
     height: u32,
