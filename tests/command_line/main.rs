@@ -54,6 +54,7 @@ mod shipped_files;
 #[cfg(target_os = "linux")]
 mod snakemake;
 mod snapshots;
+mod studies;
 mod summary;
 mod terminal;
 #[cfg(unix)]
