@@ -169,13 +169,13 @@ impl Filter {
     /// that lacks one of them.
     pub fn frame_values(&self, input: &Input) -> Result<BTreeMap<String, f64>, String> {
         let frame = FrameValues::of(input, &self.convention);
+        let inputs = list_inputs(self);
         let entries = self.passes.iter().flat_map(|pass| self.stages(pass));
         let variables = entries
             .flat_map(|(shader, entry)| entry.variables.iter().map(move |it| (shader, *it)))
             .flat_map(|(shader, index)| shader.list_expressions(index));
         let levels = self.passes.iter().filter_map(|pass| pass.shader.as_ref());
         let levels = levels.filter_map(|shader| shader.level.as_ref());
-        let inputs = list_inputs(self);
         let converted = inputs.iter().flat_map(LiveInput::list_expressions);
         let divisors = self.textures.iter().flat_map(|it| &it.divided_by).flatten();
         let names = variables
