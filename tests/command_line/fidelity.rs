@@ -109,6 +109,7 @@ fn no_change_of_a_filter_matches_its_original() {
         ("jimenez:wicked", "border=clamp"),
         ("realism_effects:default", "jitter=0.5"),
         ("dagor:default", "vignette=0.5"),
+        ("vort:default", "depth_scale=50"),
         ("bevy:msaa", "fetch=filtered"),
         ("three:default", "coordinates=texture"),
         ("mcguire:g3d", "neighbor_rule=all"),

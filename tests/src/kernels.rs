@@ -79,6 +79,7 @@ pub fn place_taps(filter: &str, preset: &str, steady: &Steady, noise: f64) -> Ve
         "jimenez" => jimenez::place_taps(preset, steady, noise),
         "kino" => kino::place_taps(preset, steady, noise),
         "urp" => gathers::urp(preset, steady, noise),
+        "vort" => gathers::vort(steady, noise),
         "dagor" => dagor::place_taps(preset, steady, noise),
         "mcguire" => tiles::mcguire(preset, steady, noise),
         "guertin" => tiles::guertin(steady, noise),

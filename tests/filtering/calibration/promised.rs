@@ -29,6 +29,8 @@ pub fn promised_smear(filter: &str, preset: &str, steady: &Steady) -> f64 {
         // In the middle of the picture.
         ("dagor", "default") => 0.16 * trail.min(2.0 * 32.0),
         ("dagor", _) => trail.min(2.0 * 32.0),
+        // Two tiles of a 27th of the rows on either side.
+        ("vort", _) => trail.min(f64::from(4 * (HEIGHT / 27))),
         // Whole pixels of 5 % of the rows on either side; nothing below 2.
         ("kino", _) => match (0.05 * f64::from(HEIGHT)).floor() {
             _ if trail < 4.0 => 0.0,

@@ -12,4 +12,5 @@ mod kino;
 mod o3de;
 mod realism_effects;
 mod three;
+mod vort;
 mod wicked;

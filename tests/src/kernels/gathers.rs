@@ -173,3 +173,26 @@ pub fn urp(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
         })
         .collect()
 }
+
+/// Places the taps of vort: an odd number on either side, each half behind the pixel and half in front of it. A few pixels of motion leave
+/// the pixel itself a weight among what is behind.
+pub fn vort(steady: &Steady, noise: f64) -> Vec<Tap> {
+    let half = scaled(steady.trail(), 0.5);
+    let reach = length(half).min(f64::from(2 * (steady.size[1] / 27)));
+    let half = scaled(half, reach / length(half));
+    // 2 pixels of a picture 1920 wide.
+    let tap_length = 2.0 * f64::from(steady.size[0]) / 1920.0;
+    let count = f64::from((reach / tap_length).ceil().clamp(3.0, 9.0) as u32 | 1);
+    let center = (0.05 * count / reach).min(1.0);
+    let front = count / (2.0 * count + 1.0);
+    let back = (1.0 - front) / (count + center);
+    let mut taps = vec![own(back * center)];
+    taps.extend((0..count as u32).flat_map(|i| {
+        let parts = [f64::from(i) + noise, noise - f64::from(i + 1)];
+        let weight = 0.5 * back + 0.5 * front / count;
+        parts
+            .into_iter()
+            .flat_map(move |part| bilinear(scaled(half, part / count), weight))
+    }));
+    taps
+}
