@@ -15,10 +15,13 @@ use tungstenite::{Message, WebSocket};
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// Options of a headless Chromium with pictures that are the same everywhere.
-const OPTIONS: [&str; 7] = [
+const OPTIONS: [&str; 9] = [
     "--headless",
     "--no-sandbox",
     "--disable-gpu",
+    // Without a graphics card, a processor runs the shaders of pages.
+    "--enable-unsafe-webgpu",
+    "--use-webgpu-adapter=swiftshader",
     "--hide-scrollbars",
     "--no-first-run",
     "--remote-debugging-port=0",

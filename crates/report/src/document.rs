@@ -3,12 +3,13 @@
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 /// Style sheets; later ones override earlier ones.
-const STYLES: [&str; 9] = [
+const STYLES: [&str; 10] = [
     include_str!("assets/base.css"),
     include_str!("assets/tables.css"),
     include_str!("assets/charts.css"),
     include_str!("assets/case.css"),
     include_str!("assets/viewer.css"),
+    include_str!("assets/live.css"),
     include_str!("assets/comparison.css"),
     include_str!("assets/sequence.css"),
     include_str!("assets/ask.css"),

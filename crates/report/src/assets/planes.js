@@ -77,5 +77,8 @@
   // The numbers of some planes of the open scene.
   const planes = (numbers) => Promise.all(numbers.map((number) => plane(open, number)));
 
-  window.shuttertruth = { arrived, load, openScene, planes };
+  // Puts a plane that this page computed itself into the open scene. Its number is below 0.
+  const put = (number, values) => open.planes.set(number, Promise.resolve(values));
+
+  window.shuttertruth = { arrived, load, inflate, openScene, planes, put };
 }

@@ -141,9 +141,10 @@ fn describe_case(
         ..filter_input(frame, &colors)
     };
     let measured = |metric| match case.scores.get(metric) {
-        Measured::Score(score) => Some(score.value),
+        Measured::Score(score) => Some(score),
         Measured::NotApplicable { .. } => None,
     };
+    let value = |metric| measured(metric).map(|score| score.value);
     let json = json!({
         "filter": number,
         "scene": scene,
@@ -151,7 +152,11 @@ fn describe_case(
         "parameters": case.parameters,
         "values": filter.frame_values(&input)?,
         "alignment": case.alignment,
-        "stored": { "flip": measured(Metric::FLIP), "psnr": measured(Metric::PSNR) },
+        "stored": {
+            "flip": value(Metric::FLIP),
+            "psnr": value(Metric::PSNR),
+            "psnr_limit": measured(Metric::PSNR).map(|score| score.floor),
+        },
     });
     Ok(json.to_string())
 }

@@ -27,6 +27,8 @@ struct LiveScene {
     truth: BTreeMap<String, Vec<usize>>,
     /// Planes that are 1 where scores are pooled.
     moving: BTreeMap<String, usize>,
+    /// Part of the squared error there that is the truth's own noise.
+    noise: BTreeMap<String, f64>,
 }
 
 #[derive(Serialize)]
@@ -43,6 +45,8 @@ pub fn scene_json(files: &mut SceneFiles) -> String {
     let (inner, band) = (files.frame.size(), files.whole.guard_band);
     let truths = files.truths.iter();
     let truth = truths.map(|(alignment, truth)| (alignment.to_string(), truth.color_planes()));
+    let noise = files.truths.iter();
+    let noise = noise.map(|(alignment, truth)| (alignment.to_string(), truth.noise));
     let planes = &mut files.planes;
     let moving = files.truths.iter().map(|(alignment, truth)| {
         let mask = truth.regions.moving.map(|moves| f32::from(*moves));
@@ -61,6 +65,7 @@ pub fn scene_json(files: &mut SceneFiles) -> String {
         stops: files.frame.display.stops,
         truth: truth.collect(),
         moving: moving.collect(),
+        noise: noise.collect(),
     };
     serde_json::to_string(&scene).expect("a scene is plain data")
 }

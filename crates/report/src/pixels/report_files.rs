@@ -10,7 +10,7 @@ use frame::{FileError, write_atomically};
 pub const LARGEST_PAGE: usize = 25_000_000;
 
 /// Upper limit on the bytes of styles, scripts and the frame of the page.
-const REST: usize = 100_000;
+const REST: usize = 130_000;
 
 /// Texts of all scenes in order: in the page, or in files in a folder named like the page. Texts are kept until they are too large for
 /// the page; from then on, each is written as it comes.

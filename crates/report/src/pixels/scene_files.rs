@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use frame::{Alignment, ExrFile, Frame, Image, Picture, Plane, Regions, Truth, read_exr, regions};
+use frame::{
+    Alignment, ExrFile, Frame, Image, Picture, Plane, Region, Regions, Truth, read_exr, regions,
+};
 use metrics::{Side, object_sides};
 use store::RenderFile;
 use suite::{ACCUMULATE, Case, Error, ErrorMaps, Run, read_further_velocities};
@@ -45,6 +47,8 @@ pub struct TruthFile {
     pub offset: frame::Vectors,
     /// Regions that scores are pooled over.
     pub regions: Regions,
+    /// Part of the mean squared error against `mean` where anything moves that is the truth's own noise, in units of radiance.
+    pub noise: f64,
     /// Sides of each moving object's bleed, with the object's index.
     sides: Vec<(usize, frame::Raster<Side>)>,
     /// Truth and knowability.
@@ -129,6 +133,7 @@ impl SceneFiles {
         let at_instant = truth.at_instant_mean();
         let placed = &at_instant.placed;
         let objects = 1..truth.objects.len();
+        let regions = regions(&truth);
         let mut layers = vec![(Layer::Truth, self.planes.add_image(&mean.color))];
         match &truth.provenance.engine {
             None => {
@@ -141,7 +146,8 @@ impl SceneFiles {
             offset: at_instant.offset.zip(placed, |offset, placed| {
                 offset.map(|sum| if *placed > 0.0 { sum / placed } else { 0.0 })
             }),
-            regions: regions(&truth),
+            noise: noise_where_moving(&truth, &regions),
+            regions,
             sides: objects
                 .filter_map(|id| Some((id, object_sides(&self.frame, &truth.support, id as u32)?)))
                 .collect(),
@@ -210,6 +216,18 @@ impl SceneFiles {
             layers,
         })
     }
+}
+
+/// Averages the squared noise of a truth where anything moves. Scores of a report are products of the errors against both halves, which is
+/// the squared error against their mean less the square of half their difference.
+fn noise_where_moving(truth: &Truth, regions: &Regions) -> f64 {
+    let [first, second] = truth.halves.each_ref().map(|half| &half.color.pixels);
+    let square = |at: usize| -> f64 {
+        let parts = first[at].iter().zip(&second[at]);
+        parts.map(|(a, b)| f64::from(a - b).powi(2) / 12.0).sum()
+    };
+    let squares: Vec<f64> = regions.indices(Region::Moving).map(square).collect();
+    squares.iter().sum::<f64>() / squares.len().max(1) as f64
 }
 
 /// Finds a case of the scene that an engine drew, rendered by the same run with the same exposure.
