@@ -1,5 +1,7 @@
 //! A filter as JSON for a program that runs it elsewhere, such as a page in a browser: all that `gpu` binds and dispatches.
 
+mod bindings;
+mod expressions;
 mod inputs;
 mod modules;
 mod passes;
@@ -13,6 +15,7 @@ use crate::gpu::{FrameValues, output_format};
 use crate::load::read_text;
 use crate::shader::{FRAME_PREFIX, Role};
 use crate::{Expression, Filter, Input, Parameter, Preset, Texture, Unit};
+use expressions::{describe, list_names};
 use inputs::list_inputs;
 use modules::list_modules;
 use passes::{describe_pass, list_features};
@@ -135,25 +138,4 @@ fn describe_texture(filter: &Filter, texture: &Texture) -> Value {
         "mips": texture.mips,
         "copies": filter.count_copies(&texture.name),
     })
-}
-
-/// Describes an expression: a number, a name, or a list of a function and its arguments.
-fn describe(expression: &Expression) -> Value {
-    match expression {
-        Expression::Number(number) => json!(number),
-        Expression::Name(name) => json!(name),
-        Expression::Apply(function, arguments) => {
-            let arguments = arguments.iter().map(describe);
-            std::iter::once(json!(function)).chain(arguments).collect()
-        }
-    }
-}
-
-/// Lists the names in an expression.
-fn list_names(expression: &Expression) -> Vec<&str> {
-    match expression {
-        Expression::Number(_) => Vec::new(),
-        Expression::Name(name) => vec![name],
-        Expression::Apply(_, arguments) => arguments.iter().flat_map(list_names).collect(),
-    }
 }

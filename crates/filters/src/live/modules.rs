@@ -5,7 +5,7 @@ use naga::back::wgsl::{WriterFlags, write_string};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use serde_json::{Value, json};
 
-use super::passes::list_bindings;
+use super::bindings::list_bindings;
 use crate::gpu::make_triangle;
 use crate::load::read_text;
 use crate::shader::{COMMON, follow_interpolation};

@@ -13,7 +13,7 @@ use suite::{Case, Error, InputFormat, MEASURED_FILTERS, Run, filter_input};
 
 use crate::pixels::report_files::write_script;
 
-/// Most pixels of a picture that can be tried: its inputs take a third of a minute to write, and 30 MB.
+/// Most pixels of a frame that can be tried; the file of such a scene has about 15 MB.
 const MOST_PIXELS: u32 = 1280 * 720;
 
 /// A live case as JSON, or the sentence that says why it is not live; none if nobody expects it to be.
