@@ -7,7 +7,7 @@ use std::path::Path;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use filters::{Filter, LiveFilter};
+use filters::Filter;
 use flate2::read::ZlibDecoder;
 use frame::Frame;
 use serde_json::Value;
@@ -29,7 +29,7 @@ fn text<'v>(value: &'v Value, name: &str) -> &'v str {
 fn the_data_of_every_built_in_filter_binds_all_that_its_kernels_declare() {
     for name in Filter::builtin_names() {
         let filter = Filter::builtin(&name).unwrap();
-        let live = serde_json::to_value(LiveFilter::new(&filter, 320, false).unwrap()).unwrap();
+        let live = filter.live(320, false).unwrap();
         let named = |list_name| list(&live, list_name).iter().map(|it| text(it, "name"));
         let known: BTreeSet<&str> = (named("inputs").chain(named("textures")))
             .chain(["output"])

@@ -1,7 +1,5 @@
 //! Arithmetic on parameters and on values of the frame and the convention.
 
-use serde::ser::{Serialize, SerializeSeq, Serializer};
-
 /// An expression: numbers, names, `+ - * / ^`, brackets, `floor(..)`, `ceil(..)`, `min(.., ..)` and `max(.., ..)`.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Expression {
@@ -74,31 +72,11 @@ impl Expression {
 
     /// Returns true if the value depends on one of several names.
     pub(crate) fn reads_any(&self, is_wanted: &dyn Fn(&str) -> bool) -> bool {
-        self.list_names().into_iter().any(is_wanted)
-    }
-
-    /// Lists the names that the value depends on.
-    pub fn list_names(&self) -> Vec<&str> {
         match self {
-            Self::Number(_) => Vec::new(),
-            Self::Name(name) => vec![name],
-            Self::Apply(_, arguments) => arguments.iter().flat_map(Self::list_names).collect(),
+            Self::Number(_) => false,
+            Self::Name(name) => is_wanted(name),
+            Self::Apply(_, arguments) => arguments.iter().any(|it| it.reads_any(is_wanted)),
         }
-    }
-}
-
-/// A number, a name, or a list of a function and its arguments.
-impl Serialize for Expression {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let (function, arguments) = match self {
-            Self::Number(number) => return serializer.serialize_f64(*number),
-            Self::Name(name) => return serializer.serialize_str(name),
-            Self::Apply(function, arguments) => (function, arguments),
-        };
-        let mut list = serializer.serialize_seq(Some(1 + arguments.len()))?;
-        list.serialize_element(function)?;
-        (arguments.iter()).try_for_each(|argument| list.serialize_element(argument))?;
-        list.end()
     }
 }
 

@@ -42,5 +42,4 @@ pub use gpu::{
     PassTime, list_adapters, try_out,
 };
 pub use input::Input;
-pub use live::LiveFilter;
 pub use shader::Format;

@@ -45,6 +45,7 @@ pub use measure::estimate::{
     JobCost, RunEstimate, SceneJobs, estimate_case_seconds, estimate_jobs, estimate_render_seconds,
     estimate_report, estimate_run,
 };
+pub use measure::measured_filters::MEASURED_FILTERS;
 pub use measure::part::Part;
 pub use measure::plan::RunPlan;
 pub use measure::probes::{filter_input, pack_planes, unpack_planes};
@@ -66,7 +67,6 @@ pub use run::case::{ACCUMULATE, Case, Drawn, IDENTITY, Intervals};
 pub use run::error_maps::ErrorMaps;
 pub use run::failure::{Failure, refuse_failures};
 pub use run::layers::write_layers;
-pub use run::measured_filters::MEASURED_FILTERS;
 pub use run::overall::Overall;
 pub use run::sequence::{Frames, MAX_FRAMES, Sequence, SequenceFrame, worst_frames};
 pub use run::stored::StoredRun;

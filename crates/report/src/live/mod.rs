@@ -5,7 +5,7 @@ pub mod scene;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-use filters::{Filter, Input, LiveFilter};
+use filters::{Filter, Input};
 use frame::Frame;
 use metrics::{Measured, Metric};
 use serde_json::json;
@@ -13,7 +13,7 @@ use suite::{Case, Error, InputFormat, MEASURED_FILTERS, Run, filter_input};
 
 use crate::pixels::report_files::write_script;
 
-/// Most pixels of a picture that can be tried: its inputs take a third of a minute to write, and 30 MB.
+/// Most pixels of a frame that can be tried; the file of such a scene has about 15 MB.
 const MOST_PIXELS: u32 = 1280 * 720;
 
 /// A live case as JSON, or the sentence that says why it is not live; none if nobody expects it to be.
@@ -88,17 +88,14 @@ impl<'a> LiveFiles<'a> {
             is_own && presets.any(|preset| preset.reference_width.is_some())
         };
         let as_written = self.run.cases.iter().any(is_as_written);
-        Ok(
-            match LiveFilter::new(&filter, self.run.render.width, as_written) {
-                Err(reason) => Err(reason),
-                Ok(live) => {
-                    let number = self.filters.values().filter(|it| it.is_ok()).count();
-                    let text = serde_json::to_string(&live).expect("a filter is plain data");
-                    self.write(&format!("live_filter_{number}"), &text)?;
-                    Ok((number, filter))
-                }
-            },
-        )
+        Ok(match filter.live(self.run.render.width, as_written) {
+            Err(reason) => Err(reason),
+            Ok(live) => {
+                let number = self.filters.values().filter(|it| it.is_ok()).count();
+                self.write(&format!("live_filter_{number}"), &live.to_string())?;
+                Ok((number, filter))
+            }
+        })
     }
 }
 

@@ -19,7 +19,7 @@ struct LiveScene {
     height: u32,
     /// Part of them that is the picture.
     crop: Crop,
-    /// Inputs as base64 of zlib of 32-bit floats: halves would change velocities by up to 0.01 pixels and depths by 0.05 %, which moves taps.
+    /// Inputs as base64 of zlib of 32-bit floats: halves would change velocities by up to 0.015 pixels and depths by 0.05 %, which moves taps.
     inputs: BTreeMap<&'static str, String>,
     /// Display exposure, in stops.
     stops: f32,

@@ -4,12 +4,12 @@ use filters::Gpu;
 use tracer::{Progress, Watch};
 
 use super::frames::{count_frames, visit_frames};
+use super::measured_filters::copy_filters;
 use super::plan::RunPlan;
 use super::sequence::measure_sequences;
 use crate::Error;
 use crate::run::Run;
 use crate::run::case::Case;
-use crate::run::measured_filters::copy_filters;
 use crate::stats::overall::overall;
 
 /// Renders, filters, measures and writes every case below `plan.out`, but not `run.json` itself. Reads back an earlier run's measurements

@@ -6,7 +6,6 @@ pub mod error_maps;
 pub mod failure;
 pub mod file;
 pub mod layers;
-pub mod measured_filters;
 pub mod overall;
 mod scaling;
 pub mod sequence;

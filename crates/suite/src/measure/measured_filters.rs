@@ -4,7 +4,8 @@ use std::fs;
 
 use frame::{FileError, write_atomically};
 
-use crate::{Error, RunPlan};
+use super::plan::RunPlan;
+use crate::Error;
 
 /// Folder of the copies in the folder of a run; each is a filter folder.
 pub const MEASURED_FILTERS: &str = "measured_filters";
