@@ -5,11 +5,10 @@ pub mod scene;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-use filters::{Filter, Input};
-use frame::Frame;
+use filters::{EXCLUSION, Filter, Input};
 use metrics::{Measured, Metric};
 use serde_json::json;
-use suite::{Case, Error, InputFormat, MEASURED_FILTERS, Run, filter_input};
+use suite::{Case, Error, FilterFrame, InputFormat, MEASURED_FILTERS, Run, filter_input};
 
 use crate::pixels::report_files::write_script;
 
@@ -44,7 +43,12 @@ impl<'a> LiveFiles<'a> {
     }
 
     /// Describes a case; `frame` is its scene's, with the guard band. Writes the file of a filter that no case had before.
-    pub fn describe(&mut self, case: &'a Case, scene: usize, frame: &Frame) -> Result<Live, Error> {
+    pub fn describe(
+        &mut self,
+        case: &'a Case,
+        scene: usize,
+        frame: &FilterFrame,
+    ) -> Result<Live, Error> {
         // An engine's own picture has no preset.
         if case.is_reference || case.preset.is_empty() {
             return Ok(None);
@@ -109,7 +113,7 @@ fn is_of(filter: &Filter, case: &Case) -> bool {
 /// Describes a case of a live filter.
 fn describe_case(
     case: &Case,
-    (scene, frame): (usize, &Frame),
+    (scene, frame): (usize, &FilterFrame),
     (number, filter): (usize, &Filter),
 ) -> Result<String, String> {
     let (width, height) = frame.size();
@@ -127,13 +131,15 @@ fn describe_case(
     if case.scene.frame > 0 && !filter.history.is_empty() {
         return Err("This case cannot be tried in the browser: it needs the frame before.".into());
     }
-    let lacks_next = frame.velocity_next.is_none() && !filter.further_inputs().is_empty();
-    if lacks_next {
-        return Err(
-            "This case cannot be tried in the browser: the run's folder does not hold the velocity to the next frame, which the \
-             filter reads. Measure it again."
-                .into(),
-        );
+    let is_missing = |name: &&str| match *name {
+        EXCLUSION => frame.exclusion.is_none(),
+        "velocity_z" => frame.velocity_z.is_none(),
+        _ => frame.velocity_next.is_none(),
+    };
+    if let Some(name) = filter.further_inputs().into_iter().find(is_missing) {
+        return Err(format!(
+            "This case cannot be tried in the browser: the run's folder does not hold {name}, which the filter reads."
+        ));
     }
     let colors = [&frame.color];
     let input = Input {
