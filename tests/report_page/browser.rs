@@ -14,9 +14,9 @@ use tungstenite::{Message, WebSocket};
 /// Time limit, far longer than anything here takes on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// Options of a headless Chromium with pictures that are the same everywhere.
+/// Options of a headless Chromium with pictures that are the same everywhere; a processor runs the shaders of its pages.
 const OPTIONS: &str = "--headless --no-sandbox --disable-gpu --hide-scrollbars --no-first-run --remote-debugging-port=0 \
-                       --force-color-profile=srgb";
+                       --force-color-profile=srgb --enable-unsafe-webgpu --use-webgpu-adapter=swiftshader";
 
 /// Programs to look for on the PATH if the variable CHROMIUM names none.
 const NAMES: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "chrome"];

@@ -4,6 +4,8 @@ mod ask;
 #[expect(dead_code, reason = "the pictures of pages need more of it")]
 mod browser;
 mod cases;
+mod live;
+mod live_data;
 mod numbers;
 mod other_pages;
 mod overview;

@@ -12,6 +12,7 @@
 //! | `manifest` | the parser of `filter.toml` |
 //! | `load` | loading: manifest and kernels of a folder, checked against each other |
 //! | `gpu` | running kernels on an adapter |
+//! | `live` | a filter as data, for pages that run it in a browser |
 //! | `command` | running programs |
 
 mod command;
@@ -20,6 +21,7 @@ mod expression;
 mod filter;
 mod gpu;
 mod input;
+mod live;
 mod load;
 mod manifest;
 mod printable;

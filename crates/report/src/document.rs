@@ -3,12 +3,13 @@
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 /// Style sheets; later ones override earlier ones.
-const STYLES: [&str; 9] = [
+const STYLES: [&str; 10] = [
     include_str!("assets/base.css"),
     include_str!("assets/tables.css"),
     include_str!("assets/charts.css"),
     include_str!("assets/case.css"),
     include_str!("assets/viewer.css"),
+    include_str!("assets/live.css"),
     include_str!("assets/comparison.css"),
     include_str!("assets/sequence.css"),
     include_str!("assets/ask.css"),
@@ -18,7 +19,7 @@ const STYLES: [&str; 9] = [
 /// Permissions of a page: a browser may show its contents, and fetch only the allowed files next to it. Browsers differ in what counts as
 /// files next to a page on a disk.
 fn policy(siblings: Siblings) -> String {
-    let [pictures, scripts] = [Siblings::Pictures, Siblings::Numbers].map(|kind| match kind {
+    let [pictures, scripts] = [Siblings::Pictures, Siblings::Scripts].map(|kind| match kind {
         _ if kind == siblings => " 'self' file:",
         _ => "",
     });
@@ -32,8 +33,8 @@ fn policy(siblings: Siblings) -> String {
 #[derive(Clone, Copy, PartialEq)]
 pub enum Siblings {
     None,
-    /// Scripts with numbers.
-    Numbers,
+    /// Scripts with data.
+    Scripts,
     Pictures,
 }
 

@@ -11,6 +11,7 @@ mod filter_page;
 mod finding_text;
 mod gallery;
 mod label;
+mod live;
 mod numbers;
 mod overview;
 mod pixels;
@@ -35,6 +36,8 @@ pub use finding_text::{
 use frame::write_atomically;
 pub use gallery::{write_case_strip, write_gallery};
 use judge::Finding;
+use live::LiveFiles;
+use live::scene::scene_json;
 use maud::{Markup, PreEscaped};
 use overview::bench_file::read_bench;
 use overview::overview;
@@ -52,8 +55,8 @@ const CASE_BYTES: usize = 25_000;
 /// Writes the page of the run in `folder` to `html`; returns its path, then the paths of the files next to it.
 ///
 /// Costs come from a bench.json in the folder. Without `findings` the page shows no bounds. If the page would have more than `largest`
-/// bytes, such as [`LARGEST_PAGE`], its numbers go into files; if its tables alone are larger, so do they. The same run makes the same
-/// bytes. The page is written last: an existing page is complete.
+/// bytes, such as [`LARGEST_PAGE`], its numbers go into files; if its tables alone are larger, so do they. Filters and frames of live
+/// cases are always in files. The same run makes the same bytes. The page is written last: an existing page is complete.
 ///
 /// # Errors
 /// A file of the run is missing or broken, or a file of the report cannot be written.
@@ -71,7 +74,7 @@ pub fn write_report(
         ));
     }
     let table = CaseTable::new(run, read_bench(folder)?);
-    let mut parts = Parts::new(run, html, largest);
+    let mut parts = Parts::new(run, folder, html, largest);
     for scene in 0..table.scenes.len() {
         parts.add_scene(scene, &table, findings, folder)?;
     }
@@ -87,11 +90,12 @@ pub fn write_report(
         sections: &parts.sections,
         numbers: &numbers,
         has_tables: parts.has_tables,
+        has_live: !parts.live.written.is_empty(),
         links_sequences: html.parent() == Some(folder),
     };
     write_atomically(html, run_page(run, &content, html).as_bytes())?;
     let files = [numbers, parts.tables.place(0)?].into_iter();
-    let files = files.flat_map(Place::paths);
+    let files = files.flat_map(Place::paths).chain(parts.live.written);
     Ok(std::iter::once(html.to_owned()).chain(files).collect())
 }
 
@@ -103,6 +107,7 @@ struct Parts<'a> {
     numbers: SceneTexts,
     /// Tables that are not in the sections.
     tables: SceneTexts,
+    live: LiveFiles<'a>,
     /// Sections of the cases, in the order of the run.
     sections: Vec<Markup>,
     views: Vec<CaseView<'a>>,
@@ -111,12 +116,13 @@ struct Parts<'a> {
 }
 
 impl<'a> Parts<'a> {
-    fn new(run: &Run, html: &Path, largest: usize) -> Self {
+    fn new(run: &'a Run, folder: &'a Path, html: &'a Path, largest: usize) -> Self {
         let has_tables = run.cases.len() <= largest / CASE_BYTES;
         Self {
             has_tables,
             numbers: SceneTexts::new("scene", html, if has_tables { largest } else { 0 }),
             tables: SceneTexts::new("tables", html, 0),
+            live: LiveFiles::new(run, folder, html),
             sections: vec![PreEscaped(String::new()); run.cases.len()],
             views: Vec::new(),
             thumbnails: Vec::new(),
@@ -135,11 +141,15 @@ impl<'a> Parts<'a> {
         let cases: Vec<&Case> = table.cases_on(id).map(|(_, case)| case).collect();
         let mut files = SceneFiles::read(table.run, &cases, folder)?;
         let findings: Vec<&Finding> = findings.iter().filter(|own| own.scene == *id).collect();
+        let mut is_live = false;
         let mut texts: BTreeMap<String, [String; 2]> = BTreeMap::new();
         for (index, _) in table.cases_on(id) {
             let view = CaseView::read(table.run, index, scene, &findings, &mut files)?;
+            let live = self.live.describe(view.case, scene, &files.whole)?;
+            is_live |= matches!(live, Some(Ok(_)));
             let tables = CaseTables::new(&view, table);
-            self.sections[index] = case_section(&view, self.has_tables.then_some(&tables));
+            let shown = self.has_tables.then_some(&tables);
+            self.sections[index] = case_section(&view, &live, shown);
             if !self.has_tables {
                 texts.extend([tables.texts(view.case)]);
             }
@@ -148,6 +158,10 @@ impl<'a> Parts<'a> {
         if !self.has_tables {
             let text = serde_json::to_string(&texts).expect("texts are plain data");
             self.tables.add(text)?;
+        }
+        if is_live {
+            let json = scene_json(&mut files);
+            self.live.write(&format!("live_scene_{scene}"), &json)?;
         }
         self.numbers.add(files.planes.json())?;
         self.thumbnails.push(files.thumbnail());

@@ -12,13 +12,17 @@ use crate::pixels::report_files::{Place, folder_name};
 use crate::sequence::SEQUENCES_PAGE;
 
 /// Scripts in the order in which they run.
-const SCRIPTS: [&str; 8] = [
+const SCRIPTS: [&str; 12] = [
     include_str!("assets/planes.js"),
     include_str!("assets/paint.js"),
     include_str!("assets/pictures.js"),
     include_str!("assets/viewer.js"),
     include_str!("assets/readout.js"),
     include_str!("assets/keys.js"),
+    include_str!("assets/live_run.js"),
+    include_str!("assets/live_flip.js"),
+    include_str!("assets/live_folder.js"),
+    include_str!("assets/live_panel.js"),
     include_str!("assets/overview.js"),
     include_str!("assets/address.js"),
 ];
@@ -33,8 +37,17 @@ pub struct PageContent<'a> {
     pub numbers: &'a Place,
     /// True if the sections of cases contain their tables.
     pub has_tables: bool,
+    /// True if some cases are live.
+    pub has_live: bool,
     /// True if the page is next to the page of sequences.
     pub links_sequences: bool,
+}
+
+impl PageContent<'_> {
+    /// Returns whether the page loads files next to it.
+    fn has_siblings(&self) -> bool {
+        self.has_live || matches!(self.numbers, Place::Beside(_))
+    }
 }
 
 /// Writes the whole page for the path `html`.
@@ -64,13 +77,13 @@ pub fn run_page(run: &Run, content: &PageContent, html: &Path) -> String {
                 @for section in content.sections { (section) }
             }
             (viewer(run))
-            (scene_numbers(content.numbers, html))
+            (scene_numbers(content, html))
             (script_data("colors", &colors()))
         },
         scripts: &SCRIPTS,
-        siblings: match content.numbers {
-            Place::Beside(_) => Siblings::Numbers,
-            Place::Page(_) => Siblings::None,
+        siblings: match content.has_siblings() {
+            true => Siblings::Scripts,
+            false => Siblings::None,
         },
     };
     document.render()
@@ -102,15 +115,12 @@ fn script_note(has_tables: bool) -> &'static str {
     }
 }
 
-/// Embeds the numbers, or names their folder: base64 contains no character that HTML escapes.
-fn scene_numbers(numbers: &Place, page: &Path) -> Markup {
-    let folder = match numbers {
-        Place::Page(_) => None,
-        Place::Beside(_) => Some(folder_name(page)),
-    };
+/// Embeds the numbers, and names the folder of files next to the page: base64 contains no character that HTML escapes.
+fn scene_numbers(content: &PageContent, page: &Path) -> Markup {
+    let folder = content.has_siblings().then(|| folder_name(page));
     html! {
         div #numbers hidden data-folder=[folder] {
-            @if let Place::Page(texts) = numbers {
+            @if let Place::Page(texts) = content.numbers {
                 @for (scene, text) in texts.iter().enumerate() {
                     script type="application/json" data-scene=(scene) { (PreEscaped(text)) }
                 }

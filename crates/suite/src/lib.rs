@@ -46,6 +46,7 @@ pub use measure::estimate::{
     JobCost, RunEstimate, SceneJobs, estimate_case_seconds, estimate_jobs, estimate_render_seconds,
     estimate_report, estimate_run,
 };
+pub use measure::measured_filters::MEASURED_FILTERS;
 pub use measure::part::Part;
 pub use measure::plan::RunPlan;
 pub use measure::probes::{filter_input, pack_planes, unpack_planes};
@@ -63,6 +64,7 @@ pub use render::merge::{Merged, merge};
 pub use render::rendering::Rendering;
 pub use render::settings::{SIDES, list_settings};
 pub use render::truths::deciding_floor;
+pub use render::velocities::read_further_velocities;
 pub use run::case::{ACCUMULATE, Case, Drawn, IDENTITY, Intervals};
 pub use run::error_maps::ErrorMaps;
 pub use run::failure::{Failure, refuse_failures};

@@ -20,7 +20,7 @@ impl Convention {
     }
 
     /// Returns the engine's velocity of a surface that moves by a pixel per frame to the right and down.
-    fn velocity_factors(&self, [width, height]: [u32; 2], exposure: f64) -> [f64; 2] {
+    pub(crate) fn velocity_factors(&self, [width, height]: [u32; 2], exposure: f64) -> [f64; 2] {
         let sign = match self.velocity_sign {
             VelocitySign::CurrentMinusPrevious => 1.0,
             VelocitySign::PreviousMinusCurrent => -1.0,

@@ -1,6 +1,6 @@
 //! Definition of a filter: everything that `filter.toml` and its kernels declare.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use frame::Alignment;
 
@@ -91,6 +91,17 @@ impl Filter {
         &self.shaders[pass.shaders[0]]
     }
 
+    /// Lists its files, each once: filter.toml, then its shaders without what they include.
+    pub fn list_files(&self) -> Vec<&Path> {
+        let mut files = vec![&*self.lines.path];
+        for shader in &self.shaders {
+            if !files.contains(&&*shader.path) {
+                files.push(&shader.path);
+            }
+        }
+        files
+    }
+
     /// Says which compiler made the shader of each pass that needs one, and why others failed: `blur.hlsl compiled by slangc`.
     pub fn list_compilers(&self) -> Vec<String> {
         let mut listed = Vec::new();
@@ -118,6 +129,15 @@ impl Filter {
         let stages = || self.passes.iter().flat_map(|pass| self.stages(pass));
         let is_read = |name: &&str| stages().any(|(_, entry)| entry.reads.contains(*name));
         FURTHER_INPUTS.into_iter().filter(is_read).collect()
+    }
+
+    /// Counts the copies of a texture: two if a pass both reads and writes it.
+    pub(crate) fn count_copies(&self, texture: &str) -> usize {
+        let is_exchanged = self.passes.iter().any(|pass| {
+            let mut names = self.entry_point(pass).exchanged_textures();
+            names.any(|name| name == texture)
+        });
+        if is_exchanged { 2 } else { 1 }
     }
 
     /// Tells whether its shaders read one of the velocities that few frames have.

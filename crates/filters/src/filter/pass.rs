@@ -21,7 +21,7 @@ pub struct Texture {
 }
 
 /// Rounding of the sides of a texture.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Rounding {
     /// The last texels cover fewer pixels.
@@ -72,7 +72,7 @@ impl Pass {
 }
 
 /// A number of runs or of pixels.
-#[derive(Clone, Debug, PartialEq, serde::Deserialize)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(
     untagged,
     expecting = "a unit or repeat is a count from 1 or the name of an integer parameter"

@@ -176,7 +176,7 @@ pub(super) fn create_pipeline(
 
 /// Makes the vertex stage of a triangle over the whole picture. Each location that the fragment shader reads gets texture coordinates
 /// from the top left, and then, as in Unreal, the place in clip space.
-fn make_triangle(read: &[Varying]) -> Module {
+pub(crate) fn make_triangle(read: &[Varying]) -> Module {
     let (mut members, mut values) = (String::new(), String::new());
     for varying in read {
         let location = varying.location;

@@ -25,10 +25,13 @@ mod waiting;
 mod wide_colors;
 
 pub use adapter::list_adapters;
+pub(crate) use binding::make_triangle;
 pub use blur::Blur;
 pub use buffer_copy::BufferCopy;
 pub use device::{AdapterDescription, Clock, Gpu, LoopLimit};
 pub use kernels::Kernels;
 pub use limits::Limits;
+pub(crate) use targets::{list_target_formats, output_format};
 pub use timing::{LoadedBlur, PassTime};
 pub use trial::try_out;
+pub(crate) use uniforms::FrameValues;

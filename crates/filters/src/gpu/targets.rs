@@ -49,15 +49,11 @@ fn plan_targets(
             Rounding::Up => size[axis].div_ceil(divisors[axis]),
             Rounding::Down => (size[axis] / divisors[axis]).max(1),
         });
-        let is_exchanged = filter.passes.iter().any(|pass| {
-            let mut names = filter.entry_point(pass).exchanged_textures();
-            names.any(|name| *name == texture.name)
-        });
         Ok(Planned {
             size: [width, height],
             // The last level has one texel.
             mips: texture.mips.min(width.max(height).ilog2() + 1),
-            copies: if is_exchanged { 2 } else { 1 },
+            copies: filter.count_copies(&texture.name),
             texture,
         })
     };
@@ -94,13 +90,13 @@ fn find_divisors(
 }
 
 /// Finds the format of the output: the one in which a shader stores it, or the convention's for render targets.
-pub(super) fn output_format(filter: &Filter) -> Format {
+pub(crate) fn output_format(filter: &Filter) -> Format {
     let mut stored = (filter.shaders.iter()).filter_map(|shader| shader.stored_format("output"));
     (stored.next()).unwrap_or(filter.convention.format_of("output"))
 }
 
 /// Lists the formats of the render targets of a pass, by location.
-pub(super) fn list_target_formats(filter: &Filter, pass: &Pass) -> Vec<wgpu::TextureFormat> {
+pub(crate) fn list_target_formats(filter: &Filter, pass: &Pass) -> Vec<wgpu::TextureFormat> {
     let formats = pass.list_targets().map(|name| match filter.texture(name) {
         Some(texture) => texture.format.wgpu(),
         None => output_format(filter).wgpu(),

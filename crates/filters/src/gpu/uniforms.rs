@@ -10,7 +10,7 @@ use crate::{Convention, Input};
 
 /// Values of a frame that members of uniform blocks name.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct FrameValues {
+pub(crate) struct FrameValues {
     size: [u32; 2],
     exposure: f64,
     frame_index: u32,
@@ -53,11 +53,16 @@ impl FrameValues {
 
     /// Returns a value by name.
     pub fn value(&self, name: &str) -> f64 {
-        let found = match name.strip_prefix(FRAME_PREFIX) {
+        let found = self.find(name);
+        found.unwrap_or_else(|| unreachable!("a shader was refused for the unknown value {name}"))
+    }
+
+    /// Finds a value by name; none if the frame or the convention lacks it.
+    pub fn find(&self, name: &str) -> Option<f64> {
+        match name.strip_prefix(FRAME_PREFIX) {
             Some(member) => self.value_of_frame(member),
             None => self.named_value(name),
-        };
-        found.unwrap_or_else(|| unreachable!("a shader was refused for the unknown value {name}"))
+        }
     }
 
     /// Returns a number of the uniform `frame` of common.wgsl.

@@ -46,15 +46,9 @@ impl Filter {
                 Self::builtin_names().join(", ")
             ))
         })?;
-        let text = |path: &Path| {
-            let file = BUILTIN.get_file(path);
-            file.and_then(|file| file.contents_utf8())
-                .unwrap_or_else(|| panic!("{} is embedded as text", path.display()))
-                .to_owned()
-        };
-        let manifest = text(&folder.path().join("filter.toml"));
-        parse_filter(folder.path(), &manifest, |path, _| {
-            Ok(text(path).into_bytes())
+        let manifest = builtin_text(&folder.path().join("filter.toml"));
+        parse_filter(folder.path(), manifest, |path, _| {
+            Ok(builtin_text(path).into())
         })
     }
 
@@ -66,6 +60,21 @@ impl Filter {
             .collect();
         names.sort();
         names
+    }
+}
+
+/// Returns the text of a file of a built-in filter.
+fn builtin_text(path: &Path) -> &'static str {
+    let file = BUILTIN.get_file(path);
+    file.and_then(|file| file.contents_utf8())
+        .unwrap_or_else(|| panic!("{} is embedded as text", path.display()))
+}
+
+/// Reads filter.toml or the kernels of a loaded filter again.
+pub(crate) fn read_text(filter: &Filter, path: &Path) -> Result<String, FilterError> {
+    match filter.folder {
+        None => Ok(builtin_text(path).to_owned()),
+        Some(_) => as_text(path, read_bytes(path, MAX_MANIFEST_BYTES)?),
     }
 }
 

@@ -16,7 +16,7 @@ use super::variable::{Variable, find_variable};
 use crate::FilterError;
 
 /// WGSL that is appended to every filter's kernels.
-const COMMON: &str = include_str!("../../../../shaders/common.wgsl");
+pub(crate) const COMMON: &str = include_str!("../../../../shaders/common.wgsl");
 
 /// Kernels of a filter with common.wgsl appended, and what they declare.
 #[derive(Clone, Debug, Default)]

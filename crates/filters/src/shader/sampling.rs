@@ -29,7 +29,9 @@ impl Sampling {
 }
 
 /// Value of a texture between its texels.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, serde::Deserialize)]
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize,
+)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum SamplerFilter {
     /// The nearest texel's.
@@ -40,7 +42,9 @@ pub(crate) enum SamplerFilter {
 }
 
 /// Value of a texture beyond its border.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, serde::Deserialize)]
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize,
+)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Wrap {
     /// The border's.

@@ -36,14 +36,15 @@
     const layer = layers[word];
     const of = (section) => ({ title: section.dataset.filter, score: section.dataset.score });
     if (word === "truth") return own[word] && { ...layer, ...truthWords(), word, planes: own[word] };
-    if (layer) return own[word] && { ...layer, word, planes: own[word], ...(word === "output" ? of(open) : {}) };
+    const live = window.shuttertruth.live?.find(word);
+    if (layer) return own[word] && { ...layer, word, planes: own[word], ...(word === "output" ? of(open) : {}), ...live };
     const other = siblings().find((section) => section.dataset.name === word);
     return other && { ...layers.output, word, planes: planesOf(other).output, ...of(other) };
   };
 
   // Groups of a menu: titles, each with the words of its pictures.
   const groups = () => {
-    const light = ["truth", "traced_truth", "instant", "output"].filter((word) => own[word]);
+    const light = ["truth", "traced_truth", "instant", "output", "live"].filter((word) => own[word]);
     const others = siblings().filter((section) => section !== open);
     const names = (isReference) =>
       others.filter((section) => "reference" in section.dataset === isReference).map((section) => section.dataset.name);

@@ -10,7 +10,7 @@
   // Called by the files beside the page, each of which holds one scene.
   const arrived = (name, content) => waiting.get(name)(content);
 
-  // Loads a file beside the page: `scene_3`, with numbers, or `tables_3`.
+  // Loads a file beside the page: `scene_3`, with numbers, `tables_3`, or `live_scene_3`.
   const load = (name) =>
     new Promise((resolve, reject) => {
       waiting.set(name, resolve);
@@ -21,8 +21,8 @@
     });
 
   const textsOf = (scene) => {
-    if (folder) return load(`scene_${scene}`);
-    return Promise.resolve(JSON.parse(store.querySelector(`[data-scene="${scene}"]`).textContent));
+    const own = store.querySelector(`[data-scene="${scene}"]`);
+    return own ? Promise.resolve(JSON.parse(own.textContent)) : load(`scene_${scene}`);
   };
 
   const openScene = (scene) => {
@@ -77,5 +77,8 @@
   // The numbers of some planes of the open scene.
   const planes = (numbers) => Promise.all(numbers.map((number) => plane(open, number)));
 
-  window.shuttertruth = { arrived, load, openScene, planes };
+  // Puts a plane that this page computed itself into the open scene. Its number is below 0.
+  const put = (number, values) => open.planes.set(number, Promise.resolve(values));
+
+  window.shuttertruth = { arrived, load, inflate, openScene, planes, put };
 }

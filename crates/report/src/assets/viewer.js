@@ -41,9 +41,11 @@
 
   const draw = async (mine, places) => {
     const canvases = [];
-    for (const [place, [key, load]] of Object.entries(places)) {
+    for (const [place, [key, load, changes]] of Object.entries(places)) {
       const canvas = viewer.querySelector(`[data-place=${place}] canvas`);
-      if (canvas.dataset.shows !== key) canvases.push([canvas, key, await load()]);
+      // What changes with every move of a slider is drawn only where it is seen.
+      if (canvas.dataset.shows === key || (changes && !canvas.checkVisibility())) continue;
+      canvases.push([canvas, key, await load()]);
       if (mine !== asked) return;
     }
     for (const [canvas, key, color] of canvases) {
@@ -75,11 +77,13 @@
     for (const single of singles) single.hidden = mode !== "side";
     const { left, right } = picked();
     const at = stops();
-    const drawing = (picture) => [`${open.id} ${picture.word} ${at}`, () => pictures.painterOf(picture, at)];
+    // A picture that this page computed has a version, and is drawn again with each.
+    const key = ({ word, version = "" }) => `${word}${version}`;
+    const drawing = (picture) => [`${open.id} ${key(picture)} ${at}`, () => pictures.painterOf(picture, at), "version" in picture];
     const isLight = left.painter === "radiance" && right.painter === "radiance";
     const differs = mode === "difference" && isLight;
     const below = differs
-      ? [`${open.id} ${left.word} ${right.word} ${at}`, () => pictures.differenceOf(left, right, at)]
+      ? [`${open.id} ${key(left)} ${key(right)} ${at}`, () => pictures.differenceOf(left, right, at)]
       : drawing(right);
     const swapped = "swapped" in viewer.dataset;
     const shown = differs ? "signed" : mode === "blink" && !swapped ? left.word : right.word;
@@ -371,6 +375,7 @@
   Object.assign(pictures, {
     isOpen: () => open !== null,
     show: openCase,
+    redraw: show,
     settings,
     setMode,
     next,

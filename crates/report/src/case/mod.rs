@@ -21,6 +21,7 @@ use suite::{Case, Drawn};
 use crate::address::{anchor, case_anchor, section_anchor};
 use crate::case_table::CaseTable;
 use crate::finding_text::Tally;
+use crate::live::Live;
 use crate::numbers::{counted, value_text};
 use crate::pixels::scene_files::find_traced;
 use crate::run_facts::{provenance_line, truth_text};
@@ -74,7 +75,7 @@ impl CaseTables {
 
 /// Writes a case, which is visible while open; the script adds the viewer. If scripts run, its tables are text until then, since a
 /// browser needs seconds for all cases' tables. Without `tables` the script loads them from a file next to the page.
-pub fn case_section(view: &CaseView, tables: Option<&CaseTables>) -> Markup {
+pub fn case_section(view: &CaseView, live: &Live, tables: Option<&CaseTables>) -> Markup {
     let case = view.case;
     let filter = case.filter_id();
     let title = format!("{} / {}", case.scene, filter);
@@ -86,7 +87,19 @@ pub fn case_section(view: &CaseView, tables: Option<&CaseTables>) -> Markup {
             (part(tables.map(|own| &own.head)))
             div.viewer_place data-truth=[case.drawn.as_ref().map(truth_words)] data-scene=(view.scene) data-layers=(layers(view)) data-stops=(view.stops)
                 data-names=(serde_json::json!(view.names)) data-line=(line(&view.profile)) data-worst=(format!("{x},{y}")) {}
+            (live_place(live))
             (part(tables.map(|own| &own.rest)))
+        }
+    }
+}
+
+/// Writes the place of the panel that runs the filter, which the script shows, or why there is none.
+fn live_place(live: &Live) -> Markup {
+    html! {
+        @match live {
+            Some(Ok(data)) => div.live hidden data-live=(data) { button type="button" { "Try it" } },
+            Some(Err(reason)) => p.note.live_not { (reason) },
+            None => {},
         }
     }
 }

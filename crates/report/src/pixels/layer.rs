@@ -11,10 +11,14 @@ named! {
         TracedTruth = "traced_truth",
         /// what the filter made of the instant
         Output = "output",
+        /// what the filter makes of the instant on this computer, with the values and the shader of the panel
+        Live = "live",
         /// the frame that the filter got: sharp, at one instant
         Instant = "instant",
         /// visible difference from the truth
         Flip = "flip",
+        /// visible difference of the live picture from the truth
+        LiveFlip = "live_flip",
         /// brightness of the output minus that of the truth
         SignedError = "signed",
         /// mover where the truth never shows it, by the side as seen along its motion
@@ -57,8 +61,10 @@ impl Layer {
             Layer::Truth => "Truth",
             Layer::TracedTruth => "Path-traced truth",
             Layer::Output => "Output",
+            Layer::Live => "Live",
             Layer::Instant => "Instant",
             Layer::Flip => "FLIP",
+            Layer::LiveFlip => "Live FLIP",
             Layer::SignedError => "Signed error",
             Layer::Bleed => "Bleed",
             Layer::LabelTotalVariation => "Label TV",
@@ -72,9 +78,13 @@ impl Layer {
     /// Chooses how it is drawn.
     pub fn painter(self) -> Painter {
         match self {
-            Layer::Truth | Layer::TracedTruth | Layer::Output | Layer::Instant => Painter::Radiance,
+            Layer::Truth | Layer::TracedTruth | Layer::Output | Layer::Live | Layer::Instant => {
+                Painter::Radiance
+            }
             Layer::SignedError => Painter::Signed,
-            Layer::Flip | Layer::LabelTotalVariation | Layer::Knowability => Painter::Share,
+            Layer::Flip | Layer::LiveFlip | Layer::LabelTotalVariation | Layer::Knowability => {
+                Painter::Share
+            }
             Layer::Bleed => Painter::Sides,
             Layer::Velocity | Layer::Dilated => Painter::Motion,
             Layer::Depth => Painter::Distance,

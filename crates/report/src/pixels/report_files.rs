@@ -10,7 +10,7 @@ use frame::{FileError, write_atomically};
 pub const LARGEST_PAGE: usize = 25_000_000;
 
 /// Upper limit on the bytes of styles, scripts and the frame of the page.
-const REST: usize = 100_000;
+const REST: usize = 130_000;
 
 /// Texts of all scenes in order: in the page, or in files in a folder named like the page. Texts are kept until they are too large for
 /// the page; from then on, each is written as it comes.
@@ -78,15 +78,19 @@ impl SceneTexts {
         }
         for text in self.texts.drain(..) {
             let name = format!("{}_{}", self.name, self.written.len());
-            let path = (self.html)
-                .with_file_name(folder_name(&self.html))
-                .join(format!("{name}.js"));
-            let script = format!("shuttertruth.arrived(\"{name}\", {text});\n");
-            write_atomically(&path, script.as_bytes())?;
-            self.written.push(path);
+            self.written.push(write_script(&self.html, &name, &text)?);
         }
         Ok(())
     }
+}
+
+/// Writes JSON to a file next to the page at `html`, which loads it as `name`; returns its path.
+pub fn write_script(html: &Path, name: &str, json: &str) -> Result<PathBuf, FileError> {
+    let folder = html.with_file_name(folder_name(html));
+    let path = folder.join(format!("{name}.js"));
+    let script = format!("shuttertruth.arrived(\"{name}\", {json});\n");
+    write_atomically(&path, script.as_bytes())?;
+    Ok(path)
 }
 
 /// Returns the name of the folder next to the page at `html`.

@@ -3,10 +3,12 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use frame::{Alignment, ExrFile, Frame, Image, Picture, Plane, Regions, Truth, read_exr, regions};
+use frame::{
+    Alignment, ExrFile, Frame, Image, Picture, Plane, Region, Regions, Truth, read_exr, regions,
+};
 use metrics::{Side, object_sides};
 use store::RenderFile;
-use suite::{ACCUMULATE, Case, Error, ErrorMaps, Run};
+use suite::{ACCUMULATE, Case, Error, ErrorMaps, FilterFrame, Run, read_further_velocities};
 
 use super::layer::Layer;
 use super::planes::Planes;
@@ -19,6 +21,8 @@ pub type Layers = Vec<(Layer, Vec<usize>)>;
 pub struct SceneFiles {
     /// Without its guard band.
     pub frame: Frame,
+    /// With it, and with all velocities that filters got, but without coverage.
+    pub whole: FilterFrame,
     /// Truths by alignment.
     pub truths: BTreeMap<Alignment, TruthFile>,
     /// The planes of all its cases.
@@ -43,10 +47,19 @@ pub struct TruthFile {
     pub offset: frame::Vectors,
     /// Regions that scores are pooled over.
     pub regions: Regions,
+    /// Part of the mean squared error against `mean` where anything moves that is the truth's own noise, in units of radiance.
+    pub noise: f64,
     /// Sides of each moving object's bleed, with the object's index.
     sides: Vec<(usize, frame::Raster<Side>)>,
     /// Truth and knowability.
     layers: Layers,
+}
+
+impl TruthFile {
+    /// Returns the planes of its red, green and blue.
+    pub fn color_planes(&self) -> Vec<usize> {
+        self.layers[0].1.clone()
+    }
 }
 
 /// Files of one case in a run.
@@ -60,7 +73,10 @@ impl SceneFiles {
     /// Reads the frame of a scene and the accumulations of its profiles; `cases` are all of the scene, `folder` is the run's.
     pub fn read(run: &Run, cases: &[&Case], folder: &Path) -> Result<Self, Error> {
         let path = cases[0].render_path(folder, RenderFile::Frame);
-        let frame = Frame::read(&path)?.cropped();
+        let mut whole = Frame::read(&path)?;
+        let frame = whole.cropped();
+        whole.coverage.clear();
+        read_further_velocities(&mut whole, path.parent().unwrap_or(folder))?;
         check_size(&path, frame.size(), (run.render.width, run.render.height))?;
         let mut accumulations = BTreeMap::new();
         for case in cases.iter().filter(|case| is_in_profiles(case)) {
@@ -87,6 +103,10 @@ impl SceneFiles {
             traced: find_traced(run, cases[0]).map(|case| folder.join(case.scene.folder())),
             folder: folder.to_owned(),
             frame,
+            whole: FilterFrame {
+                frame: whole,
+                exclusion: None,
+            },
             planes,
         })
     }
@@ -116,6 +136,7 @@ impl SceneFiles {
         let at_instant = truth.at_instant_mean();
         let placed = &at_instant.placed;
         let objects = 1..truth.objects.len();
+        let regions = regions(&truth);
         let mut layers = vec![(Layer::Truth, self.planes.add_image(&mean.color))];
         match &truth.provenance.engine {
             None => {
@@ -128,7 +149,8 @@ impl SceneFiles {
             offset: at_instant.offset.zip(placed, |offset, placed| {
                 offset.map(|sum| if *placed > 0.0 { sum / placed } else { 0.0 })
             }),
-            regions: regions(&truth),
+            noise: noise_where_moving(&truth, &regions),
+            regions,
             sides: objects
                 .filter_map(|id| Some((id, object_sides(&self.frame, &truth.support, id as u32)?)))
                 .collect(),
@@ -170,7 +192,7 @@ impl SceneFiles {
         let truth = &self.truths[&case.alignment];
         let bleeds = read_bleeds(&file, &self.frame.objects, truth)?;
         let colors = self.planes.add_image(&output);
-        let truths = truth.layers[0].1.clone();
+        let truths = truth.color_planes();
         let mut layers = [self.shared.clone(), truth.layers.clone()].concat();
         layers.push((Layer::SignedError, [colors.clone(), truths].concat()));
         layers.push((Layer::Output, colors));
@@ -197,6 +219,18 @@ impl SceneFiles {
             layers,
         })
     }
+}
+
+/// Averages the squared noise of a truth where anything moves. Scores of a report are products of the errors against both halves, which is
+/// the squared error against their mean less the square of half their difference.
+fn noise_where_moving(truth: &Truth, regions: &Regions) -> f64 {
+    let [first, second] = truth.halves.each_ref().map(|half| &half.color.pixels);
+    let square = |at: usize| -> f64 {
+        let parts = first[at].iter().zip(&second[at]);
+        parts.map(|(a, b)| f64::from(a - b).powi(2) / 12.0).sum()
+    };
+    let squares: Vec<f64> = regions.indices(Region::Moving).map(square).collect();
+    squares.iter().sum::<f64>() / squares.len().max(1) as f64
 }
 
 /// Finds a case of the scene that an engine drew, rendered by the same run with the same exposure.

@@ -5,6 +5,7 @@ mod check_plan;
 pub mod dilated_velocity;
 pub mod estimate;
 mod frames;
+pub mod measured_filters;
 mod missing_cases;
 pub mod part;
 pub mod pictures;

@@ -4,6 +4,7 @@ use filters::Gpu;
 use tracer::{Progress, Watch};
 
 use super::frames::{count_frames, visit_frames};
+use super::measured_filters::copy_filters;
 use super::plan::RunPlan;
 use super::sequence::measure_sequences;
 use crate::Error;
@@ -18,6 +19,7 @@ pub fn measure_scenes(
     gpu: Option<&Gpu>,
     command: Vec<String>,
 ) -> Result<Run, Error> {
+    copy_filters(plan)?;
     // With a single scene, its steps show all of the progress.
     let count = count_frames(plan);
     let monitor = match count {

@@ -8,6 +8,7 @@ use super::run_scene::RunScene;
 use crate::Error;
 use crate::inputs::input_format::InputFormat;
 use crate::render::exclusion::{FilterFrame, draw_exclusion};
+use crate::render::velocities::write_further_velocities;
 
 /// A frame in one of the forms that filters get.
 pub(crate) struct StoredFrame {
@@ -25,6 +26,9 @@ pub(super) fn store_frames(
     frame: &Frame,
 ) -> Result<Vec<StoredFrame>, Error> {
     let whole = read_further_velocities(plan, scene)?;
+    if let Some(whole) = whole.as_ref().filter(|_| scene.id().frame == 0) {
+        write_further_velocities(whole, &plan.out.join(scene.id().folder()))?;
+    }
     let frame = whole.as_ref().unwrap_or(frame);
     let before = read_frame_before(plan, scene)?;
     let store = |format: &InputFormat, frame: &Frame, own: RunScene| {

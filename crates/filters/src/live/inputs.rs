@@ -1,0 +1,65 @@
+//! Inputs of a filter, and their conversion to its convention.
+
+use std::collections::BTreeMap;
+
+use serde_json::{Value, json};
+
+use crate::filter::{EXCLUSION, INPUTS};
+use crate::{Convention, DepthKind, Filter, Input};
+
+/// Lists the textures that the frame fills; those of the frame before show the first frame of a sequence itself. Each has one expression per
+/// component of the frame's input, of `frame.value` and of [`list_values`]; none if the filter gets the frame's own numbers.
+pub(super) fn list_inputs(filter: &Filter) -> Vec<Value> {
+    let own = INPUTS.into_iter().chain(filter.further_inputs());
+    let own = own.map(|name| (name, name));
+    let before = (filter.history.iter()).map(|history| (history.texture(), history.input()));
+    let convention = &filter.convention;
+    let scaled = |factor: &str| json!(["*", "frame.value", factor]);
+    own.chain(before)
+        .map(|(name, from)| {
+            let convert = match from {
+                _ if *convention == Convention::default() => Value::Null,
+                "color" => json!([scaled("frame.color"), scaled("frame.color"), scaled("frame.color")]),
+                "depth" => convert_depth(convention),
+                "velocity_z" | EXCLUSION => Value::Null,
+                _ => json!([scaled("frame.velocity[0]"), scaled("frame.velocity[1]")]),
+            };
+            json!({ "name": name, "from": from, "format": convention.format_of(name), "convert": convert })
+        })
+        .collect()
+}
+
+/// Lists the factors of the conversions.
+pub(super) fn list_values(filter: &Filter, input: &Input) -> BTreeMap<String, f64> {
+    let convention = filter.convention.at_rate(input.frames_per_second);
+    let size = [input.velocity.width, input.velocity.height];
+    let [x, y] = convention.velocity_factors(size, input.exposure);
+    let color = convention.color_scale.unwrap_or(1.0);
+    let named = [
+        ("frame.velocity[0]", x),
+        ("frame.velocity[1]", y),
+        ("frame.color", color),
+    ];
+    named.map(|(name, value)| (name.to_owned(), value)).into()
+}
+
+/// As [`Convention::convert_depth`].
+fn convert_depth(convention: &Convention) -> Value {
+    let near = convention.near.unwrap_or(1.0);
+    let depth = "frame.value";
+    let reversed = match convention.far {
+        None => json!(["/", near, depth]),
+        Some(far) => json!([
+            "/",
+            ["*", near, ["-", far, depth]],
+            ["*", depth, far - near]
+        ]),
+    };
+    let reversed = json!(["min", ["max", reversed, 0], 1]);
+    match convention.depth {
+        DepthKind::Linear => Value::Null,
+        DepthKind::Reversed => json!([reversed]),
+        DepthKind::Forward => json!([["-", 1, reversed]]),
+        DepthKind::Ndc => json!([["-", 1, ["*", 2, reversed]]]),
+    }
+}

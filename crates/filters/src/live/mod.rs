@@ -1,0 +1,141 @@
+//! A filter as JSON for a program that runs it elsewhere, such as a page in a browser: all that `gpu` binds and dispatches.
+
+mod bindings;
+mod expressions;
+mod inputs;
+mod modules;
+mod passes;
+
+use std::collections::BTreeMap;
+
+use serde_json::{Value, json};
+
+use crate::filter::Kind;
+use crate::gpu::{FrameValues, output_format};
+use crate::load::read_text;
+use crate::shader::{FRAME_PREFIX, Role};
+use crate::{Expression, Filter, Input, Parameter, Preset, Texture, Unit};
+use expressions::{describe, list_names};
+use inputs::list_inputs;
+use modules::list_modules;
+use passes::{describe_pass, list_features};
+
+impl Filter {
+    /// Describes the filter for pictures of a width, without their guard band; `as_written` leaves the presets' values in pixels unscaled.
+    ///
+    /// # Errors
+    /// It is a program, WGSL cannot say what its shaders do, or its files cannot be read again: a sentence for the page's reader.
+    pub fn live(&self, width: u32, as_written: bool) -> Result<Value, String> {
+        if self.command.is_some() {
+            return Err("A browser cannot run this filter: it is a program.".into());
+        }
+        let toml = read_text(self, &self.lines.path).map_err(|error| error.to_string())?;
+        let mut modules = list_modules(self)?;
+        let passes: Vec<Value> = (self.passes.iter())
+            .map(|pass| describe_pass(self, pass, &mut modules))
+            .collect();
+        let preset = |preset: &Preset| {
+            let settings = self.settings(Some(&preset.name));
+            let mut settings = settings.expect("the filter has its own presets");
+            if !as_written {
+                settings = settings.scaled_to(self, width);
+            }
+            json!({ "name": preset.name, "doc": preset.doc, "values": settings.values })
+        };
+        let has_file = self.passes.iter().any(|pass| pass.shader.is_none());
+        let in_pixels = |own: &Parameter| own.unit == Some(Unit::Pixels);
+        Ok(json!({
+            "name": self.name,
+            "file": has_file.then(|| format!("{}.wgsl", self.name)),
+            "toml": toml,
+            // What a new preset has to name, so that its values in pixels stay as they are.
+            "reference_width": self.parameters.iter().any(in_pixels).then_some(width),
+            "parameters": self.parameters.iter().map(describe_parameter).collect::<Vec<_>>(),
+            "presets": self.presets.iter().map(preset).collect::<Vec<_>>(),
+            "features": list_features(self),
+            "inputs": list_inputs(self),
+            "output": output_format(self),
+            "output_scale": self.convention.color_scale.unwrap_or(1.0),
+            "textures": (self.textures.iter())
+                .map(|texture| describe_texture(self, texture))
+                .collect::<Vec<_>>(),
+            "passes": passes,
+            "modules": modules,
+        }))
+    }
+
+    /// Lists the numbers of a frame that the filter's data name, without the run of a pass. Fails for a frame that lacks one of them.
+    pub fn frame_values(&self, input: &Input) -> Result<BTreeMap<String, f64>, String> {
+        let frame = FrameValues::of(input, &self.convention);
+        let mut known = inputs::list_values(self, input);
+        let mut add = |expression: &Expression| {
+            let of_run = ["iteration", "iterations"];
+            let is_wanted = |name: &str| {
+                !of_run.contains(&name.strip_prefix(FRAME_PREFIX).unwrap_or(name))
+                    && self.parameters.iter().all(|own| own.name != name)
+            };
+            for name in list_names(expression)
+                .into_iter()
+                .filter(|it| is_wanted(it))
+            {
+                let value = frame.find(name);
+                let value = value.ok_or_else(|| format!("The frame does not say {name}."))?;
+                known.insert(name.to_owned(), value);
+            }
+            Ok::<_, String>(())
+        };
+        for (shader, entry) in self.passes.iter().flat_map(|pass| self.stages(pass)) {
+            for variable in entry
+                .variables
+                .iter()
+                .map(|index| &shader.variables[*index])
+            {
+                variable.level.iter().try_for_each(&mut add)?;
+                if let Role::Block(block) = variable.role {
+                    let mut numbers = shader.blocks[block].numbers.iter();
+                    numbers.try_for_each(|number| add(&number.value))?;
+                }
+            }
+        }
+        let levels = self.passes.iter().filter_map(|pass| pass.shader.as_ref());
+        let levels = levels.flat_map(|shader| &shader.level);
+        let divisors = self.textures.iter().flat_map(|it| &it.divided_by).flatten();
+        levels.chain(divisors).try_for_each(add)?;
+        Ok(known)
+    }
+}
+
+fn describe_parameter(parameter: &Parameter) -> Value {
+    let Parameter {
+        name,
+        default,
+        unit,
+        doc,
+        ..
+    } = parameter;
+    let mut json = json!({ "name": name, "default": default, "unit": unit, "doc": doc });
+    let range = match &parameter.kind {
+        Kind::Integer { min, max, scale } => {
+            json!({ "kind": "integer", "min": min, "max": max, "scale": scale })
+        }
+        Kind::Real { min, max, scale } => {
+            json!({ "kind": "real", "min": min, "max": max, "scale": scale })
+        }
+        Kind::Choice { choices } => json!({ "kind": "choice", "choices": choices }),
+    };
+    let members = json.as_object_mut().zip(range.as_object().cloned());
+    members.map(|(own, more)| own.extend(more));
+    json
+}
+
+fn describe_texture(filter: &Filter, texture: &Texture) -> Value {
+    let divisors = texture.divided_by.as_ref();
+    json!({
+        "name": texture.name,
+        "format": texture.format,
+        "divided_by": divisors.map(|divisors| divisors.each_ref().map(describe)),
+        "rounding": texture.rounding,
+        "mips": texture.mips,
+        "copies": filter.count_copies(&texture.name),
+    })
+}

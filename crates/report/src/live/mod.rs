@@ -1,0 +1,168 @@
+//! Live cases: the data with which a page's script runs a filter in the browser, in files next to the page that it loads on demand.
+
+pub mod scene;
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+use filters::{EXCLUSION, Filter, Input};
+use metrics::{Measured, Metric};
+use serde_json::json;
+use suite::{Case, Error, FilterFrame, InputFormat, MEASURED_FILTERS, Run, filter_input};
+
+use crate::pixels::report_files::write_script;
+
+/// Most pixels of a frame that can be tried; the file of such a scene has about 15 MB.
+const MOST_PIXELS: u32 = 1280 * 720;
+
+/// A live case as JSON, or the sentence that says why it is not live; none if nobody expects it to be.
+pub type Live = Option<Result<String, String>>;
+
+/// Live filters of a run, and the files written for them.
+pub struct LiveFiles<'a> {
+    run: &'a Run,
+    /// Folder of the run.
+    folder: &'a Path,
+    /// Path of the page.
+    html: &'a Path,
+    /// Filters by name: each with the number of its file, or the reason why it is not live.
+    filters: HashMap<&'a str, Result<(usize, Filter), String>>,
+    pub written: Vec<PathBuf>,
+}
+
+impl<'a> LiveFiles<'a> {
+    /// Collects live cases of a run in `folder` for the page at `html`.
+    pub fn new(run: &'a Run, folder: &'a Path, html: &'a Path) -> Self {
+        Self {
+            run,
+            folder,
+            html,
+            filters: HashMap::new(),
+            written: Vec::new(),
+        }
+    }
+
+    /// Describes a case; `frame` is its scene's, with the guard band. Writes the file of a filter that no case had before.
+    pub fn describe(
+        &mut self,
+        case: &'a Case,
+        scene: usize,
+        frame: &FilterFrame,
+    ) -> Result<Live, Error> {
+        // An engine's own picture has no preset.
+        if case.is_reference || case.preset.is_empty() {
+            return Ok(None);
+        }
+        if !self.filters.contains_key(&case.filter[..]) {
+            let found = self.find_filter(case)?;
+            self.filters.insert(&case.filter, found);
+        }
+        let described = match &self.filters[&case.filter[..]] {
+            Ok((number, filter)) => describe_case(case, (scene, frame), (*number, filter)),
+            Err(reason) => Err(reason.clone()),
+        };
+        Ok(Some(described))
+    }
+
+    /// Writes a file that the page loads as `name`.
+    pub fn write(&mut self, name: &str, json: &str) -> Result<(), Error> {
+        self.written.push(write_script(self.html, name, json)?);
+        Ok(())
+    }
+
+    /// Finds the filter that a case ran, as its run's folder or this program has it, and writes its file.
+    fn find_filter(&mut self, case: &Case) -> Result<Result<(usize, Filter), String>, Error> {
+        if case.command.is_some() {
+            return Ok(Err(
+                "A browser cannot run this filter: it is a program.".into()
+            ));
+        }
+        let own = self.folder.join(MEASURED_FILTERS).join(&case.filter);
+        let found = match own.join("filter.toml").is_file() {
+            true => Filter::load(&own),
+            false => Filter::builtin(&case.filter),
+        };
+        let Some(filter) = found.ok().filter(|filter| is_of(filter, case)) else {
+            let reason = "This page cannot run the filter: the run's folder does not hold it.";
+            return Ok(Err(reason.to_owned()));
+        };
+        let is_as_written = |own: &Case| {
+            let mut presets = filter.presets.iter().filter(|it| it.name == own.preset);
+            let is_own = own.filter == case.filter && own.reference_width.is_none();
+            is_own && presets.any(|preset| preset.reference_width.is_some())
+        };
+        let as_written = self.run.cases.iter().any(is_as_written);
+        Ok(match filter.live(self.run.render.width, as_written) {
+            Err(reason) => Err(reason),
+            Ok(live) => {
+                let number = self.filters.values().filter(|it| it.is_ok()).count();
+                self.write(&format!("live_filter_{number}"), &live.to_string())?;
+                Ok((number, filter))
+            }
+        })
+    }
+}
+
+/// Returns whether a filter has the parameters of a case.
+fn is_of(filter: &Filter, case: &Case) -> bool {
+    let has = |name: &String| case.parameters.contains_key(name);
+    let mut parameters = filter.parameters.iter();
+    parameters.len() == case.parameters.len() && parameters.all(|own| has(&own.name))
+}
+
+/// Describes a case of a live filter.
+fn describe_case(
+    case: &Case,
+    (scene, frame): (usize, &FilterFrame),
+    (number, filter): (usize, &Filter),
+) -> Result<String, String> {
+    let (width, height) = frame.size();
+    if width * height > MOST_PIXELS {
+        return Err(format!(
+            "This case cannot be tried in the browser: its frame has {width}x{height} pixels, and at most {MOST_PIXELS} are allowed."
+        ));
+    }
+    if case.input != InputFormat::default() {
+        let change = case.input.change().unwrap_or_default();
+        return Err(format!(
+            "This case cannot be tried in the browser: its frame had another form ({change})."
+        ));
+    }
+    if case.scene.frame > 0 && !filter.history.is_empty() {
+        return Err("This case cannot be tried in the browser: it needs the frame before.".into());
+    }
+    let is_missing = |name: &&str| match *name {
+        EXCLUSION => frame.exclusion.is_none(),
+        "velocity_z" => frame.velocity_z.is_none(),
+        _ => frame.velocity_next.is_none(),
+    };
+    if let Some(name) = filter.further_inputs().into_iter().find(is_missing) {
+        return Err(format!(
+            "This case cannot be tried in the browser: the run's folder does not hold {name}, which the filter reads."
+        ));
+    }
+    let colors = [&frame.color];
+    let input = Input {
+        frame_index: case.scene.frame,
+        ..filter_input(frame, &colors)
+    };
+    let measured = |metric| match case.scores.get(metric) {
+        Measured::Score(score) => Some(score),
+        Measured::NotApplicable { .. } => None,
+    };
+    let value = |metric| measured(metric).map(|score| score.value);
+    let json = json!({
+        "filter": number,
+        "scene": scene,
+        "preset": case.preset,
+        "parameters": case.parameters,
+        "values": filter.frame_values(&input)?,
+        "alignment": case.alignment,
+        "stored": {
+            "flip": value(Metric::FLIP),
+            "psnr": value(Metric::PSNR),
+            "psnr_limit": measured(Metric::PSNR).map(|score| score.floor),
+        },
+    });
+    Ok(json.to_string())
+}

@@ -1,0 +1,311 @@
+//! Live cases: filters that the page itself runs, in a real browser, against the program.
+
+use std::fs;
+use std::path::Path;
+
+use frame::{Image, Raster};
+use serde_json::{Value, json};
+use suite::Case;
+use tests::filter_folder::copy_folder;
+
+use crate::browser::Browser;
+use crate::sandbox::Sandbox;
+use crate::{make_page, open_case};
+
+/// Place of the open case's panel.
+const LIVE: &str = "document.querySelector('article.open .live')";
+
+/// Largest difference of a pixel, and of a score of FLIP, between the browser's shader compiler and the program's.
+const APART: f32 = 1e-3;
+/// Part of the pixels that may differ by more: a tap that falls on the border of two texels.
+const APART_PIXELS: f32 = 1e-3;
+
+/// Opens the panel of a case. Waits for its first picture, or the reason why there is none.
+fn open_panel(browser: &mut Browser, page: &Path, case: &str) {
+    open_case(browser, page, case);
+    browser.click("article.open .live button");
+    browser.until(&format!(
+        "{LIVE}.dataset.version === '1' || !['Loading ..', ''].includes({LIVE}.querySelector('.said').textContent)"
+    ));
+}
+
+/// Changes the panel by a script, and waits for the next picture.
+fn change(browser: &mut Browser, script: &str) {
+    let version = browser.text(&format!("{LIVE}.dataset.version"));
+    browser.value(script);
+    browser.until(&format!("{LIVE}.dataset.version !== '{version}'"));
+}
+
+/// Reads a score of the picture, from its data.
+fn read_score(browser: &mut Browser, name: &str) -> f64 {
+    let text = browser.text(&format!("{LIVE}.dataset.{name}"));
+    text.parse().unwrap()
+}
+
+/// Reads the live picture.
+fn read_picture(browser: &mut Browser, (width, height): (u32, u32)) -> Image {
+    let planes = browser.value(
+        "window.shuttertruth.planes([-1, -2, -3]).then(planes => planes.map(plane => [...plane]))",
+    );
+    let part = |at: usize| -> Vec<f32> { serde_json::from_value(planes[at].clone()).unwrap() };
+    let [red, green, blue] = [0, 1, 2].map(part);
+    Raster::from_fn(width, height, |x, y| {
+        let at = (y * width + x) as usize;
+        [red[at], green[at], blue[at]]
+    })
+}
+
+/// Finds the largest difference of each pixel.
+fn find_apart(live: &Image, stored: &Image) -> Vec<f32> {
+    let pairs = live.pixels.iter().zip(&stored.pixels);
+    let differ = |(live, stored): (&[f32; 3], &[f32; 3])| {
+        let parts = live.iter().zip(stored);
+        parts.fold(0.0, |most: f32, (live, stored)| {
+            most.max((live - stored).abs())
+        })
+    };
+    pairs.map(differ).collect()
+}
+
+/// Counts the part of the pixels that differ by more than [`APART`].
+fn count_apart(apart: &[f32]) -> f32 {
+    let count = apart.iter().filter(|apart| **apart > APART).count();
+    count as f32 / apart.len() as f32
+}
+
+/// Presets, or filters, that magnify the last bits of a number, in which adapters differ; each with what it does.
+const MAGNIFYING: [(&str, &str); 2] = [
+    ("dagor:", "rounds the direction of motion to seven bits"),
+    (
+        "mcguire:motion_blur_demo",
+        "takes its noise from the sine of large numbers",
+    ),
+];
+
+/// Differences of the open panel from a case.
+#[derive(Debug)]
+struct Differences {
+    /// Largest difference of a pixel.
+    pixel: f32,
+    /// Part of the pixels that differ by more than [`APART`].
+    share: f32,
+    flip: f64,
+    psnr: f64,
+}
+
+impl Differences {
+    /// Returns whether the page shows the same picture and scores as the program. 0.05 dB are 1 % of the squared error: the page's truth has
+    /// three digits.
+    fn are_small(&self, name: &str) -> bool {
+        if MAGNIFYING.iter().any(|(start, _)| name.starts_with(start)) {
+            // At most 4.1 % of the pixels differed on five scenes, and FLIP by 0.0082.
+            return self.share <= 0.05 && self.flip <= 0.01;
+        }
+        self.share <= APART_PIXELS && self.flip <= f64::from(APART) && self.psnr <= 0.05
+    }
+}
+
+/// Compares the open panel's picture and scores with those of a case.
+fn compare(browser: &mut Browser, sandbox: &Sandbox, out: &str, case: &Case) -> Differences {
+    let stored = sandbox.read_color(&format!("{out}/{}/output.exr", case.folder.display()));
+    let live = read_picture(browser, (stored.width, stored.height));
+    let apart = find_apart(&live, &stored);
+    let mut score = |metric, name| match case.scores.get(metric) {
+        metrics::Measured::Score(stored) => (read_score(browser, name) - stored.value).abs(),
+        metrics::Measured::NotApplicable { reason } => panic!("no {name}: {reason}"),
+    };
+    Differences {
+        pixel: apart.iter().copied().fold(0.0, f32::max),
+        share: count_apart(&apart),
+        flip: score(metrics::Metric::FLIP, "flip"),
+        psnr: score(metrics::Metric::PSNR, "psnr"),
+    }
+}
+
+/// Finds a case by its name, `kino:default`.
+fn find_case(sandbox: &Sandbox, name: &str) -> Case {
+    let mut cases = sandbox.read_filter_cases().into_iter();
+    cases.find(|case| case.name() == name).unwrap()
+}
+
+#[test]
+fn a_page_runs_filters_as_the_program_does() {
+    let sandbox = Sandbox::new();
+    // Passes with textures of tiles; exchanged textures; a vertex stage, a sampler, halves and velocity in another unit.
+    copy_folder(
+        &tests::root().join("examples/first_blur/bevy"),
+        &sandbox.path("bevy_blur"),
+    );
+    sandbox.measure("--filters kino:default,jump_flood:corrected,./bevy_blur");
+    let page = make_page(&sandbox);
+    let mut browser = Browser::new(1280, 900);
+    for case in sandbox.read_filter_cases() {
+        open_panel(&mut browser, &page, &format!("plate/{}", case.name()));
+        let found = compare(&mut browser, &sandbox, "out", &case);
+        assert!(found.are_small(&case.name()), "{}: {found:?}", case.name());
+    }
+    // Left, it leaves nothing behind.
+    browser.press("k");
+    browser.until("!document.querySelector('.trying') && document.querySelector('[name=left]').value === 'truth'");
+    assert_eq!(browser.complaints(), [""; 0]);
+}
+
+#[test]
+fn what_a_reader_changes_is_what_the_program_measures() {
+    let sandbox = Sandbox::new();
+    sandbox.measure("--filters kino:default");
+    let page = make_page(&sandbox);
+    sandbox.measure_into("moved", "--filters kino:default --set kino.samples=4");
+    let mut browser = Browser::new(1280, 900);
+    open_panel(&mut browser, &page, "plate/kino:default");
+    let field = format!("{LIVE}.querySelector('[type=number][aria-label^=\"samples\"]')");
+    change(
+        &mut browser,
+        &format!("{field}.value = 4; {field}.dispatchEvent(new Event('change'))"),
+    );
+    let run: suite::Run = sandbox.read_json("moved/run.json");
+    let moved = run.cases.iter().find(|case| case.filter == "kino");
+    let found = compare(&mut browser, &sandbox, "moved", moved.unwrap());
+    assert!(found.are_small("kino"), "{found:?}");
+
+    let shader = format!("{LIVE}.querySelector('textarea')");
+    let edit = |from: &str, to: &str| {
+        let [from, to] = [from, to].map(|text| json!(text));
+        format!(
+            "{shader}.value = {shader}.value.replace({from}, {to}); {shader}.dispatchEvent(new Event('input'))"
+        )
+    };
+    let before = read_score(&mut browser, "flip");
+    browser.value(&edit("WINDOW - along", "WINDOW - alone"));
+    browser.until(&format!("!!{LIVE}.querySelector('.errors button')"));
+    let line = browser.text(&format!("{LIVE}.querySelector('pre .broken').textContent"));
+    let kernels = fs::read_to_string(tests::root().join("shaders/kino/kino.wgsl")).unwrap();
+    let is_changed = |text: &str| text.contains("WINDOW - along");
+    let number = 1 + kernels.lines().position(is_changed).unwrap();
+    assert_eq!(line.trim(), number.to_string());
+    assert_eq!(read_score(&mut browser, "flip"), before);
+    change(&mut browser, &edit("WINDOW - alone", "WINDOW + along"));
+    let tried = read_score(&mut browser, "flip");
+    assert_ne!(tried, before);
+
+    browser.save_to(&sandbox.path(""));
+    let save = "[...document.querySelectorAll('.live button')].find(one => one.textContent === 'Download filter').click()";
+    browser.value(save);
+    let zip = sandbox.path("kino.zip");
+    while !zip.is_file() {
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    unpack(&fs::read(&zip).unwrap(), &sandbox.path(""));
+    sandbox.measure("--filters ./kino:tried");
+    let metrics::Measured::Score(score) = find_case(&sandbox, "kino:tried")
+        .scores
+        .get(metrics::Metric::FLIP)
+    else {
+        panic!("the plate moves");
+    };
+    assert!((score.value - tried).abs() <= f64::from(APART));
+    assert_eq!(browser.complaints(), [""; 0]);
+}
+
+/// Unpacks a zip file of stored files.
+fn unpack(mut zip: &[u8], folder: &Path) {
+    let number = |bytes: &[u8], at: usize, size: usize| {
+        let bytes = bytes[at..at + size].iter().rev();
+        bytes.fold(0, |number, byte| number << 8 | usize::from(*byte))
+    };
+    while zip.starts_with(b"PK\x03\x04") {
+        let [length, name_length] = [number(zip, 18, 4), number(zip, 26, 2)];
+        let (name, rest) = zip[30..].split_at(name_length);
+        let path = folder.join(str::from_utf8(name).unwrap());
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, &rest[..length]).unwrap();
+        zip = &rest[length..];
+    }
+}
+
+/// Changes the data of a filter, as a mistake of the program would.
+fn change_data(page: &Path, filter: usize, change: impl FnOnce(&mut Value)) {
+    let path = page.with_file_name(format!("a report_files/live_filter_{filter}.js"));
+    let text = fs::read_to_string(&path).unwrap();
+    let (start, end) = (
+        format!("shuttertruth.arrived(\"live_filter_{filter}\", "),
+        ");\n",
+    );
+    let json = text.strip_prefix(&start).unwrap();
+    let json = json.strip_suffix(end).unwrap();
+    let mut data = serde_json::from_str(json).unwrap();
+    change(&mut data);
+    fs::write(&path, format!("{start}{data}{end}")).unwrap();
+}
+
+/// Returns whether the page shows the stored picture of a case.
+fn shows_stored(page: &Path, sandbox: &Sandbox, case: &Case) -> bool {
+    // A page that is open would keep the data.
+    let mut browser = Browser::new(1280, 900);
+    open_panel(&mut browser, page, &format!("plate/{}", case.name()));
+    let stored = sandbox.read_color(&format!("out/{}/output.exr", case.folder.display()));
+    browser.value(&format!("{LIVE}.dataset.version === '1'")) == true
+        && count_apart(&find_apart(&read_picture(&mut browser, (64, 32)), &stored)) <= APART_PIXELS
+}
+
+#[test]
+fn mistakes_in_the_data_of_a_filter_change_its_picture() {
+    const FILTERS: [&str; 2] = ["kino:default", "jump_flood:corrected"];
+    let mistakes: [(usize, fn(&mut Value)); 4] = [
+        (0, |data| {
+            data["passes"].as_array_mut().unwrap().swap(2, 3);
+        }),
+        (0, |data| {
+            let bindings = data["passes"][4]["bindings"].as_array_mut().unwrap();
+            let mut blocks = bindings.iter_mut().filter(|it| it["role"] == "block");
+            let numbers = blocks.find(|it| it["numbers"][0][2] == "samples").unwrap();
+            numbers["numbers"][0][0] = json!(8);
+        }),
+        (1, |data| {
+            let passes = data["passes"].as_array_mut().unwrap();
+            let mut exchanging = passes
+                .iter_mut()
+                .filter(|pass| !pass["exchanged"].as_array().unwrap().is_empty());
+            exchanging.next().unwrap()["exchanged"] = json!([]);
+        }),
+        (1, |data| {
+            let passes = data["passes"].as_array_mut().unwrap();
+            let mut repeated = passes.iter_mut().filter(|pass| pass["repeat"] != 1);
+            repeated.next().unwrap()["repeat"] = json!(1);
+        }),
+    ];
+    let sandbox = Sandbox::new();
+    sandbox.measure(&format!("--filters {}", FILTERS.join(",")));
+    let cases = FILTERS.map(|name| find_case(&sandbox, name));
+    for case in &cases {
+        assert!(shows_stored(&make_page(&sandbox), &sandbox, case));
+    }
+    for (number, (filter, mistake)) in mistakes.into_iter().enumerate() {
+        let page = make_page(&sandbox);
+        change_data(&page, filter, mistake);
+        assert!(!shows_stored(&page, &sandbox, &cases[filter]), "{number}");
+    }
+}
+
+#[test]
+#[ignore = "prove: every preset of every built-in filter on five scenes"]
+fn a_page_runs_every_preset_as_the_program_does() {
+    let sandbox = Sandbox::new();
+    sandbox.done(
+        "run --quiet --scenes-dir built-in --scenes sliding_panel,panel_over_texture,two_spheres,railing,fan --size 160x90 \
+         --samples-per-pixel 16 --out out",
+    );
+    let page = make_page(&sandbox);
+    let mut browser = Browser::new(1280, 900);
+    let mut wrong = String::new();
+    for case in sandbox.read_filter_cases() {
+        let name = format!("{}/{}", case.scene, case.name());
+        open_panel(&mut browser, &page, &name);
+        let found = compare(&mut browser, &sandbox, "out", &case);
+        println!("{name} {} {found:?}", found.pixel);
+        if !found.are_small(&case.name()) {
+            wrong += &format!("{name} {found:?}\n");
+        }
+    }
+    assert_eq!(wrong, "");
+}
