@@ -330,10 +330,9 @@
     const buttons = [reset, button("Copy as preset", () => copyPreset(mine))];
     // Shaders that the program translated are no files of the folder.
     if (mine.filter.modules.every(({ editable }) => editable)) buttons.push(button("Download filter", () => saveFolder(mine)));
+    const head = element("div", { className: "head" }, element("h3", { textContent: "Try it" }), button("Close", leave));
     mine.place.replaceChildren(
-      element("div", { className: "head" }, element("h3", { textContent: "Try it" }), button("Close", leave)),
-      mine.table,
-      mine.said,
+      element("div", { className: "top" }, head, mine.table, mine.said),
       presetButtons(mine),
       element("div", { className: "parameters" }, ...mine.filter.parameters.map((parameter) => parameterRow(mine, parameter))),
       element("div", { className: "presets" }, ...buttons),
