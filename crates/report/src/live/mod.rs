@@ -68,18 +68,17 @@ impl<'a> LiveFiles<'a> {
 
     /// Finds the filter that a case ran, as its run's folder or this program has it, and writes its file.
     fn find_filter(&mut self, case: &Case) -> Result<Result<(usize, Filter), String>, Error> {
-        if case.command.is_some() {
-            return Ok(Err(
-                "A browser cannot run this filter: it is a program.".into()
-            ));
-        }
         let own = self.folder.join(MEASURED_FILTERS).join(&case.filter);
         let found = match own.join("filter.toml").is_file() {
             true => Filter::load(&own),
             false => Filter::builtin(&case.filter),
         };
-        let Some(filter) = found.ok().filter(|filter| is_of(filter, case)) else {
-            let reason = "This page cannot run the filter: the run's folder does not hold it.";
+        let found = found.ok().filter(|filter| is_of(filter, case));
+        let Some(filter) = found.filter(|_| case.command.is_none()) else {
+            let reason = match case.command {
+                Some(_) => "A browser cannot run this filter: it is a program.",
+                None => "This page cannot run the filter: the run's folder does not hold it.",
+            };
             return Ok(Err(reason.to_owned()));
         };
         let is_as_written = |own: &Case| {
@@ -113,27 +112,22 @@ fn describe_case(
     (number, filter): (usize, &Filter),
 ) -> Result<String, String> {
     let (width, height) = frame.size();
-    if width * height > MOST_PIXELS {
-        return Err(format!(
-            "This case cannot be tried in the browser: its frame has {width}x{height} pixels, and at most {MOST_PIXELS} are allowed."
-        ));
-    }
-    if case.input != InputFormat::default() {
+    let refused = if width * height > MOST_PIXELS {
+        format!("its frame has {width}x{height} pixels, and at most {MOST_PIXELS} are allowed")
+    } else if case.input != InputFormat::default() {
         let change = case.input.change().unwrap_or_default();
+        format!("its frame had another form ({change})")
+    } else if case.scene.frame > 0 && !filter.history.is_empty() {
+        "it needs the frame before".to_owned()
+    } else if frame.velocity_next.is_none() && !filter.further_inputs().is_empty() {
+        "the run's folder lacks the velocity to the next frame; measure it again".to_owned()
+    } else {
+        String::new()
+    };
+    if !refused.is_empty() {
         return Err(format!(
-            "This case cannot be tried in the browser: its frame had another form ({change})."
+            "This case cannot be tried in the browser: {refused}."
         ));
-    }
-    if case.scene.frame > 0 && !filter.history.is_empty() {
-        return Err("This case cannot be tried in the browser: it needs the frame before.".into());
-    }
-    let lacks_next = frame.velocity_next.is_none() && !filter.further_inputs().is_empty();
-    if lacks_next {
-        return Err(
-            "This case cannot be tried in the browser: the run's folder does not hold the velocity to the next frame, which the \
-             filter reads. Measure it again."
-                .into(),
-        );
     }
     let colors = [&frame.color];
     let input = Input {
