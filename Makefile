@@ -73,7 +73,7 @@ growth: software_vulkan python
 	"$(PYTHON)" examples/growth.py "$(GROWTH)/small" --scenes 100 --filters 94 --out "$(GROWTH)/large" --program "$(PROGRAM)"
 
 # `$(call given,NAME,--option)`: the option with the value of NAME, if whoever called make gave it one.
-given = $(if $(filter-out file undefined,$(origin $(1))),$(2) $($(1)))
+given = $(if $(filter-out file undefined,$(origin $(1))),$(2) '$($(1))')
 
 archive:
 	release/archive.sh $(TARGET)

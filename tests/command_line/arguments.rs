@@ -21,15 +21,11 @@ fn a_user_s_scenes_and_filters_are_given_by_path() {
     let mine = sandbox.path("my_blur");
     copy_shipped_filter("velocity_gather", &mine);
     let absolute = mine.display().to_string();
-    for words in [
-        ["--filter", "my_blur"],
-        ["--filter", &absolute],
-        ["--filters", "./my_blur:fine"],
-    ] {
-        let scene = ["--scenes", "./scenes/plate", "--scenes-dir", "nowhere"];
-        let output = sandbox.run(&[&scene[..], &words[..]].concat());
-        assert_done(&output);
-        assert!(stdout(&output).contains("velocity_gather:fine"));
+    let absolute = format!("--filter {absolute}");
+    for filter in ["--filter my_blur", &absolute, "--filters ./my_blur:fine"] {
+        let scene = "--scenes ./scenes/plate --scenes-dir nowhere";
+        let printed = sandbox.measure(&format!("{scene} {filter}"));
+        assert_contains(&printed, "velocity_gather:fine");
     }
 }
 
@@ -43,39 +39,25 @@ fn list_shows_only_the_requested_kinds() {
         ("list filters --scenes-dir nowhere", "bevy", "plate"),
         ("list bevy --scenes-dir nowhere", "bevy", "plate"),
     ] {
-        let listed = sandbox.execute(&split(line));
+        let listed = sandbox.done(line);
         let is_right = listed.contains(there) && !listed.contains(absent);
         assert!(is_right, "{line}: {listed}");
     }
     let all = sandbox.shuttertruth(&split("list --scenes-dir nowhere"));
     assert!(stdout(&all).contains("bevy"));
     assert!(stderr(&all).contains("no scenes: there is no folder nowhere"));
-    assert!(sandbox.execute(&split("list adapters")).starts_with("0: "));
+    assert!(sandbox.done("list adapters").starts_with("0: "));
     assert!(sandbox.execute(&["list"]).lines().count() < 80);
 }
 
 #[test]
 fn list_shows_scenes_filters_parameters_and_presets() {
     let sandbox = Sandbox::new();
-    assert_contains(
-        &sandbox.execute(&split(
-            "list plate identity velocity_gather jump_flood mcguire kino",
-        )),
-        &[
-            "plate",
-            "nothing: it serves",
-            "identity",
-            "velocity_gather",
-            "jump_flood",
-            "paper",
-            "samples",
-            "source: https://github.com/keijiro/KinoMotion at",
-            "differs: Tiles hold 32-bit floats",
-            "published: McGuire, Hennessy, Bukowski and Osman 2012",
-            "made for pictures 1280 pixels wide",
-            ".tile_size = 20 pixels",
-        ],
-    );
+    let listed = sandbox.done("list plate identity velocity_gather jump_flood mcguire kino");
+    let parts = "plate | nothing: it serves | identity | velocity_gather | jump_flood | paper | samples | \
+        source: https://github.com/keijiro/KinoMotion at | differs: Tiles hold 32-bit floats | \
+        published: McGuire, Hennessy, Bukowski and Osman 2012 | made for pictures 1280 pixels wide | .tile_size = 20 pixels";
+    assert_contains(&listed, &parts);
     let json: Value = serde_json::from_str(&sandbox.execute(&["list", "--json"])).unwrap();
     assert_eq!(json["scenes"][0]["name"], "plate");
     let filters = json["filters"].as_array().unwrap();

@@ -1,26 +1,22 @@
 //! `compare`: two runs side by side, with changes separated from noise.
 
 use std::fs;
-use std::sync::OnceLock;
 
 use serde_json::{Value, json};
 use tests::text::assert_contains;
 
-use crate::sandbox::{Files, Sandbox};
+use crate::sandbox::Sandbox;
 
 const GATHER: &str = "--filters identity,velocity_gather:fine";
 const SCRIPT: &str = "<script>alert(1)";
 
 /// Makes a sandbox with a run of two scenes in `out`, and the same run with two taps in `other`.
 fn two_runs() -> Sandbox {
-    static FILES: OnceLock<Files> = OnceLock::new();
-    Sandbox::once(&FILES, || {
-        let sandbox = Sandbox::new();
+    Sandbox::once(|sandbox| {
         sandbox.copy_scene(SCRIPT, |text| text.replace("-1.6", "-0.8"));
         sandbox.measure(GATHER);
         let two_taps = format!("{GATHER} --set velocity_gather.samples=2");
         sandbox.measure_into("other", &two_taps);
-        sandbox
     })
 }
 
@@ -53,10 +49,8 @@ fn a_run_compared_with_itself_shows_no_change() {
     for key in ["settings", "only_in_first", "only_in_second"] {
         assert_eq!(compared[key], json!([]), "{key}");
     }
-    let parts = [
-        "nothing changed of: identity:default, velocity_gather:fine",
-        "0 worse, 0 better, 0 within margin, 0 within noise",
-    ];
+    let parts = "nothing changed of: identity:default, velocity_gather:fine | \
+        0 worse, 0 better, 0 within margin, 0 within noise";
     assert_contains(&sandbox.done("compare out out"), &parts);
 }
 
@@ -99,18 +93,16 @@ fn compare_names_a_changed_parameter_and_gives_intervals() {
 fn terminal_and_page_show_the_same_numbers() {
     let sandbox = two_runs();
     let table = sandbox.done("compare out other --html page.html");
-    let page = fs::read_to_string(sandbox.path("page.html")).unwrap();
+    let page = sandbox.text("page.html");
     // Cells of the page, between bars.
     let texts = page.split('<').filter_map(|part| part.split_once('>'));
     let texts = texts.map(|(_, text)| text).filter(|text| !text.is_empty());
     let cells = texts.collect::<Vec<_>>().join("|");
     let mut found = 0;
     for row in table.lines().filter(|line| line.contains(" to ")) {
-        let own = row
-            .split("  ")
-            .map(str::trim)
-            .filter(|cell| !cell.is_empty());
-        let own = own.skip(1).collect::<Vec<_>>().join("|");
+        let own = row.split("  ").map(str::trim);
+        let own = own.filter(|cell| !cell.is_empty()).skip(1);
+        let own = own.collect::<Vec<_>>().join("|");
         assert_eq!(own.matches('|').count(), 3, "{row}");
         assert!(cells.contains(&own), "the page lacks {own}\n{table}");
         found += 1;
@@ -166,7 +158,7 @@ fn cases_of_only_one_run_are_named_and_runs_without_a_common_ground_are_refused(
         sandbox.done(&format!("{run} {line}"));
     }
     fs::create_dir(sandbox.path("damaged")).unwrap();
-    fs::write(sandbox.path("damaged/run.json"), "{}").unwrap();
+    sandbox.put("damaged/run.json", "{}");
     sandbox.refuse_rows(
         "compare out",
         "
@@ -183,7 +175,7 @@ fn the_page_shows_both_pictures_and_both_runs_and_names_as_text() {
     let sandbox = two_runs();
     let command = "compare out other --html page.html";
     assert_contains(&sandbox.done(command), &["written: page.html ("]);
-    let read = || fs::read_to_string(sandbox.path("page.html")).unwrap();
+    let read = || sandbox.text("page.html");
     let text = read();
     let address = |name: &str| {
         use base64::Engine;
@@ -198,14 +190,10 @@ fn the_page_shows_both_pictures_and_both_runs_and_names_as_text() {
     ] {
         assert_eq!(text.matches(&address(name)).count(), 1, "{name}");
     }
-    let parts = [
-        "plate / velocity_gather:fine",
-        "--out other",
-        " worse</td>",
-        "default-src 'none'",
-        "&lt;script&gt;alert(1)",
-    ];
-    assert_contains(&text, &parts);
+    let parts =
+        "plate / velocity_gather:fine | --out other | default-src 'none' | &lt;script&gt;alert(1)";
+    assert_contains(&text, parts);
+    assert_contains(&text, &[" worse</td>"]);
     for words in [SCRIPT, "http:", "https:"] {
         assert!(!text.contains(words), "{words}");
     }

@@ -30,11 +30,8 @@ fn filters_of_two_alignments_share_a_common_shutter() {
         assert_eq!(own, case.alignment == Alignment::Centred, "{}", case.name());
     }
     // The mean of many sub-frames, half an exposure early, does not match the common interval.
-    let many: Vec<&Case> = run
-        .cases
-        .iter()
-        .filter(|case| case.preset == "64")
-        .collect();
+    let many = run.cases.iter().filter(|case| case.preset == "64");
+    let many: Vec<&Case> = many.collect();
     assert_eq!(many.len(), 2, "64 sub-frames of each alignment");
     assert_eq!(many[0].alignment, Alignment::Trailing);
     let late = many[0].common.flip.value().unwrap();
@@ -68,9 +65,8 @@ fn a_sharp_sub_frame_of_the_middle_has_no_skill_under_any_shutter() {
     let lag = flip(find("identity", Alignment::Trailing).unwrap())
         - flip(find("accumulate:1", Alignment::Trailing).unwrap());
     assert!(lag > 0.05, "{lag}");
-    let row = text
-        .lines()
-        .find(|line| line.contains("lag behind the frame"));
+    let mut lines = text.lines();
+    let row = lines.find(|line| line.contains("lag behind the frame"));
     let cells: Vec<&str> = row.expect(&text).split_whitespace().skip(4).collect();
     assert_eq!(cells, [format!("{lag:.3}").as_str(), "-"]);
 
@@ -141,10 +137,8 @@ fn forms_of_the_input_cost_what_they_take_away() {
     let cases = sandbox.read_filter_cases();
     assert_eq!(cases.len(), 2 * 12);
     let identity = flip(find_case(&cases, "identity:default"));
-    let of_identity = cases
-        .iter()
-        .filter(|case| case.filter == "identity" && !case.name().ends_with("border=clamp"));
-    for case in of_identity {
+    let of_identity = cases.iter().filter(|case| case.filter == "identity");
+    for case in of_identity.filter(|case| !case.name().ends_with("border=clamp")) {
         // A filter that reads neither velocity nor depth does not depend on how they are stored.
         assert_eq!(flip(case), identity, "{}", case.name());
     }
@@ -187,18 +181,13 @@ fn forms_of_the_input_cost_what_they_take_away() {
 /// Checks the mean of the identity's FLIP on two scenes; returns its interval.
 fn assert_mean(run: &Run) -> [f64; 2] {
     let name = "identity:default";
-    let own = run
-        .cases
-        .iter()
-        .filter(|case| case.name() == name)
-        .map(flip);
-    let [first, second] = own.collect::<Vec<_>>()[..] else {
+    let own = run.cases.iter().filter(|case| case.name() == name);
+    let [first, second] = own.map(flip).collect::<Vec<_>>()[..] else {
         panic!("two scenes");
     };
     let mut means = run.overall.iter();
-    let mean = means
-        .find(|mean| (&mean.name[..], mean.metric) == (name, Metric::FLIP))
-        .unwrap();
+    let mean = means.find(|mean| mean.name == name && mean.metric == Metric::FLIP);
+    let mean = mean.unwrap();
     assert_eq!(mean.scenes, 2);
     // The standard error of two scores is half of their difference, and t for one degree of freedom is 12.706.
     let half = 12.706 * 0.5 * (second - first).abs();

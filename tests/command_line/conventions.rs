@@ -1,6 +1,5 @@
 //! `--convention`: frames and pictures in an engine's form, and the record of what a filter's shaders got.
 
-use std::fs;
 use std::path::Path;
 
 use filters::Convention;
@@ -81,7 +80,7 @@ fn a_frame_in_any_convention_is_blurred_as_the_frame_itself() {
     assert!(moved > 0.02, "there is something to blur: {moved}");
     for form in FORMS {
         let text = format!("[convention]\n{form}\n");
-        fs::write(sandbox.path("engine.toml"), &text).unwrap();
+        sandbox.put("engine.toml", &text);
         let convention = Convention::parse(Path::new("engine.toml"), &text).unwrap();
         assert_restores(&convention, &frame);
         // Each of its parts is in one of these.
@@ -109,7 +108,7 @@ fn a_picture_of_exposed_colours_has_the_scores_of_its_radiance() {
     file.push_color("", &color.map(|pixel| pixel.map(|value| 4.0 * value)));
     write_exr(&sandbox.path("exposed.exr"), &file).unwrap();
     let convention = "[convention]\ncolor_scale = 4\n";
-    fs::write(sandbox.path("engine.toml"), convention).unwrap();
+    sandbox.put("engine.toml", convention);
     let score = |words: &str| {
         let files = "--truth r/plate/truth_trailing.exr --frame r/plate/frame.exr";
         sandbox.done(&format!("score {files} {words}"))
@@ -143,26 +142,17 @@ fn a_wrong_convention_is_refused_with_its_line() {
         [convention]\ndepth = "ndc" => engine.toml:1: | convention: depth of a depth buffer needs near
         [convention]\nvelocity_per = "second" => engine.toml:1: | needs frames_per_second"#,
     ) {
-        fs::write(sandbox.path("engine.toml"), text.replace("\\n", "\n")).unwrap();
+        sandbox.put("engine.toml", text.replace("\\n", "\n"));
         sandbox.refuse(words, &parts);
     }
 }
-
-/// Godot's form of kernel inputs.
-const GODOT: &str = "\
-[convention]
-velocity = \"uv\"
-velocity_sign = \"previous_minus_current\"
-depth = \"reversed\"
-near = 0.05
-color_format = \"rgba16float\"
-";
 
 #[test]
 fn run_json_says_what_a_filter_s_shaders_got() {
     let sandbox = Sandbox::new();
     let copy = "textureStore(output, pixel, textureLoad(color, pixel, 0));";
-    sandbox.write_kernel("godot", GODOT, &[], copy);
+    let godot = include_str!("../fixtures/filters/godot_convention.toml");
+    sandbox.write_kernel("godot", godot, &[], copy);
     sandbox.measure("--filters ./godot,velocity_gather");
     let run: Value = sandbox.read_json("out/run.json");
     let case = |filter: &str| {
@@ -172,20 +162,10 @@ fn run_json_says_what_a_filter_s_shaders_got() {
     assert_eq!(
         case("godot"),
         serde_json::json!({
-            "velocity": "uv",
-            "velocity_y": "down",
-            "velocity_sign": "previous_minus_current",
-            "velocity_per": "frame",
-            "frames_per_second": null,
-            "velocity_scale": 1.0,
-            "velocity_format": "rg32float",
-            "depth": "reversed",
-            "near": 0.05,
-            "far": null,
-            "depth_format": "r32float",
-            "color_scale": 1.0,
-            "color_format": "rgba16float",
-            "output_format": null,
+            "velocity": "uv", "velocity_y": "down", "velocity_sign": "previous_minus_current", "velocity_per": "frame",
+            "frames_per_second": null, "velocity_scale": 1.0, "velocity_format": "rg32float",
+            "depth": "reversed", "near": 0.05, "far": null, "depth_format": "r32float",
+            "color_scale": 1.0, "color_format": "rgba16float", "output_format": null,
         })
     );
     for other in ["velocity_gather", "scatter_oracle"] {
@@ -214,14 +194,8 @@ fn textures_between_the_passes_are_shown_with_their_numbers() {
     let png = read_png(&sandbox.path("b_velocity.png")).unwrap();
     let values = || png.pixels.iter().flat_map(|pixel| &pixel[..2]).copied();
     let (least, most) = (values().fold(1.0, f32::min), values().fold(0.0, f32::max));
-    assert_eq!(
-        (least, most),
-        (0.0, 1.0),
-        "from the least number to the greatest"
-    );
-    let allowed = "mcguire has no such texture; allowed: ";
-    sandbox.refuse(
-        &format!("{words} --show tile"),
-        &["--show tile", allowed, "color, velocity, depth, output"],
-    );
+    assert_eq!((least, most), (0.0, 1.0), "least and greatest");
+    let parts =
+        "--show tile | mcguire has no such texture; allowed:  | color, velocity, depth, output";
+    sandbox.refuse(&format!("{words} --show tile"), parts);
 }

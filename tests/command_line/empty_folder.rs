@@ -1,13 +1,12 @@
 //! The program in a folder without scenes: it includes its own.
 
 use std::fs;
-use std::path::Path;
 
 use serde_json::Value;
 use tests::{root, scenes};
 use tracer::{Location, load_scene};
 
-use crate::sandbox::{Files, Sandbox, assert_same_files, files_below, read_below, split};
+use crate::sandbox::{Sandbox, assert_same_files, files_below, read_below, split};
 
 const QUICK: &str = "--scenes fan --filter velocity_gather --size 32x18 --samples-per-pixel 16";
 
@@ -20,19 +19,12 @@ fn empty() -> Sandbox {
 fn a_run_in_an_empty_folder_equals_one_with_the_folder_of_scenes() {
     let sandbox = empty();
     let folder = scenes().display().to_string();
-    let [own, disk] = [
-        "--out own".to_owned(),
-        format!("--out disk --scenes-dir {folder}"),
-    ]
-    .map(|more| {
-        sandbox.execute(&split(&format!("run --quiet {QUICK} {more}")));
-        let out = more.split(' ').nth(1).unwrap();
-        let mut run: Value = sandbox.read_json(&format!("{out}/run.json"));
-        // The command line of the run.
-        run["command"].take();
+    let disk = format!("--scenes-dir {folder}");
+    let [own, disk] = [("own", ""), ("disk", &disk)].map(|(out, more)| {
+        sandbox.done(&format!("run --quiet {QUICK} --out {out} {more}"));
         // The truth's file contains the hash of its inputs.
         let truth = sandbox.path(out).join("fan/truth_trailing.exr");
-        (run, fs::read(truth).unwrap())
+        (sandbox.read_comparable(out), fs::read(truth).unwrap())
     });
     assert_eq!(own.0, disk.0);
     assert!(own.1 == disk.1, "the truths differ");
@@ -41,11 +33,11 @@ fn a_run_in_an_empty_folder_equals_one_with_the_folder_of_scenes() {
 #[test]
 fn other_commands_work_in_an_empty_folder() {
     let sandbox = empty();
-    assert!(sandbox.execute(&split("list scenes")).contains("railing: "));
-    sandbox.execute(&split("engine export fan"));
+    assert!(sandbox.done("list scenes").contains("railing: "));
+    sandbox.done("engine export fan");
     assert!(sandbox.path("out/gltf/fan/scene.gltf").is_file());
     let render = "truths render --quiet --scenes fan@all --size 16x16 --samples-per-pixel 16";
-    sandbox.execute(&split(render));
+    sandbox.done(render);
     // The limits are included as well, for the scene's own size.
     sandbox.refuse(
         "check --quiet --scenes fan --filter mcguire:paper --out checked --size 32x18",
@@ -56,9 +48,7 @@ fn other_commands_work_in_an_empty_folder() {
 #[test]
 fn a_check_in_an_empty_folder_is_judged_by_the_limits_that_come_along() {
     let sandbox = empty();
-    let printed = sandbox.execute(&split(
-        "check --quiet --scenes sliding_panel --filter mcguire:paper --size 160x90 --samples-per-pixel 64",
-    ));
+    let printed = sandbox.done("check --quiet --scenes sliding_panel --filter mcguire:paper --size 160x90 --samples-per-pixel 64");
     assert!(printed.contains("14 required bounds: 14 met"), "{printed}");
     let judgement: Value = sandbox.read_json("out/judgement.json");
     let place = judgement["findings"][0]["place"].as_str().unwrap();
@@ -71,12 +61,8 @@ fn the_program_s_own_scenes_are_those_of_the_repository() {
     let own = Location::of_bundle(&catalogue::SCENES);
     let mut names = (catalogue::SCENES.list)();
     for path in files_below(&scenes()) {
-        let name = path
-            .strip_prefix(scenes())
-            .unwrap()
-            .to_str()
-            .unwrap()
-            .replace('\\', "/");
+        let name = path.strip_prefix(scenes()).unwrap().to_str();
+        let name = name.unwrap().replace('\\', "/");
         let folder = name.split_once('/').map_or("", |(folder, _)| folder);
         if name != "bounds.toml" && !scenes().join(folder).join("scene.toml").is_file() {
             continue;
@@ -93,28 +79,23 @@ fn the_program_s_own_scenes_are_those_of_the_repository() {
 #[test]
 fn copied_scenes_are_those_of_the_program_and_nothing_is_overwritten() {
     let sandbox = empty();
-    let text = sandbox.execute(&split("list fan rail* --copy-to scenes"));
+    let text = sandbox.done("list fan rail* --copy-to scenes");
     assert_eq!(text, "written: scenes (2 scenes)\n");
     let copied = read_below(&sandbox.path("scenes"));
-    let is_expected = |name: &Path| {
-        ["fan", "railing", "bounds.toml"]
-            .iter()
-            .any(|own| name.starts_with(own))
-    };
-    let shipped: Files = (read_below(&scenes()).into_iter())
-        .filter(|(name, _)| is_expected(name))
-        .collect();
+    let expected = ["fan", "railing", "bounds.toml"];
+    let mut shipped = read_below(&scenes());
+    shipped.retain(|(name, _)| expected.iter().any(|own| name.starts_with(own)));
     assert_same_files(&copied, &shipped);
     // The user's own limits are kept.
     let bounds = sandbox.path("scenes/bounds.toml");
     fs::write(&bounds, "# mine\n").unwrap();
     sandbox.refuse("list fan two_spheres --copy-to scenes", &["fan exists"]);
     assert!(!sandbox.path("scenes/two_spheres").exists());
-    let text = sandbox.execute(&split("list two_spheres --copy-to scenes"));
+    let text = sandbox.done("list two_spheres --copy-to scenes");
     assert!(text.starts_with("kept: scenes"), "{text}");
     assert_eq!(fs::read_to_string(bounds).unwrap(), "# mine\n");
     // Every command finds the copied scenes.
-    let listed = sandbox.execute(&split("list scenes"));
+    let listed = sandbox.done("list scenes");
     assert!(listed.contains("two_spheres") && !listed.contains("fence"));
     sandbox.refuse("list fann --copy-to scenes", &["did you mean fan?"]);
 }
@@ -122,13 +103,7 @@ fn copied_scenes_are_those_of_the_program_and_nothing_is_overwritten() {
 #[test]
 fn a_path_out_of_the_program_s_own_scenes_leads_nowhere() {
     let own = Location::of_bundle(&catalogue::SCENES);
-    for path in [
-        "../Cargo.toml",
-        "/etc/hostname",
-        "fan/../../Cargo.toml",
-        "fan",
-        "no/scene.toml",
-    ] {
+    for path in split("../Cargo.toml /etc/hostname fan/../../Cargo.toml fan no/scene.toml") {
         let message = own.join(path).read(1 << 20).unwrap_err().to_string();
         assert!(message.contains("cannot read"), "{path}: {message}");
     }

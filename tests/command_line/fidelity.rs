@@ -6,17 +6,15 @@ use std::process::{Command, Output};
 use tests::root;
 use tests::text::assert_contains;
 
-use crate::python::python_with;
-use crate::sandbox::{stderr, stdout};
+use crate::sandbox::{python_with, stderr, stdout};
 
 /// Runs examples/fidelity/compare.py.
 fn compare(more: &[&str]) -> Output {
     let out = tempfile::tempdir().unwrap();
     let mut command = Command::new(python_with(&["numpy", "OpenEXR"]));
-    command
-        .arg("-B")
-        .arg(root().join("examples/fidelity/compare.py"))
-        .args(["--program", env!("CARGO_BIN_EXE_shuttertruth")]);
+    let script = root().join("examples/fidelity/compare.py");
+    command.arg("-B").arg(script);
+    command.args(["--program", env!("CARGO_BIN_EXE_shuttertruth")]);
     command.arg("--scenes-dir").arg(tests::scenes());
     command.arg("--out").arg(out.path()).args(more);
     command.output().unwrap()
@@ -109,6 +107,8 @@ fn no_change_of_a_filter_matches_its_original() {
         ("jimenez:wicked", "border=clamp"),
         ("realism_effects:default", "jitter=0.5"),
         ("dagor:default", "vignette=0.5"),
+        ("godot:addon", "tile_motion=exact"),
+        ("godot:engine", "arrival=half"),
         ("vort:default", "depth_scale=50"),
         ("bevy:msaa", "fetch=filtered"),
         ("three:default", "coordinates=texture"),

@@ -4,7 +4,7 @@ use std::fs;
 
 use frame::{display_srgb, write_png};
 use metrics::{SequenceMetric, SequenceScores};
-use tests::text::{assert_contains, read_rows};
+use tests::text::{Parts, assert_contains, read_rows};
 
 use crate::sandbox::{SCENE, Sandbox, assert_done, stdout};
 
@@ -62,14 +62,11 @@ fn blur_and_score_repeat_the_sequence_of_a_run() {
         assert_eq!(is_same, !metric.depends_on_rate(), "{metric:?}");
     }
     let text = stdout(&score(&sandbox, "mine", &THREE));
-    let parts = [
-        "3 frames",
-        "flick",
-        "mine",
-        "truth: trailing shutter, open for 0.5 frames",
-        "worst frames: ",
-    ];
-    assert_contains(&text, &parts);
+    let truth = "truth: trailing shutter, open for 0.5 frames";
+    assert_contains(
+        &text,
+        &["3 frames", "flick", "mine", truth, "worst frames: "],
+    );
 
     // Another order of the frames has other scores over time.
     let [first, last] = ["mine/0000.exr", "mine/0002.exr"].map(|name| sandbox.path(name));
@@ -96,7 +93,7 @@ fn blur_and_score_repeat_the_sequence_of_a_run() {
 fn assert_misfits_are_refused(sandbox: &Sandbox) {
     let parts = "--out: mine.exr is the name of one picture, and 3 are written";
     sandbox.refuse(&format!("{BLUR} mine.exr"), &[parts]);
-    let refuse = |words: &str, at: &str, parts: &[&str]| {
+    let refuse = |words: &str, at: &str, parts: &dyn Parts| {
         let files =
             format!("--truth out/plate{at}/truth_trailing.exr --frame out/plate{at}/frame.exr");
         sandbox.refuse(&format!("score {files} --image {words}"), parts);
@@ -119,9 +116,7 @@ fn assert_misfits_are_refused(sandbox: &Sandbox) {
     refuse("mine --frames 3", "", &parts);
     fs::remove_file(copy).unwrap();
     sandbox.write("scene.toml", &SCENE.replace("-1.6", "-1.5"));
-    let parts = [
-        "truth_trailing.exr: was rendered from other files of the scene plate",
-        "render frames and truths again",
-    ];
+    let parts = "truth_trailing.exr: was rendered from other files of the scene plate |\x20\
+        render frames and truths again";
     refuse("mine --frames 3", "", &parts);
 }

@@ -66,10 +66,8 @@ fn a_run_takes_every_scene_at_every_rate_and_keeps_it() {
 fn assert_holds(run: &Run, whole: &Run) {
     for case in &whole.cases {
         for rate in [None, FrameRate::in_word("60fps_1-120s")] {
-            let scene = SceneId {
-                rate,
-                ..case.scene.clone()
-            };
+            let mut scene = case.scene.clone();
+            scene.rate = rate;
             let id = |own: &Case| (own.name(), own.is_reference);
             let mut own = run.cases.iter();
             let own = own.find(|own| own.scene == scene && id(own) == id(case));
@@ -82,10 +80,9 @@ fn assert_holds(run: &Run, whole: &Run) {
     assert_eq!(written.cloned().collect::<Vec<_>>(), whole.overall);
     // Skill applies at some rates only: the shutter must be open long enough that the oracle gains more than noise.
     let [all, one] = [run, whole].map(|run| {
-        let means = run.overall.iter();
-        means
-            .filter(|mean| !matches!(mean.metric, Metric::Skill(_)))
-            .count()
+        let metrics = run.overall.iter().map(|mean| mean.metric);
+        let skills = metrics.filter(|metric| matches!(metric, Metric::Skill(_)));
+        run.overall.len() - skills.count()
     });
     assert_eq!(all, 4 * one);
 }
@@ -108,12 +105,9 @@ fn assert_rows_of_rates(printed: &str) {
 
 /// Repeats a run: its rates are read back, stay in a narrower run, compare, and are on its page.
 fn assert_kept(sandbox: &Sandbox, first: &Run) {
-    let written = || {
-        ["plate", "plate@24fps", "plate@60fps_1-120s"].map(|scene| {
-            let truth = sandbox.path("out").join(scene).join("truth_trailing.exr");
-            fs::metadata(truth).unwrap().modified().unwrap()
-        })
-    };
+    let scenes = ["plate", "plate@24fps", "plate@60fps_1-120s"];
+    let truths = scenes.map(|scene| format!("out/{scene}/truth_trailing.exr"));
+    let written = || truths.each_ref().map(|truth| sandbox.written(truth));
     let before = written();
     sandbox.measure(RATES);
     let ids = |run: &Run| -> Vec<_> { run.cases.iter().map(|case| case.id.clone()).collect() };
@@ -123,12 +117,10 @@ fn assert_kept(sandbox: &Sandbox, first: &Run) {
     assert_eq!(sandbox.read_filter_cases().len(), 8);
     assert_eq!(written(), before);
     let compared = sandbox.done("compare out out --html compared.html");
-    let parts = [
-        "nothing changed of: identity:default 24fps, identity:default, identity:default 24fps_1-120s",
-        "0 worse, 0 better, 0 within margin, 0 within noise",
-    ];
+    let parts = "nothing changed of: identity:default 24fps, identity:default, identity:default 24fps_1-120s | \
+        0 worse, 0 better, 0 within margin, 0 within noise";
     assert_contains(&squeeze(&compared), &parts);
-    let page = fs::read_to_string(sandbox.path("out/report.html")).unwrap();
+    let page = sandbox.text("out/report.html");
     assert!(page.contains("plate@60fps_1-120s"));
 }
 
@@ -223,7 +215,7 @@ fn filters_know_the_rate() {
         assert!(plain > 500.0, "{plain}");
         assert!((speed - plain).abs() < 1e-2, "{speed} {plain}");
     }
-    let told = fs::read_to_string(sandbox.path("program/rates.txt")).unwrap();
+    let told = sandbox.text("program/rates.txt");
     let told: BTreeSet<&str> = told.lines().collect();
     assert_eq!(told.into_iter().collect::<Vec<_>>(), ["144", "24", "60"]);
 }

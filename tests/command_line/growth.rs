@@ -5,8 +5,7 @@ use std::process::Command;
 use serde_json::Value;
 use tests::text::assert_contains;
 
-use crate::python::python_with;
-use crate::sandbox::{Sandbox, assert_done, split, stderr, stdout};
+use crate::sandbox::{Sandbox, assert_done, python_with, split, stderr, stdout};
 
 #[test]
 fn a_run_of_copies_is_merged_judged_and_reported() {
@@ -14,7 +13,7 @@ fn a_run_of_copies_is_merged_judged_and_reported() {
     let limit = "flip_moving = { limit = 0.9, why = \"it serves a test\" }";
     let bounds = format!("[filter.\"velocity_gather:fine\"]\n{limit}\n");
     sandbox.write("bounds.toml", &bounds);
-    std::fs::write(sandbox.path("scenes/bounds.toml"), "").unwrap();
+    sandbox.put("scenes/bounds.toml", "");
     assert_done(&sandbox.run(&["--filters", "velocity_gather:fine"]));
     let grow = || {
         let mut command = Command::new(python_with(&["json"]));

@@ -5,45 +5,23 @@ use std::sync::OnceLock;
 
 use metrics::Measured;
 use suite::Case;
+use tests::filter_folder::copy_folder;
 use tests::text::{assert_contains, squeeze};
 
-use crate::sandbox::Sandbox;
+use crate::sandbox::{Sandbox, split};
 
 /// Scores that need weights independent of colour.
-const OF_WEIGHTS: [&str; 9] = [
-    "lateral_growth",
-    "row_loss",
-    "bleed_lateral",
-    "label_tv",
-    "extent",
-    "centroid",
-    "unity",
-    "gather_offset",
-    "gather_spread",
-];
+const OF_WEIGHTS: &str = "lateral_growth row_loss bleed_lateral label_tv extent centroid unity gather_offset gather_spread";
 
 /// Writes the fixture `blur` with a name, a format and a weight of its taps.
 fn write_blur(sandbox: &Sandbox, name: &str, float: &str, weight: &str) {
     let blur = tests::root().join("tests/fixtures/half_floats/blur");
     let read = |file: &str| {
         let text = fs::read_to_string(blur.join(file)).unwrap();
-        text.replace("NAME", name)
-            .replace("FLOAT", float)
-            .replace("WEIGHT", weight)
+        let text = text.replace("NAME", name).replace("FLOAT", float);
+        text.replace("WEIGHT", weight)
     };
     sandbox.write_filter(name, &read("filter.toml"), &read("blur.wgsl"));
-}
-
-/// Copies another fixture.
-fn copy_filter(sandbox: &Sandbox, name: &str) {
-    let fixture = tests::root().join("tests/fixtures/half_floats").join(name);
-    tests::filter_folder::copy_folder(&fixture, &sandbox.path(name));
-}
-
-/// Copies the example of Godot's kind, which stores its output in 16 bits.
-fn copy_godot_s(sandbox: &Sandbox) {
-    let example = tests::root().join("examples/first_blur/godot");
-    tests::filter_folder::copy_folder(&example, &sandbox.path("godot_blur"));
 }
 
 /// Writes a filter that runs this program with the filter `half`.
@@ -68,9 +46,14 @@ fn measured() -> &'static (String, Vec<Case>) {
         for (name, float) in [("bright", "rgba16float"), ("bright_full", "rgba32float")] {
             write_blur(&sandbox, name, float, "1.0 + 0.5 * there.g");
         }
-        copy_filter(&sandbox, "drawn");
-        copy_filter(&sandbox, "constant");
-        copy_godot_s(&sandbox);
+        // Other fixtures, and the example of Godot's kind, which stores its output in 16 bits.
+        for (name, folder) in [
+            ("drawn", "tests/fixtures/half_floats/drawn"),
+            ("constant", "tests/fixtures/half_floats/constant"),
+            ("godot_blur", "examples/first_blur/godot"),
+        ] {
+            copy_folder(&tests::root().join(folder), &sandbox.path(name));
+        }
         let mut filters =
             "identity,full,half,bright,bright_full,drawn,constant,godot_blur".to_owned();
         #[cfg(unix)]
@@ -92,7 +75,7 @@ fn find_case(filter: &str) -> &'static Case {
 /// Checks that no score of weights applies to a filter, for these reasons.
 #[track_caller]
 fn assert_no_weights(filter: &str, parts: &[&str]) {
-    for metric in OF_WEIGHTS.into_iter().chain(["energy", "n_eq_label_tv"]) {
+    for metric in split(&format!("{OF_WEIGHTS} energy n_eq_label_tv")) {
         match find_case(filter).scores.get(metric.parse().unwrap()) {
             Measured::NotApplicable { reason } => assert_contains(&reason, parts),
             found => panic!("{metric} of {filter}: {found:?}"),
@@ -104,7 +87,8 @@ fn assert_no_weights(filter: &str, parts: &[&str]) {
 fn rounded_colours_lose_no_score_of_what_a_filter_gathers() {
     let [full, half] = ["full", "half"].map(find_case);
     assert_eq!(half.nonlinearity, full.nonlinearity);
-    for metric in OF_WEIGHTS.map(|name| name.parse().unwrap()) {
+    for metric in split(OF_WEIGHTS) {
+        let metric = metric.parse().unwrap();
         let found = half.scores.get(metric);
         assert!(found.value().is_some(), "{}: {found:?}", metric.name());
         // The weights are the same, and so are the gathered colours.
@@ -118,7 +102,7 @@ fn rounded_colours_lose_no_score_of_what_a_filter_gathers() {
 #[test]
 fn shaders_of_engines_keep_their_scores_in_16_bits() {
     for filter in ["godot_blur", "drawn"] {
-        for metric in OF_WEIGHTS {
+        for metric in split(OF_WEIGHTS) {
             let found = find_case(filter).scores.get(metric.parse().unwrap());
             assert!(found.value().is_some(), "{metric} of {filter}: {found:?}");
         }

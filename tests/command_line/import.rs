@@ -1,14 +1,15 @@
-//! `import`: scenes made from foreign models.
+//! `import`: scenes made from foreign models. `export`: scenes as glTF.
 
 use std::fmt::Write;
 use std::fs;
 use std::process::Output;
 
+use engine::CaptureDescription;
 use frame::Frame;
 use tests::near::assert_near;
 use tests::text::read_rows;
-use tests::unwatched;
-use tracer::{RenderSettings, load_scene, trace_frame};
+use tests::{settings, unwatched};
+use tracer::{load_scene, trace_frame};
 
 use crate::sandbox::{Sandbox, assert_done, assert_refused, split, stdout};
 
@@ -22,13 +23,13 @@ fn set_up() -> Sandbox {
     let sandbox = Sandbox::new();
     fs::create_dir(sandbox.path("my models")).unwrap();
     write_model(&sandbox, HOUSE);
-    fs::write(sandbox.path("my models/the house.mtl"), MATERIALS).unwrap();
+    sandbox.put("my models/the house.mtl", MATERIALS);
     sandbox
 }
 
 /// Writes the model, and removes the previous model's scene.
 fn write_model(sandbox: &Sandbox, text: &str) {
-    fs::write(sandbox.path("my models/the house.obj"), text).unwrap();
+    sandbox.put("my models/the house.obj", text);
     _ = fs::remove_dir_all(sandbox.path("scenes/house"));
 }
 
@@ -46,12 +47,7 @@ fn import_and_render(sandbox: &Sandbox, more: &str) -> (String, Frame) {
     let output = import(sandbox, more);
     assert_done(&output);
     let scene = load_scene(sandbox.path("scenes/house"), None).unwrap();
-    let settings = RenderSettings {
-        width: 160,
-        height: 90,
-        samples_per_pixel: 1,
-        ..RenderSettings::default()
-    };
+    let settings = settings([160, 90], 1);
     let frame = trace_frame(&scene, &settings, &unwatched).unwrap();
     (stdout(&output), frame)
 }
@@ -178,29 +174,23 @@ fn bad_requests_are_refused_with_the_way_out() {
 #[test]
 fn bad_models_are_refused_with_the_way_out() {
     let sandbox = set_up();
-    let refuse = |model: &str, parts: &[&str]| {
+    let refuse = |model: &str, parts: &str| {
         write_model(&sandbox, model);
         assert_refused(&import(&sandbox, SLIDE), 2, parts);
     };
     let no_vertex = HOUSE.replace("f 7 6 10 9 8", "f 7 6 11 9 8");
-    refuse(&no_vertex, &["the house.obj:16", "11", "1 to 10"]);
+    refuse(&no_vertex, "the house.obj:16 | 11 | 1 to 10");
     let no_faces = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-    refuse(no_faces, &["the house.obj", "face"]);
+    refuse(no_faces, "the house.obj | face");
     let outside = MATERIALS.replace("Kd 0.6 0.2 0.1", "map_Kd ../scenes/dot.png");
-    fs::write(sandbox.path("my models/the house.mtl"), outside).unwrap();
+    sandbox.put("my models/the house.mtl", outside);
     let dot = frame::Raster::filled(2, 2, [0.5; 3]);
     frame::write_png(&sandbox.path("scenes/dot.png"), &dot).unwrap();
     // Faces with a texture need coordinates. This is checked before the texture's path.
-    refuse(HOUSE, &["texture", "import the model plain"]);
-    let textured = HOUSE.replace(
-        "usemtl the roof\r\nf 3 8 9 4\r\nf 4 9 10 5",
-        "vt 0 0\r\nusemtl the roof\r\nf 3/1 8/1 9/1 4/1\r\nf 4/1 9/1 10/1 5/1",
-    );
-    let parts = [
-        "dot.png",
-        "outside of the model's folder",
-        "import the model plain",
-    ];
+    refuse(HOUSE, "texture | import the model plain");
+    let faces = "vt 0 0\r\nusemtl the roof\r\nf 3/1 8/1 9/1 4/1\r\nf 4/1 9/1 10/1 5/1";
+    let textured = HOUSE.replace("usemtl the roof\r\nf 3 8 9 4\r\nf 4 9 10 5", faces);
+    let parts = "dot.png | outside of the model's folder | import the model plain";
     refuse(&textured, &parts);
     let left: Vec<_> = fs::read_dir(sandbox.path("scenes")).unwrap().collect();
     assert_eq!(left.len(), 2, "plate and dot.png alone: {left:?}");
@@ -261,4 +251,51 @@ fn a_model_of_a_hundred_thousand_triangles_is_imported() {
 #[ignore = "prove: a larger model"]
 fn a_model_of_a_quarter_of_a_million_triangles_is_imported() {
     import_ball(360);
+}
+
+#[test]
+fn a_scene_becomes_a_folder_that_says_when_its_frame_is() {
+    let sandbox = Sandbox::new();
+    let text = sandbox.done("engine export plate --gltf gltf");
+    assert!(text.contains("the frame is at 0.083333 s"), "{text}");
+    for name in ["scene.gltf", "scene.bin", "sky.exr"] {
+        assert!(sandbox.path("gltf/plate").join(name).exists(), "no {name}");
+    }
+    let manifest: serde_json::Value = sandbox.read_json("gltf/plate/manifest.json");
+    assert_eq!(manifest["objects"][0], "background");
+    assert_eq!(manifest["seconds_per_frame"].as_f64(), Some(1.0 / 24.0));
+    let times = ["previous", "instant", "next"].map(|name| manifest[name].as_f64());
+    assert_eq!(times, [1.0, 2.0, 3.0].map(|frame| Some(frame / 24.0)));
+}
+
+#[test]
+fn an_export_says_when_to_draw_each_sub_frame_and_begins_the_capture_s_description() {
+    let sandbox = Sandbox::new();
+    sandbox.done("engine export plate --gltf gltf --subframes 4");
+    let manifest: serde_json::Value = sandbox.read_json("gltf/plate/manifest.json");
+    let times = manifest["subframes"]["centred"].as_array().unwrap();
+    // The shutter is open for half a frame of 1/24 s around the frame at 2/24 s.
+    for (time, part) in times.iter().zip([-0.1875, -0.0625, 0.0625, 0.1875]) {
+        let difference = time.as_f64().unwrap() - (2.0 + part) / 24.0;
+        assert!(difference.abs() < 1e-12, "{time}");
+    }
+    assert_eq!(times.len(), 4);
+    let described = CaptureDescription::read(&sandbox.path("gltf/plate")).unwrap();
+    assert_eq!(described.scene, Some("plate".parse().unwrap()));
+    assert_eq!(described.exposure, Some(0.5));
+    assert_eq!(described.subframes, Some(4));
+    let parts = ["--subframes 5", "even numbers from 4 to 4096"];
+    sandbox.refuse("engine export plate --subframes 5", &parts);
+}
+
+#[test]
+fn an_unlit_export_is_the_scene_that_run_takes_as_unlit() {
+    let sandbox = Sandbox::new();
+    sandbox.done("engine export plate --unlit --gltf flagged");
+    sandbox.done("engine export plate@unlit --gltf named");
+    let read =
+        |folder: &str| fs::read(sandbox.path(folder).join("plate@unlit/scene.gltf")).unwrap();
+    assert_eq!(read("flagged"), read("named"));
+    sandbox.done("truths render --scenes plate@unlit --size 32x18 --samples-per-pixel 16 --out r");
+    assert!(sandbox.path("r/plate@unlit/truth_trailing.exr").is_file());
 }

@@ -3,16 +3,12 @@
 use std::fs;
 use std::path::Path;
 use std::process::{Child, Stdio};
-use std::sync::OnceLock;
 
 use frame::{read_exr, write_exr};
 use tests::text::assert_contains;
 
 use crate::kept_cases::damage;
-use crate::sandbox::{
-    Files, Sandbox, assert_refused, assert_same_files, files_below, read_below, split, stderr,
-    wait_until,
-};
+use crate::sandbox::*;
 
 const REPLICATE: &str = "plate/truth_trailing/replicate_002.exr";
 
@@ -42,38 +38,27 @@ fn render_at_once(sandbox: &Sandbox, parts: &[(&str, &str)]) {
     }
 }
 
-/// Returns the files of one process's render, which runs once for all tests.
-fn whole() -> &'static Files {
-    static FILES: OnceLock<Files> = OnceLock::new();
-    FILES.get_or_init(|| {
-        let sandbox = Sandbox::new();
-        sandbox.execute(&render("out", &[]));
-        read_below(&sandbox.path("out"))
-    })
-}
-
-/// Makes a sandbox with these files in `out`.
+/// Makes a sandbox with one process's render in `out`.
 fn rendered() -> Sandbox {
-    let sandbox = Sandbox::new();
-    sandbox.write_files("out", whole());
-    sandbox
+    Sandbox::once(|sandbox| drop(sandbox.execute(&render("out", &[]))))
 }
 
 #[track_caller]
 fn assert_whole(sandbox: &Sandbox, out: &str) {
-    assert_same_files(whole(), &read_below(&sandbox.path(out)));
+    let whole = read_below(&rendered().path("out"));
+    assert_same_files(&whole, &read_below(&sandbox.path(out)));
 }
 
 #[test]
 fn parts_of_several_processes_equal_the_bytes_of_one() {
     let sandbox = Sandbox::new();
     render_at_once(&sandbox, &[("a", "0..3"), ("b", "3..4"), ("c", "4..8")]);
-    let merged = sandbox.execute(&split("truths merge c a b --out joined"));
+    let merged = sandbox.done("truths merge c a b --out joined");
     assert_eq!(merged, "joined/plate/truth_trailing.exr (8 replicates)\n");
     assert_whole(&sandbox, "joined");
     let parts = ["0..3", "2..5", "5..8", "0..8"];
     render_at_once(&sandbox, &parts.map(|part| ("shared", part)));
-    sandbox.execute(&split("truths merge shared --out shared"));
+    sandbox.done("truths merge shared --out shared");
     assert_whole(&sandbox, "shared");
 }
 
@@ -93,7 +78,7 @@ fn a_killed_render_resumes_to_the_same_bytes() {
         child.wait().unwrap();
         assert!(!truth.with_extension("exr").exists());
     }
-    let written = || fs::metadata(replicate(1)).unwrap().modified().unwrap();
+    let written = || sandbox.written("killed/plate/truth_trailing/replicate_001.exr");
     let kept = written();
     sandbox.done(&killed);
     assert_eq!(written(), kept, "a whole replicate was rendered again");
@@ -119,22 +104,20 @@ fn remove_support(path: &Path) {
 #[test]
 fn damaged_replicates_are_rendered_again_and_never_merged() {
     type Damage = fn(&Path);
-    let old = [
-        "holds no support",
-        "make it anew with `shuttertruth truths render`",
-    ];
-    let rows: [(Damage, &[&str]); 4] = [
-        (|path| damage(path, "altered"), &[]),
-        (|path| damage(path, "cut"), &[]),
-        (replace_by_another, &[]),
-        (remove_support, &old),
+    let old = "holds no support | make it anew with `shuttertruth truths render`";
+    let rows: [(Damage, &str); 4] = [
+        (|path| damage(path, "altered"), REPLICATE),
+        (|path| damage(path, "cut"), REPLICATE),
+        (replace_by_another, REPLICATE),
+        (remove_support, old),
     ];
     for (damage, complaint) in rows {
         let sandbox = rendered();
         fs::remove_file(sandbox.path("out/plate/truth_trailing.exr")).unwrap();
         damage(&sandbox.path("out").join(REPLICATE));
         let merged = sandbox.shuttertruth(&split("truths merge out --out joined"));
-        assert_refused(&merged, 2, &[&[REPLICATE], complaint].concat());
+        assert_refused(&merged, 2, REPLICATE);
+        assert_refused(&merged, 2, complaint);
         assert!(!sandbox.path("joined").exists());
         sandbox.execute(&render("out", &[]));
         assert_whole(&sandbox, "out");
@@ -145,12 +128,9 @@ fn damaged_replicates_are_rendered_again_and_never_merged() {
 fn files_of_an_older_version_are_made_again() {
     let sandbox = rendered();
     let is_truth = |path: &Path| path.to_string_lossy().contains("truth_");
-    for path in files_below(&sandbox.path("out"))
-        .iter()
-        .filter(|path| is_truth(path))
-    {
-        remove_support(path);
-    }
+    let mut files = files_below(&sandbox.path("out"));
+    files.retain(|path| is_truth(path));
+    files.iter().for_each(|path| remove_support(path));
     sandbox.execute(&render("out", &[]));
     assert_whole(&sandbox, "out");
 }
@@ -159,8 +139,7 @@ fn files_of_an_older_version_are_made_again() {
 fn more_replicates_reuse_the_kept_ones() {
     let sandbox = Sandbox::new();
     render_part(&sandbox, "out", "4");
-    let first = sandbox.path("out/plate/truth_trailing/replicate_000.exr");
-    let written = || fs::metadata(&first).unwrap().modified().unwrap();
+    let written = || sandbox.written("out/plate/truth_trailing/replicate_000.exr");
     let before = written();
     render_part(&sandbox, "out", "8");
     assert_eq!(written(), before);
@@ -195,12 +174,8 @@ fn a_noise_target_adds_replicates_until_it_is_reached_or_reports_a_failure() {
     let sandbox = Sandbox::new();
     let number = |text: &str, before: &str| -> f64 {
         let after = text.split(before).nth(1).unwrap();
-        after
-            .split([',', ' ', '\n'])
-            .next()
-            .unwrap()
-            .parse()
-            .unwrap()
+        let number = after.split([',', ' ', '\n']).next();
+        number.unwrap().parse().unwrap()
     };
     let first = sandbox.execute(&render("out", &["--replicates", "2"]));
     let target = number(&first, "moving ") / 2.0;
@@ -225,13 +200,7 @@ fn a_noise_target_adds_replicates_until_it_is_reached_or_reports_a_failure() {
     let more = split("--replicates 2 --noise 1e-9 --most-replicates 5");
     let short = sandbox.shuttertruth(&render("short", &more));
     assert_eq!(short.status.code(), Some(4));
-    let parts = [
-        "plate trailing",
-        "moving",
-        "4 replicates",
-        "--most-replicates",
-        "--samples-per-pixel",
-    ];
+    let parts = "plate trailing | moving | 4 replicates | --most-replicates | --samples-per-pixel";
     assert_contains(&stderr(&short), &parts);
     assert!(sandbox.path("short/plate/truth_trailing.exr").is_file());
 }

@@ -3,14 +3,13 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
-use std::sync::OnceLock;
 use std::time::SystemTime;
 
 use frame::Alignment;
 use metrics::Metric;
 use tests::filter_folder::copy_shipped_filter;
 
-use crate::sandbox::{Files, Sandbox, assert_done, files_below, quick_command, split, stdout};
+use crate::sandbox::{Sandbox, assert_done, files_below, quick_command, split, stdout};
 
 /// Three presets of a filter of the tests' own, and the identity.
 const FILTERS: &str = "--filters identity --filter mine";
@@ -32,21 +31,17 @@ fn set_up() -> Sandbox {
 
 /// Makes a sandbox with a finished run.
 fn measured() -> Sandbox {
-    static FILES: OnceLock<Files> = OnceLock::new();
-    Sandbox::once(&FILES, || {
-        let sandbox = set_up();
+    Sandbox::once(|sandbox| {
+        sandbox.write_files("", &set_up().read_files());
         sandbox.measure(FILTERS);
-        sandbox
     })
 }
 
 /// Makes a sandbox with a finished check.
 fn checked() -> Sandbox {
-    static FILES: OnceLock<Files> = OnceLock::new();
-    Sandbox::once(&FILES, || {
-        let sandbox = set_up();
-        check(&sandbox);
-        sandbox
+    Sandbox::once(|sandbox| {
+        sandbox.write_files("", &set_up().read_files());
+        check(sandbox);
     })
 }
 
@@ -86,13 +81,6 @@ fn find_measured_again(sandbox: &Sandbox, more: &str) -> BTreeSet<String> {
 
 fn names(list: &str) -> BTreeSet<String> {
     split(list).into_iter().map(str::to_owned).collect()
-}
-
-/// Replaces a text in a file of the sandbox.
-fn change(sandbox: &Sandbox, file: &str, from: &str, to: &str) {
-    let text = fs::read_to_string(sandbox.path(file)).unwrap();
-    assert!(text.contains(from), "{file} holds \"{from}\"");
-    fs::write(sandbox.path(file), text.replacen(from, to, 1)).unwrap();
 }
 
 /// Reads the bytes of out/run.json.
@@ -183,9 +171,9 @@ fn a_check_renders_the_ladder_that_a_limit_asks_for() {
 fn a_change_to_one_case_measures_only_that_case_again() {
     let sandbox = measured();
     let again = |more: &str| find_measured_again(&sandbox, more);
-    change(&sandbox, "mine/velocity_gather.wgsl", "\n", "\n\n");
+    sandbox.edit("mine/velocity_gather.wgsl", "\n", "\n\n");
     assert_eq!(again(""), names(MINE), "a byte of WGSL");
-    change(&sandbox, "mine/filter.toml", "samples = 8 ", "samples = 7 ");
+    sandbox.edit("mine/filter.toml", "samples = 8 ", "samples = 7 ");
     assert_eq!(again(""), names(MINE), "a preset's value");
     let set = "--set velocity_gather.samples=9";
     let changed = MINE.replace(' ', "_samples_9 ") + "_samples_9";
@@ -203,7 +191,7 @@ fn a_change_to_the_truth_or_the_frame_measures_all_cases_again() {
         assert_eq!(find_measured_again(&sandbox, more), all, "{more}");
     }
     let (from, to) = ("nothing: it serves", "nothing. It serves");
-    change(&sandbox, "scenes/plate/scene.toml", from, to);
+    sandbox.edit("scenes/plate/scene.toml", from, to);
     sandbox.measure(FILTERS);
     let cases = sandbox.read_run().cases;
     assert!(cases.iter().all(|case| case.exposes.starts_with(to)));
@@ -239,12 +227,11 @@ fn missing_truncated_and_altered_files_are_made_again() {
     let sandbox = measured();
     let path = |name: &str| sandbox.path("out/plate").join(name);
     let first = run_json(&sandbox);
+    const TWO: &str = "identity_default velocity_gather_fine";
+    let pictures = "identity_default/errors.exr velocity_gather_fine/flip.png";
     // Files of two cases, which one run makes again; and files that no case is measured for.
     for (files, due) in [
-        (
-            "identity_default/errors.exr velocity_gather_fine/flip.png",
-            "identity_default velocity_gather_fine",
-        ),
+        (pictures, TWO),
         ("identity_default/case.json", "identity_default"),
         ("frame.png", ""),
         ("frame.exr", ""),
@@ -252,11 +239,10 @@ fn missing_truncated_and_altered_files_are_made_again() {
         ("ladder_trailing/n4.exr", ""),
     ] {
         let read = || {
-            split(files)
-                .into_iter()
-                .map(|name| fs::read(path(name)).unwrap())
+            let files = split(files).into_iter().map(|name| fs::read(path(name)));
+            files.map(Result::unwrap).collect::<Vec<_>>()
         };
-        let whole: Vec<_> = read().collect();
+        let whole = read();
         for kind in ["missing", "cut", "altered"] {
             // A record has the hashes of its files, but not its own: whoever can change it can write any hash into it.
             if kind == "altered" && files.ends_with(".json") {
@@ -267,7 +253,7 @@ fn missing_truncated_and_altered_files_are_made_again() {
             }
             let again = find_measured_again(&sandbox, "");
             assert_eq!(again, names(due), "{kind}: {files}");
-            assert!(read().eq(whole.iter().cloned()), "{kind}: {files}");
+            assert!(read() == whole, "{kind}: {files}");
             assert!(run_json(&sandbox) == first);
         }
     }
@@ -281,7 +267,7 @@ fn a_program_runs_again_every_time() {
     sandbox.write_program("copy", script, "");
     let count_runs = || {
         sandbox.measure("--filter copy --allow-commands");
-        let text = fs::read_to_string(sandbox.path("copy/runs")).unwrap();
+        let text = sandbox.text("copy/runs");
         text.lines().count()
     };
     let first = count_runs();

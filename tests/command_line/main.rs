@@ -2,7 +2,6 @@
 
 mod arguments;
 mod audit;
-mod baseline;
 #[cfg(unix)]
 mod blender;
 mod check;
@@ -14,13 +13,12 @@ mod compilers;
 mod conventions;
 mod earlier_run;
 mod empty_folder;
-mod export;
+mod exclusion;
 mod failures;
 mod fidelity;
 mod finished_sequence;
 mod frame_rates;
 mod further_velocities;
-mod gallery;
 #[cfg(unix)]
 mod growth;
 mod guides;
@@ -37,15 +35,12 @@ mod links;
 mod own_filter;
 mod packs;
 mod people;
-mod python;
 mod reference_width;
 mod refusals;
 mod report;
 mod results;
-mod rows;
 mod sandbox;
 mod score;
-mod sequence_ranking;
 mod sequences;
 mod serve;
 mod set_up;
@@ -102,7 +97,7 @@ fn a_run_writes_scores_and_pictures_of_every_case() {
 fn json_is_run_json() {
     let sandbox = Sandbox::measured();
     let json = sandbox.run(&[&IDENTITY[..], &["--json"]].concat());
-    let kept = fs::read_to_string(sandbox.path("out/run.json")).unwrap();
+    let kept = sandbox.text("out/run.json");
     assert_eq!(stdout(&json).trim_end(), kept);
 }
 
@@ -142,7 +137,7 @@ fn an_engine_s_exr_needs_only_the_channels_and_an_exposure() {
     }
     let parts = ["engine.exr: has no attribute \"exposure\"", "--exposure"];
     refused(&file, &parts);
-    sandbox.execute(&split(&format!("{line} --exposure 0.5")));
+    sandbox.done(&format!("{line} --exposure 0.5"));
     fs::remove_file(sandbox.path("blurred.exr")).unwrap();
     let mut nan = ones.clone();
     nan.pixels[5 * 16 + 3] = f32::NAN;
@@ -150,7 +145,7 @@ fn an_engine_s_exr_needs_only_the_channels_and_an_exposure() {
     file.push_plane("Z", &nan);
     file.set("exposure", 0.5);
     refused(&file, &["engine.exr: depth at (3, 5)", "finite"]);
-    fs::write(sandbox.path("engine.exr"), b"no exr").unwrap();
+    sandbox.put("engine.exr", b"no exr");
     sandbox.refuse(line, &["engine.exr: not a complete OpenEXR file"]);
 }
 

@@ -82,7 +82,7 @@ fn bench_and_tuning_scale_presets_unless_told_not_to() {
 
     // The preset's own radius is 4 pixels here, and 16 as written.
     let evaluate = |params: &str, more: &str| {
-        fs::write(sandbox.path("params.json"), params).unwrap();
+        sandbox.put("params.json", params);
         let words = "tune evaluate --quiet --filter ./mine --objective flip --size 64x32 --samples-per-pixel 16 --out tuned";
         json(&format!("{words} --params params.json {more}"))["scenes"]["plate"]["flip"].clone()
     };
@@ -116,7 +116,7 @@ fn a_tuned_preset_records_the_width_of_its_tuning() {
 
     // The filter has the preset once it is appended.
     let appended = format!("{MANIFEST}\n{scaled}");
-    fs::write(sandbox.path("mine/filter.toml"), appended).unwrap();
+    sandbox.put("mine/filter.toml", appended);
     let listed = sandbox.done("list --filter mine");
     let parts = ["made for pictures 64 pixels wide", ".radius = 16 pixels"];
     assert_contains(&listed, &parts);
@@ -132,7 +132,7 @@ fn a_run_that_mixes_scaled_and_unscaled_filters_says_which_are_which() {
         let words = [&["--filters", filters, "--html", "page.html"], more].concat();
         let output = sandbox.run(&words);
         assert_done(&output);
-        let page = fs::read_to_string(sandbox.path("page.html")).unwrap();
+        let page = sandbox.text("page.html");
         let found = [stdout(&output), page.replace("&quot;", "\"")].map(|text| {
             let text = split(&text).join(" ");
             let start = text.split_once("Lengths in pixels are scaled")?.1;

@@ -4,11 +4,7 @@ use std::fs;
 
 use tests::filter_folder::write_manifest;
 
-use crate::rows::rows;
-use crate::sandbox::{
-    OBJ, SCENE, Sandbox, assert_done, assert_ends_at_ctrl_c, assert_refused, files_below, split,
-    wait_until_busy,
-};
+use crate::sandbox::*;
 
 #[test]
 fn a_missing_adapter_gives_exit_code_3_and_the_way_out() {
@@ -24,7 +20,7 @@ fn a_missing_adapter_gives_exit_code_3_and_the_way_out() {
 #[test]
 fn bad_arguments_are_refused_with_the_allowed_values_and_leave_nothing_behind() {
     let sandbox = Sandbox::two_scenes();
-    fs::write(sandbox.path("file"), "no folder").unwrap();
+    sandbox.put("file", "no folder");
     let program = "command = ['cp', '{frame}', '{out}']";
     write_manifest(&sandbox.path("outside"), "outside", program);
     let before = files_below(&sandbox.path(""));
@@ -108,11 +104,7 @@ fn names_that_no_folder_can_have_are_refused_before_anything_is_rendered() {
         format!("check --filter identity --scenes {long}"),
         format!("truths render --scenes {long}"),
     ] {
-        let parts = [
-            "folder \"nnnnnn",
-            "allowed: up to 240",
-            "give them shorter ones",
-        ];
+        let parts = "folder \"nnnnnn | allowed: up to 240 | give them shorter ones";
         assert_refused(&sandbox.outside_ci(&split(&line)), 2, &parts);
         assert!(!sandbox.path("out").exists(), "{line}");
     }

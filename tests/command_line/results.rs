@@ -181,18 +181,21 @@ fn results_of_two_runs_are_those_of_one() {
     let refused = part.update(other).unwrap_err().to_string();
     assert_contains(&refused, &["with 4096 samples per pixel cannot go into"]);
     let mut other = whole.clone();
-    other.scores[0].alignment = Alignment::Centred;
+    other.common_alignment = Alignment::Centred;
     let refused = part.update(other).unwrap_err().to_string();
-    assert_contains(&refused, &["the run has a centred filter and", "has no"]);
+    assert_contains(
+        &refused,
+        &["is against a centred shutter", "against a trailing one"],
+    );
 
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("kept.json");
     fs::write(&path, whole.text()).unwrap();
     assert_eq!(Results::read(&path).unwrap(), whole);
-    let later = whole.text().replace("\"format\": 2", "\"format\": 9");
+    let later = whole.text().replace("\"format\": 3", "\"format\": 9");
     fs::write(&path, later).unwrap();
     let refused = Results::read(&path).unwrap_err().to_string();
-    assert_contains(&refused, &["kept.json: has format 9; allowed: 2"]);
+    assert_contains(&refused, &["kept.json: has format 9; allowed: 3"]);
 }
 
 /// Writes the filter `learnt`: a gather along the plate's true velocity, ignoring the velocity buffer.

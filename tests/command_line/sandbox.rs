@@ -1,15 +1,17 @@
 //! A folder to try the program in.
 
+use std::collections::BTreeMap;
 use std::fs;
+use std::panic::Location;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output};
-use std::sync::OnceLock;
-use std::time::{Duration, Instant};
+use std::sync::{Arc, Mutex, OnceLock};
+use std::time::{Duration, Instant, SystemTime};
 
 use serde::de::DeserializeOwned;
 use tests::filter_folder;
 pub use tests::plate::{MTL, OBJ};
-use tests::text::{assert_contains, read_rows};
+use tests::text::{Parts, assert_contains, read_rows};
 use walkdir::WalkDir;
 
 /// Scene of a plate. The vertical field of view is 60 degrees from 4 m away, so 0.4 m is about 2.7 px of 32 px rows.
@@ -25,10 +27,7 @@ pub struct Sandbox {
 
 impl Sandbox {
     pub fn new() -> Self {
-        let sandbox = Self {
-            folder: tempfile::tempdir().unwrap(),
-        };
-        fs::create_dir_all(sandbox.path("scenes/plate")).unwrap();
+        let sandbox = Self::of(&Files::new());
         sandbox.write("scene.toml", SCENE);
         sandbox.write("plate.obj", OBJ);
         sandbox.write("plate.mtl", MTL);
@@ -51,20 +50,45 @@ impl Sandbox {
         self.folder.path().join(below)
     }
 
+    /// Writes a file of the plate's scene.
     pub fn write(&self, name: &str, text: &str) {
-        fs::write(self.path("scenes/plate").join(name), text).unwrap();
+        self.put(&format!("scenes/plate/{name}"), text);
+    }
+
+    /// Writes a file, whose folder is made if needed.
+    pub fn put(&self, below: &str, content: impl AsRef<[u8]>) {
+        let path = self.path(below);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, content).unwrap();
+    }
+
+    pub fn text(&self, below: &str) -> String {
+        fs::read_to_string(self.path(below)).unwrap()
+    }
+
+    /// Returns when a file was written.
+    pub fn written(&self, below: &str) -> SystemTime {
+        let file = fs::metadata(self.path(below)).unwrap();
+        file.modified().unwrap()
+    }
+
+    /// Replaces a text in a file.
+    #[track_caller]
+    pub fn edit(&self, below: &str, from: &str, to: &str) {
+        let text = self.text(below);
+        assert!(text.contains(from), "{below} lacks \"{from}\":\n{text}");
+        self.put(below, text.replacen(from, to, 1));
     }
 
     /// Adds a scene that differs from the plate's only in its scene.toml.
     pub fn copy_scene(&self, name: &str, changed: impl FnOnce(&str) -> String) {
-        let copy = self.path("scenes").join(name);
-        fs::create_dir(&copy).unwrap();
         for file in ["plate.obj", "plate.mtl"] {
-            fs::copy(self.path("scenes/plate").join(file), copy.join(file)).unwrap();
+            let own = self.text(&format!("scenes/plate/{file}"));
+            self.put(&format!("scenes/{name}/{file}"), own);
         }
         let text = changed(SCENE);
         assert_ne!(text, SCENE, "a scene that is no other");
-        fs::write(copy.join("scene.toml"), text).unwrap();
+        self.put(&format!("scenes/{name}/scene.toml"), text);
     }
 
     /// Reads all files, for sandboxes that begin with them.
@@ -72,26 +96,30 @@ impl Sandbox {
         read_below(self.folder.path())
     }
 
-    /// Makes a sandbox from the files that `make` leaves, which is called once for all tests.
-    pub fn once(files: &OnceLock<Files>, make: impl FnOnce() -> Self) -> Self {
-        Self::of(files.get_or_init(|| make().read_files()))
+    /// Makes a sandbox from the files that `prepare` leaves in a new one; each place that calls this does so once for all tests.
+    #[track_caller]
+    pub fn once(prepare: impl FnOnce(&Self)) -> Self {
+        static PLACES: Mutex<BTreeMap<&Location, Arc<OnceLock<Files>>>> =
+            Mutex::new(BTreeMap::new());
+        let mut places = PLACES.lock().unwrap();
+        let files = places.entry(Location::caller()).or_default().clone();
+        drop(places);
+        Self::of(files.get_or_init(|| {
+            let sandbox = Self::new();
+            prepare(&sandbox);
+            sandbox.read_files()
+        }))
     }
 
     /// Makes a sandbox with a finished run of the identity in `out`.
     pub fn measured() -> Self {
-        static FILES: OnceLock<Files> = OnceLock::new();
-        Self::once(&FILES, || {
-            let sandbox = Self::new();
-            sandbox.measure("--filters identity");
-            sandbox
-        })
+        Self::once(|sandbox| drop(sandbox.measure("--filters identity")))
     }
 
     /// Makes a sandbox with these files.
     pub fn of(files: &Files) -> Self {
-        let sandbox = Self {
-            folder: tempfile::tempdir().unwrap(),
-        };
+        let folder = tempfile::tempdir().unwrap();
+        let sandbox = Self { folder };
         sandbox.write_files("", files);
         sandbox
     }
@@ -99,9 +127,8 @@ impl Sandbox {
     /// Writes files below a folder.
     pub fn write_files(&self, below: &str, files: &Files) {
         for (name, bytes) in files {
-            let path = self.path(below).join(name);
-            fs::create_dir_all(path.parent().unwrap()).unwrap();
-            fs::write(path, bytes).unwrap();
+            let path = Path::new(below).join(name);
+            self.put(path.to_str().unwrap(), bytes);
         }
     }
 
@@ -113,9 +140,8 @@ impl Sandbox {
 
     /// Bounds the same score on another scene.
     pub fn copy_bound(&self, scene: &str) {
-        let folders = ["plate", scene].map(|name| self.path("scenes").join(name));
-        let [from, to] = folders.map(|folder| folder.join("bounds.toml"));
-        fs::copy(from, to).unwrap();
+        let own = self.text("scenes/plate/bounds.toml");
+        self.put(&format!("scenes/{scene}/bounds.toml"), own);
     }
 
     /// Writes the filter `name`, with one file of kernels, to a folder of that name.
@@ -153,7 +179,7 @@ impl Sandbox {
 
     /// Runs a line that must be refused with exit code 2 and these words.
     #[track_caller]
-    pub fn refuse(&self, line: &str, parts: &[&str]) {
+    pub fn refuse(&self, line: &str, parts: &(impl Parts + ?Sized)) {
         println!("{line}");
         assert_refused(&self.shuttertruth(&split(line)), 2, parts);
     }
@@ -196,8 +222,7 @@ impl Sandbox {
 
     /// Runs `run` with few samples; the table is on standard output.
     pub fn run(&self, more: &[&str]) -> Output {
-        let words = quick_command("run", "16");
-        self.shuttertruth(&[&words, more].concat())
+        self.shuttertruth(&[&quick_command("run", "16")[..], more].concat())
     }
 
     /// Runs `run` with few samples, which must succeed; returns its output.
@@ -216,8 +241,7 @@ impl Sandbox {
 
     /// Runs `check` with few samples and outside CI; the report is on standard output.
     pub fn check(&self, more: &[&str]) -> Output {
-        let words = quick_command("check", "64");
-        self.outside_ci(&[&words, more].concat())
+        self.outside_ci(&[&quick_command("check", "64")[..], more].concat())
     }
 
     /// Reads run.json of the last run.
@@ -228,6 +252,13 @@ impl Sandbox {
     /// Reads a file of JSON.
     pub fn read_json<T: DeserializeOwned>(&self, below: &str) -> T {
         serde_json::from_slice(&fs::read(self.path(below)).unwrap()).unwrap()
+    }
+
+    /// Reads run.json without the command line, which names other folders.
+    pub fn read_comparable(&self, out: &str) -> serde_json::Value {
+        let mut run: serde_json::Value = self.read_json(&format!("{out}/run.json"));
+        run["command"].take();
+        run
     }
 
     /// Reads the colour of an OpenEXR file.
@@ -281,7 +312,7 @@ pub fn assert_done(output: &Output) {
 }
 
 #[track_caller]
-pub fn assert_refused(output: &Output, code: i32, parts: &[&str]) {
+pub fn assert_refused(output: &Output, code: i32, parts: &(impl Parts + ?Sized)) {
     let message = stderr(output);
     assert_eq!(output.status.code(), Some(code), "{message}");
     assert_contains(&message, parts);
@@ -375,15 +406,38 @@ pub fn split(line: &str) -> Vec<&str> {
 }
 
 /// Returns the words of a command that renders and measures very quickly.
-pub fn quick_command<'a>(command: &'a str, samples_per_pixel: &'a str) -> [&'a str; 8] {
-    [
-        command,
-        "--quiet",
-        "--out",
-        "out",
-        "--size",
-        "64x32",
-        "--samples-per-pixel",
-        samples_per_pixel,
-    ]
+pub fn quick_command<'a>(command: &'a str, samples_per_pixel: &'a str) -> Vec<&'a str> {
+    let words = split("--quiet --out out --size 64x32 --samples-per-pixel");
+    [&[command], &words[..], &[samples_per_pixel]].concat()
+}
+
+/// Returns a Python with these packages. `make test` installs them and names it in PYTHON.
+pub fn python_with(packages: &[&str]) -> String {
+    let python = std::env::var("PYTHON").unwrap_or("python3".to_owned());
+    // Finding them is faster than importing them.
+    let find = "import sys; from importlib.util import find_spec; \
+        sys.exit(any(not find_spec(own) for own in sys.argv[1:]))";
+    let mut command = Command::new(&python);
+    let found = command.args(["-c", find]).args(packages).output();
+    let is_there = found.is_ok_and(|output| output.status.success());
+    let way_out = "`make test` installs them; or pip install them, and set PYTHON to the Python that has them";
+    assert!(is_there, "{python} lacks one of {packages:?}: {way_out}");
+    python
+}
+
+/// Reads the rows of a table, with a static lifetime.
+pub fn rows(toml: &str, table: &str) -> Vec<Vec<&'static str>> {
+    let tables: toml::Table = toml.parse().unwrap();
+    let rows: Vec<Vec<String>> = tables[table].clone().try_into().unwrap();
+    assert!(!rows.is_empty(), "{table} has no rows");
+    let leak = |row: Vec<String>| row.into_iter().map(|text| &*text.leak());
+    rows.into_iter().map(|row| leak(row).collect()).collect()
+}
+
+/// Divides a row into changes, each `from => to`, and the required words of an error.
+pub fn divide(row: &[&'static str]) -> (Vec<(&'static str, &'static str)>, Vec<&'static str>) {
+    let (changes, words): (Vec<&str>, Vec<&str>) =
+        row.iter().partition(|text| text.contains(" => "));
+    let change = |text: &'static str| text.split_once(" => ").unwrap();
+    (changes.into_iter().map(change).collect(), words)
 }

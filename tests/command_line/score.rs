@@ -1,14 +1,13 @@
 //! `score`: finished pictures without a filter.
 
 use std::fs;
-use std::sync::OnceLock;
 
 use frame::{ExrFile, Frame, Raster, Truth, display_srgb, read_exr, write_exr, write_png};
 use metrics::{EquivalentMetric, Metric, ProbeScores, Scores, SkillMetric};
 use serde_json::Value;
 use tests::text::assert_contains;
 
-use crate::sandbox::{Files, SCENE, Sandbox};
+use crate::sandbox::{SCENE, Sandbox};
 
 const FINE: &str = "--filters velocity_gather:fine";
 const TRUTH: &str = "out/plate/truth_trailing.exr";
@@ -37,12 +36,7 @@ fn scores(sandbox: &Sandbox, image: &str) -> Scores {
 
 /// Makes a sandbox with a measured filter.
 fn set_up() -> Sandbox {
-    static FILES: OnceLock<Files> = OnceLock::new();
-    Sandbox::once(&FILES, || {
-        let sandbox = Sandbox::new();
-        sandbox.measure(FINE);
-        sandbox
-    })
+    Sandbox::once(|sandbox| drop(sandbox.measure(FINE)))
 }
 
 /// Returns the filter's scores except those of probes, which a picture cannot have.
@@ -148,8 +142,7 @@ fn a_png_is_converted_back_to_radiance() {
         let png = OUTPUT.replace(".exr", ".png");
         let found = scores(&sandbox, &format!("{png} {LADDER}"));
         let [flip, due] = [&found, &expected].map(|own| own.moving.flip.value().unwrap());
-        // Steps of 1/255 in sRGB are small compared with the blur's error. A forgotten stop is not: the whole picture becomes
-        // half or twice as bright.
+        // Steps of 1/255 in sRGB are small beside the blur's error. A forgotten stop is not: the picture becomes half or twice as bright.
         assert!((flip - due).abs() < 0.004, "{flip} {due}");
         assert_eq!(found.full.flip_hdr.value(), None);
         let text = score(&sandbox, &png);
@@ -213,7 +206,7 @@ fn mismatched_files_are_refused() {
 fn bad_pictures_are_refused_with_their_name() {
     let sandbox = set_up();
     for copy in ["no.png", "no.exr"] {
-        fs::write(sandbox.path(copy), "no picture").unwrap();
+        sandbox.put(copy, "no picture");
     }
     write_png(&sandbox.path("odd.png"), &Raster::filled(5, 4, [0.5; 3])).unwrap();
     copy_without(&sandbox, "coverage.plate", OUTPUT, "part.exr");

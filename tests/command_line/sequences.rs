@@ -1,13 +1,18 @@
-//! Sequences: consecutive frames of a scene, with scores from frame to frame.
+//! Sequences: consecutive frames of a scene, with scores from frame to frame, and their ranking over scenes.
 
 use std::collections::BTreeMap;
 use std::fs;
 use std::time::SystemTime;
 
+use judge::{RANKED_BY, RankedSequence, rank_sequences, rank_sequences_on};
+use metrics::{Measured, PERFECT_JOD, SequenceMetric};
 use suite::{Run, Sequence};
 use tests::text::assert_contains;
+use tracer::SceneId;
 
-use crate::sandbox::{IDENTITY, SCENE, Sandbox, assert_refused, files_below, split};
+use crate::sandbox::{
+    IDENTITY, SCENE, Sandbox, assert_done, assert_refused, files_below, split, stdout,
+};
 
 const TWO: &str = "--filters identity --frames 2";
 const THREE: &str = "--filters identity --frames 3";
@@ -23,12 +28,14 @@ fn find<'a>(run: &'a Run, filter: &str) -> &'a Sequence {
 /// Reads the modification times of all measured and rendered files below `out/plate`.
 fn read_times(sandbox: &Sandbox) -> BTreeMap<String, SystemTime> {
     let out = sandbox.path("out/plate");
-    let is_kept = |name: &String| name.ends_with("case.json") || name.ends_with(".exr");
-    (files_below(&out).into_iter())
-        .map(|path| (path.strip_prefix(&out).unwrap().display().to_string(), path))
-        .filter(|(name, _)| is_kept(name))
-        .map(|(name, path)| (name, fs::metadata(path).unwrap().modified().unwrap()))
-        .collect()
+    let mut times = BTreeMap::new();
+    for path in files_below(&out) {
+        let name = path.strip_prefix(&out).unwrap().display().to_string();
+        if name.ends_with("case.json") || name.ends_with(".exr") {
+            times.insert(name, fs::metadata(path).unwrap().modified().unwrap());
+        }
+    }
+    times
 }
 
 #[test]
@@ -73,28 +80,18 @@ fn a_sequence_begins_with_the_frame_without_one_and_goes_on_where_it_ended() {
     assert_page(&sandbox, &printed);
     // JOD depends on the rate: sequences of two rates cannot be one run.
     let other = "--filters velocity_gather:fine --frames 3 --fps 24";
-    let parts = [
-        "number of frames was 3 at 60 per second, now 3 at 24 per second",
-        "--out",
-    ];
+    let parts = "number of frames was 3 at 60 per second, now 3 at 24 per second | --out";
     assert_refused(&sandbox.run(&split(other)), 2, &parts);
 }
 
 /// Three frames have a page, and an animation for each case.
 fn assert_page(sandbox: &Sandbox, printed: &str) {
-    let parts = [
-        "3 frames",
-        "plate, trailing shutter",
-        "flick",
-        "along",
-        "dirt",
-        "identity:default",
-        "out/sequences.html",
-    ];
+    let parts = "3 frames | plate, trailing shutter | flick | along | dirt | identity:default | \
+        out/sequences.html";
     assert_contains(printed, &parts);
     let mut lines = printed.lines();
     assert!(lines.all(|line| line.chars().count() <= 80), "{printed}");
-    let page = fs::read_to_string(sandbox.path("out/sequences.html")).unwrap();
+    let page = sandbox.text("out/sequences.html");
     for path in [
         "plate/0001/frame.png",
         "plate/0002/identity_default/change.png",
@@ -104,7 +101,7 @@ fn assert_page(sandbox: &Sandbox, printed: &str) {
         assert!(sandbox.path("out").join(path).is_file(), "{path}");
     }
     assert!(page.contains("img-src data: 'self' file:"));
-    let report = fs::read_to_string(sandbox.path("out/report.html")).unwrap();
+    let report = sandbox.text("out/report.html");
     assert!(report.contains("href=\"sequences.html\""));
     let animation = fs::read(sandbox.path("out/plate/identity_default/sequence.png")).unwrap();
     let chunks = |name: &[u8]| animation.windows(4).filter(|bytes| *bytes == name).count();
@@ -124,10 +121,10 @@ fn a_filter_with_history_reads_the_frame_before() {
     let write = |history: &str| sandbox.write_kernel("before", history, &textures, body);
     write("history = [\"color\", \"velocity\", \"depth\"]");
     sandbox.measure("--filter ./before --frames 3");
-    let color = |name: &str| sandbox.read_color(&format!("out/plate/{name}"));
-    let frames = ["", "0001/", "0002/"].map(|frame| color(&format!("{frame}frame.exr")));
-    let outputs =
-        ["", "0001/", "0002/"].map(|frame| color(&format!("{frame}before_default/output.exr")));
+    let [frames, outputs] = ["frame.exr", "before_default/output.exr"].map(|name| {
+        let paths = ["", "0001/", "0002/"].map(|frame| format!("out/plate/{frame}{name}"));
+        paths.map(|path| sandbox.read_color(&path))
+    });
     // The first frame has no previous one; it serves as its own.
     for (index, before) in [0, 0, 1].into_iter().enumerate() {
         let due = frames[before].map(|pixel| pixel.map(|value| value + index as f32));
@@ -152,12 +149,8 @@ fn frames_at_which_a_scene_is_not_defined_are_refused() {
     );
     sandbox.write("scene.toml", &path);
     let refused = sandbox.run(&[&IDENTITY[..], &["--frames", "4"]].concat());
-    let parts = [
-        "scene plate/0003",
-        "the motion of object plate at frame 3",
-        "end at frame 2.5",
-        "two keys",
-    ];
+    let parts =
+        "scene plate/0003 | the motion of object plate at frame 3 | end at frame 2.5 | two keys";
     assert_refused(&refused, 2, &parts);
     assert!(!sandbox.path("out/plate").exists(), "nothing was rendered");
     sandbox.measure(THREE);
@@ -171,9 +164,117 @@ fn parts_of_a_rendered_sequence_merge_to_what_a_run_reads_back() {
         sandbox.done(&format!("{words} --replicates {part}"));
     }
     sandbox.done("truths merge --quiet one two --out out");
-    let truth = sandbox.path("out/plate/0001/truth_trailing.exr");
-    let written = || fs::metadata(&truth).unwrap().modified().unwrap();
+    let written = || sandbox.written("out/plate/0001/truth_trailing.exr");
     let before = written();
     sandbox.measure(TWO);
     assert_eq!(written(), before);
+}
+
+/// Lists the names of a ranking with their ranks: `1 a`, `2-3 b`.
+fn names(ranking: &[Vec<RankedSequence>]) -> Vec<String> {
+    let ranked = ranking.iter().flatten().map(|own| &own.ranked);
+    ranked
+        .map(|own| format!("{} {}", own.rank_text(), own.name))
+        .collect()
+}
+
+/// Replaces the run's scenes with six, where the filters are the given JOD below perfect.
+fn with_scores(run: &Run, lost: impl Fn(&str, f64) -> f64, floor: f64) -> Run {
+    let mut made = Run {
+        cases: Vec::new(),
+        sequences: Vec::new(),
+        ..run.clone()
+    };
+    for scene in 0..6 {
+        let name = SceneId::new(format!("scene{scene}"), None);
+        for case in run.cases.iter().filter(|case| case.scene == "plate") {
+            let mut case = case.clone();
+            case.id.scene.clone_from(&name);
+            made.cases.push(case);
+        }
+        for own in run.sequences.iter().filter(|own| own.scene == "plate") {
+            let mut own = own.clone();
+            own.scene.clone_from(&name);
+            let value = PERFECT_JOD - lost(&own.name, f64::from(scene));
+            *own.scores.get_mut(RANKED_BY) = Measured::score(value, PERFECT_JOD - floor);
+            made.sequences.push(own);
+        }
+    }
+    made
+}
+
+#[test]
+fn sequences_are_ranked_by_means_over_scenes_with_intervals_and_ties() {
+    let sandbox = Sandbox::two_scenes();
+    let filters = "identity,velocity_gather:fine,velocity_gather:departure";
+    let words = format!("--filters {filters} --frames 2 --jitter-frames 0");
+    let output = sandbox.run(&split(&words));
+    assert_done(&output);
+    let run = sandbox.read_run();
+    let text = stdout(&output);
+    let mut lines = text.lines();
+    let title = lines.find(|line| line.contains("2 scenes, 2 frames"));
+    let parts = ["JOD", "95 % CI", "error", "along", "worst scene"];
+    assert_contains(title.expect("a ranking"), &parts);
+    assert!(
+        text.lines().all(|line| line.chars().count() <= 80),
+        "{text}"
+    );
+    let ranking = rank_sequences(&run);
+    let ranks: usize = ranking.iter().map(Vec::len).sum();
+    assert_eq!(ranks, 3, "one rank per filter");
+    for own in ranking.iter().flatten() {
+        let shown = |scene: &str| {
+            let mut sequences = run.sequences.iter().filter(|it| !it.is_reference);
+            let found = sequences.find(|it| it.scene == scene && it.name == own.ranked.name);
+            RANKED_BY.shown(found.unwrap().scores.get(RANKED_BY).value().unwrap())
+        };
+        let [plate, slow] = ["plate", "slow"].map(shown);
+        let mean = (plate + slow) / 2.0;
+        assert!((own.ranked.mean - mean).abs() < 1e-9, "{own:?}");
+        // Student's t of one degree of freedom, by the table's digits.
+        let half = 12.706 * (plate - slow).abs() / 2.0;
+        let [low, high] = own.ranked.interval.unwrap();
+        assert!(((high - low) / 2.0 / half - 1.0).abs() < 1e-4, "{own:?}");
+        let [mean, low, high] = [mean, low, high].map(|own| RANKED_BY.shown_text(own));
+        let due = [mean, format!("{low} to {high}")];
+        let mut lines = text.lines().filter(|line| line.contains(&own.ranked.name));
+        let is_shown = lines.any(|line| due.iter().all(|part| line.contains(part)));
+        assert!(is_shown, "{due:?} is missing from:\n{text}");
+    }
+    // The page has the same ranking, and every scene its own.
+    let page = sandbox.text("out/sequences.html");
+    let first = &names(&ranking)[0];
+    assert_contains(&page, &["Means over 2 scenes, ranked by jod", first]);
+    assert_ties(&run);
+}
+
+/// Ranks synthetic scores: filters that are equal in every scene, or on one scene within the floor, share their ranks.
+fn assert_ties(run: &Run) {
+    let fine = "velocity_gather:fine";
+    let departure = "velocity_gather:departure";
+
+    // In every scene fine is a little better than identity, and the third differs from it by chance alone.
+    let by = |name: &str, scene: f64| match name {
+        "velocity_gather:fine" => 1.0 + 0.1 * scene,
+        "identity:default" => 1.1 + 0.101 * scene,
+        _ => 1.1 + 0.101 * scene + if scene % 2.0 == 0.0 { 0.05 } else { -0.04 },
+    };
+    let far = with_scores(run, by, 0.01);
+    let noisy = with_scores(run, by, 0.12);
+    let first = SceneId::new("scene0", None);
+    for (ranking, ranks) in [
+        (rank_sequences(&far), ["1", "2-3", "2-3"]),
+        // On one scene the floor decides.
+        (rank_sequences_on(&far, &first), ["1", "2", "3"]),
+        // The losses are 1.00, 1.10 and 1.15: only the first and the last differ by more than the floor.
+        (rank_sequences_on(&noisy, &first), ["1-2", "1-3", "2-3"]),
+    ] {
+        let due = std::iter::zip(ranks, [fine, "identity:default", departure]);
+        let due = due.map(|(rank, name)| format!("{rank} {name}"));
+        assert_eq!(names(&ranking), due.collect::<Vec<_>>());
+    }
+    let means = &rank_sequences(&far)[0][0].means;
+    assert_eq!(means.len(), SequenceMetric::ALL.len());
+    assert_eq!(means[2].1.unwrap().scenes, 6);
 }

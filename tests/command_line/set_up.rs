@@ -47,7 +47,7 @@ fn completions_know_every_command_in_every_shell() {
 fn bash_completes_a_command() {
     let sandbox = Sandbox::new();
     let completions = sandbox.done("completions bash");
-    fs::write(sandbox.path("completions"), completions).unwrap();
+    sandbox.put("completions", completions);
     let script = "source completions; COMP_WORDS=(shuttertruth compl); COMP_CWORD=1; _shuttertruth shuttertruth compl shuttertruth; \
                   echo \"${COMPREPLY[@]}\"";
     let mut bash = Command::new("bash");
@@ -61,7 +61,7 @@ fn the_manual_has_a_page_for_every_command() {
     sandbox.execute(&["man", "--out", "pages"]);
     let read = |name: &str| {
         let page = format!("pages/{}.1", name.replace(' ', "-"));
-        fs::read_to_string(sandbox.path(&page)).unwrap()
+        sandbox.text(&page)
     };
     for command in list_commands() {
         let name = format!("shuttertruth {command}");

@@ -30,18 +30,13 @@ fn read_section(section: &str) -> BTreeMap<String, Vec<String>> {
 
 /// Reads the first two cells of each row of the table below a line that begins with `first`.
 fn read_table(page: &str, first: &str) -> BTreeMap<String, String> {
-    let rows = page
-        .lines()
-        .skip_while(|line| !line.starts_with(first))
-        .skip(2);
-    let rows = rows.take_while(|line| line.starts_with('|')).map(|row| {
-        let mut cells = row.split('|').skip(1).map(|cell| cell.trim().to_owned());
-        (
-            cells.next().unwrap().replace('`', ""),
-            cells.next().unwrap(),
-        )
+    let rows = page.lines().skip_while(|line| !line.starts_with(first));
+    let rows = rows.skip(2).take_while(|line| line.starts_with('|'));
+    let cells = rows.map(|row| {
+        let cells: Vec<&str> = row.split('|').map(str::trim).collect();
+        (cells[1].replace('`', ""), cells[2].to_owned())
     });
-    rows.collect()
+    cells.collect()
 }
 
 #[test]

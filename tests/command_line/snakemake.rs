@@ -7,8 +7,7 @@ use std::time::{Duration, Instant};
 
 use tests::text::assert_contains;
 
-use crate::python::python_with;
-use crate::sandbox::{Sandbox, split, stderr, stdout};
+use crate::sandbox::{Sandbox, python_with, split, stderr, stdout};
 
 /// Words after `plan` and `run`.
 const WORDS: &str =
@@ -70,7 +69,7 @@ fn finish(sandbox: &Sandbox) -> String {
 fn a_killed_job_is_resumed_and_the_merged_run_equals_that_of_one_process() {
     let [shared, alone] = [(); 2].map(|()| Sandbox::new());
     let plan = shared.done(&format!("truths plan {WORDS} --json"));
-    fs::write(shared.path("plan.jsonl"), plan).unwrap();
+    shared.put("plan.jsonl", plan);
     let folder = shared.path("").canonicalize().unwrap();
 
     let mut command = snakemake(&shared);
@@ -81,14 +80,13 @@ fn a_killed_job_is_resumed_and_the_merged_run_equals_that_of_one_process() {
     let said = stderr(&first);
     assert!(!first.status.success(), "a killed job fails:\n{said}");
     assert!(!shared.path("out/run.json").exists());
-    let truth = shared.path("out/parts/truths/plate/truth_trailing.exr");
-    let written = || fs::metadata(&truth).unwrap().modified().unwrap();
+    let written = || shared.written("out/parts/truths/plate/truth_trailing.exr");
     let before = written();
 
     finish(&shared);
     assert_eq!(written(), before, "a truth was rendered again");
     alone.done(&format!("run {WORDS}"));
-    let run = |sandbox: &Sandbox| fs::read_to_string(sandbox.path("out/run.json")).unwrap();
+    let run = |sandbox: &Sandbox| sandbox.text("out/run.json");
     assert_eq!(run(&shared), run(&alone));
     assert!(shared.path("out/report.html").is_file());
     assert_contains(&finish(&shared), &["Nothing to be done"]);

@@ -21,24 +21,15 @@ fn assert_printed(text: &str, file: &str) {
         }
     }
     let folder = tests::root().join("tests/command_line/snapshots");
-    Assert::new()
-        .action_env("SNAPSHOTS")
-        .redact_with(redactions)
-        .eq(text, Data::read_from(&folder.join(file), None));
+    let due = Data::read_from(&folder.join(file), None);
+    let assert = Assert::new().action_env("SNAPSHOTS");
+    assert.redact_with(redactions).eq(text, due);
 }
 
 /// Makes a sandbox of two scenes with a limit that the identity breaks, one that it keeps, and a target that it misses.
 fn make_bounded() -> Sandbox {
     let sandbox = Sandbox::two_scenes();
-    sandbox.write(
-        "bounds.toml",
-        "[default]
-flip_moving = { limit = 0.2, why = \"a smear of half the plate's motion is lost\" }
-label_tv = { limit = 0.9, why = \"silhouettes stay where they are\" }
-misplacement = { limit = 0.5, why = \"what the paper promises\", level = \"report\" }
-occluder_contamination = { limit = 0.5, why = \"nothing passes in front of the plate\" }
-",
-    );
+    sandbox.write("bounds.toml", include_str!("snapshots/bounds.toml"));
     sandbox.copy_bound("slow");
     sandbox
 }
@@ -84,25 +75,9 @@ fn checks() {
 #[test]
 fn comparisons() {
     let sandbox = Sandbox::two_scenes();
-    sandbox.write_filter(
-        "dim",
-        "name = \"dim\"
-summary = \"Scales colours.\"
-alignment = \"trailing\"
-[[parameter]]
-name = \"gain\"
-kind = \"real\"
-default = 1.0
-range = [0.0, 1.0]
-doc = \"Factor of all colours.\"
-[[pass]]
-entry = \"work\"
-",
-        &one_kernel(
-            "gain: f32",
-            "textureStore(output, pixel, parameters.gain * textureLoad(color, pixel, 0));",
-        ),
-    );
+    let body = "textureStore(output, pixel, parameters.gain * textureLoad(color, pixel, 0));";
+    let kernel = one_kernel("gain: f32", body);
+    sandbox.write_filter("dim", include_str!("snapshots/dim.toml"), &kernel);
     sandbox.measure("--filters identity,./dim");
     sandbox.measure_into("other", "--filters identity,./dim --set dim.gain=0.5");
     assert_printed(&sandbox.done("compare out other"), "compare.txt");

@@ -1,10 +1,9 @@
-//! Summary of a run, as newcomers see it.
+//! Summary and gallery of a run, as newcomers see them.
 
-use std::fs;
-
+use frame::read_png;
 use tests::text::assert_contains;
 
-use crate::sandbox::Sandbox;
+use crate::sandbox::{Sandbox, split};
 
 #[test]
 fn a_run_ranks_filters_in_at_most_40_lines_and_names_the_report() {
@@ -13,7 +12,7 @@ fn a_run_ranks_filters_in_at_most_40_lines_and_names_the_report() {
     let text = sandbox.measure("--jitter-frames 0");
     assert!(text.lines().count() <= 40, "{text}");
     assert_contains(&text, &["centred shutter", "--table shows all"]);
-    let page = fs::read_to_string(sandbox.path("out/report.html")).unwrap();
+    let page = sandbox.text("out/report.html");
     assert!(page.contains("jump_flood"));
     let again = sandbox.measure("--jitter-frames 0 --table");
     assert!(again.lines().count() > 60, "{again}");
@@ -26,9 +25,40 @@ fn a_run_ranks_filters_in_at_most_40_lines_and_names_the_report() {
 fn filters_within_noise_share_ranks() {
     let filters = "--filters jump_flood:paper,jump_flood_packed:paper,identity";
     let text = Sandbox::new().measure(filters);
-    let ranks: Vec<&str> = (text.lines())
-        .filter(|line| line.contains(":paper") || line.contains("identity:"))
-        .filter_map(|line| line.split_whitespace().next())
-        .collect();
+    let is_filter = |line: &&str| line.contains(":paper") || line.contains("identity:");
+    let rows = text.lines().filter(is_filter);
+    let ranks: Vec<&str> = rows.map(|line| split(line)[0]).collect();
     assert_eq!(ranks, ["1-2", "1-2", "3"], "{text}");
+}
+
+#[test]
+fn a_gallery_shows_the_best_and_the_worst_filter_of_each_shutter() {
+    let sandbox = Sandbox::two_scenes();
+    let trailing = "velocity_gather:fine,velocity_gather:coarse,camera_gather:default";
+    sandbox.measure(&format!("--filters identity,{trailing},bevy:default"));
+    sandbox.done("report out --gallery shown");
+    let page = sandbox.text("shown/README.md");
+    let parts = ["](truths.png)", "## plate", "](slow.jpg)", "64x32 pixels"];
+    assert_contains(&page, &parts);
+    let command = "\n    shuttertruth report out --gallery shown\n";
+    let centred = "centred: `bevy:default` 0.";
+    // The camera is still, so its motion blurs nothing.
+    let trailing = "trailing: `velocity_gather:fine` 0.";
+    let worst = ", `camera_gather:default` 0.";
+    assert_contains(&page, &[command, centred, trailing, worst]);
+    assert!(!page.contains("`identity:default`"), "{page}");
+    // Two rows per shutter, with labels of 10 pixels and gaps of 2.
+    let picture = image::open(sandbox.path("shown/plate.jpg")).unwrap();
+    let size = (picture.width(), picture.height());
+    assert_eq!(size, (3 * 66 - 2, 4 * (32 + 12) - 2));
+    let sheet = read_png(&sandbox.path("shown/truths.png")).unwrap();
+    assert_eq!((sheet.width, sheet.height), (2 * 66 - 2, 32));
+    let truth = read_png(&sandbox.path("out/plate/truth_centred.png")).unwrap();
+    assert_eq!(sheet.at(10, 10), truth.at(10, 10), "the first truth");
+}
+
+#[test]
+fn a_run_of_only_references_makes_no_gallery() {
+    let found = ["no best and no worst", "run filters"];
+    Sandbox::measured().refuse("report out --gallery shown", &found);
 }

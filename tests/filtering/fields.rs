@@ -21,6 +21,7 @@ impl Field {
             velocity: &self.velocity,
             velocity_next: Some(&self.velocity),
             velocity_z: None,
+            exclusion: None,
             depth: &self.depth,
             reprojection: self.reprojection,
             camera: None,

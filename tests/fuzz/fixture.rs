@@ -1,5 +1,4 @@
-//! Real files of every kind: those of `tests/fuzz/fixture`, and the program's own output from before the first case, so that it always
-//! has today's layout.
+//! Real files of every kind: those of `tests/fuzz/fixture`, and the program's output from before the first case, with today's layout.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -10,7 +10,6 @@ mod seeds;
 mod self_test;
 mod target;
 mod targets;
-mod worker;
 mod worker_process;
 
 use std::process::ExitCode;
@@ -22,7 +21,7 @@ fn main() -> ExitCode {
     let options = Options::parse();
     match options.work[..] {
         _ if options.asks_for_other_tests() => ExitCode::SUCCESS,
-        [start, end] => worker::work(&options, start..end),
+        [start, end] => worker_process::work(&options, start..end),
         _ => campaign::execute(options),
     }
 }

@@ -23,10 +23,9 @@ pub struct Place {
 impl Place {
     /// Makes an empty folder.
     pub fn new(target: &'static str, fixture: &Path) -> Self {
-        let keep = tempfile::Builder::new()
-            .prefix("shuttertruth-fuzz-")
-            .tempdir()
-            .expect("a folder for temporary files");
+        let mut made = tempfile::Builder::new();
+        let keep = made.prefix("shuttertruth-fuzz-").tempdir();
+        let keep = keep.expect("a folder for temporary files");
         // Deep enough for inputs that contain `../../`.
         let folder = keep.path().join("a/b/c/case");
         fs::create_dir_all(&folder).unwrap();

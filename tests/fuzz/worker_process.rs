@@ -1,18 +1,18 @@
-//! A worker process, as its parent sees it.
+//! A worker process: as its parent sees it, and its work. Its end does not end the fuzzer.
 
 use std::fs::File;
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, Write};
 use std::ops::Range;
 use std::os::unix::process::{CommandExt, ExitStatusExt};
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, Command, ExitCode, Stdio};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
 use crate::options::Options;
-use crate::place::last_lines;
+use crate::place::{Place, last_lines};
+use crate::seeds::Seeds;
 use crate::target::Target;
-use crate::worker::MARK;
 
 /// Address space of a worker, and of every program that it starts, in KiB.
 const MEMORY: u64 = 4 << 20;
@@ -70,23 +70,18 @@ fn start(target: &Target, cases: &Range<u64>, options: &Options, stderr: File) -
     let input = options.input.iter();
     let numbers = [options.seed, cases.start, cases.end];
     let [seed, start, end] = numbers.map(|number| number.to_string());
-    Command::new("sh")
-        .args(["-c", &limited])
-        .arg(own)
-        .args(["--targets", target.name, "--seed", &seed])
-        .args(["--work", &start, &end, "--fixture"])
-        .arg(&options.fixture)
-        .args(input.flat_map(|path| [Path::new("--input"), path]))
-        // Stacks and arenas of many threads would fill the address space.
-        .envs([("RAYON_NUM_THREADS", "2"), ("MALLOC_ARENA_MAX", "4")])
-        .env("RUST_BACKTRACE", "0")
-        .env_remove("CI")
-        .stdin(Stdio::null())
-        .stdout(Stdio::piped())
-        .stderr(stderr)
-        .process_group(0)
-        .spawn()
-        .expect("sh can be started")
+    let mut sh = Command::new("sh");
+    sh.args(["-c", &limited]).arg(own);
+    sh.args(["--targets", target.name, "--seed", &seed]);
+    sh.args(["--work", &start, &end, "--fixture"]);
+    sh.arg(&options.fixture);
+    sh.args(input.flat_map(|path| [Path::new("--input"), path]));
+    // Stacks and arenas of many threads would fill the address space.
+    sh.envs([("RAYON_NUM_THREADS", "2"), ("MALLOC_ARENA_MAX", "4")]);
+    sh.env("RUST_BACKTRACE", "0").env_remove("CI");
+    sh.stdin(Stdio::null()).stdout(Stdio::piped());
+    let child = sh.stderr(stderr).process_group(0).spawn();
+    child.expect("sh can be started")
 }
 
 /// Reads the worker's lines on a thread.
@@ -120,4 +115,38 @@ fn describe_end(child: &mut Child, panic: Option<String>, stderr: &Path) -> Opti
         (code, None) => format!("exit code {}", code.unwrap_or_default()),
     };
     Some(format!("ended by {how}: {}", last_lines(stderr)))
+}
+
+/// Prefix of every line for the parent.
+pub const MARK: &str = "@fuzz ";
+
+/// Tries inputs one by one and reports each to the parent; ends at the first panic.
+pub fn work(options: &Options, cases: Range<u64>) -> ExitCode {
+    std::panic::set_hook(Box::new(|panic| {
+        say(&panic.to_string().replace('\n', " "));
+    }));
+    let target = options.targets[0];
+    let mut place = Place::new(target.name, &options.fixture);
+    let seeds = Seeds::read(target, options, &place);
+    for case in cases {
+        let input = seeds.make(&place, case);
+        say(&format!("begin {case}"));
+        let read = (target.run)(&mut place, &input);
+        let is_refused = read.is_none() && seeds.is_valid(case);
+        assert!(!is_refused, "a valid seed was refused");
+        place.check();
+        say("done");
+    }
+    ExitCode::SUCCESS
+}
+
+fn say(line: &str) {
+    let mut out = std::io::stdout().lock();
+    // If the parent is gone, nobody reads the line.
+    if writeln!(out, "{MARK}{line}")
+        .and_then(|()| out.flush())
+        .is_err()
+    {
+        std::process::exit(0);
+    }
 }

@@ -6,7 +6,6 @@ use std::path::PathBuf;
 use cli::{Programs, select_filters};
 use judge::{Level, SceneBounds, check_names, read_bounds, size_for_bounds};
 use metrics::{Metric, SequenceMetric};
-use serde::Deserialize;
 use suite::{Error, FilterChoice, Frames};
 use tests::text::assert_contains;
 
@@ -74,11 +73,8 @@ fn every_metric_except_those_for_reports_can_have_a_bound() {
             continue;
         }
         let bounds = bounds.unwrap().of("identity", "default");
-        let found: Vec<_> = bounds
-            .iter()
-            .map(|(own, b)| (*own, b.limit, b.level))
-            .collect();
-        assert_eq!(found, [(metric, 0.25, Level::Required)]);
+        let found = bounds.iter().map(|(own, b)| (*own, b.limit, b.level));
+        assert!(found.eq([(metric, 0.25, Level::Required)]), "{metric}");
     }
 }
 
@@ -102,21 +98,13 @@ fn limits_hold_only_at_their_own_size() {
     assert_eq!(size(&[&small, &another], asked), Ok(asked));
     assert_eq!(size(&[&any, &another], Some((64, 32))), Ok(Some((64, 32))));
     assert_eq!(size(&[&any], None), Ok(None));
-    assert_contains(
-        &size(&[&small], Some((320, 180))).unwrap_err(),
-        &[
-            "fan/bounds.toml:2: the limit on flip_moving holds for 160x90, and the pictures are to have 320x180",
-            "`shuttertruth limits calibrate`",
-        ],
-    );
-    assert_contains(
-        &size(&[&small, &large], None).unwrap_err(),
-        &[
-            "fan/bounds.toml:2: ",
-            "for 320x180, that of",
-            "for 160x90; check them apart",
-        ],
-    );
+    let parts = "fan/bounds.toml:2: the limit on flip_moving holds for 160x90, and the pictures are to have 320x180 | \
+        `shuttertruth limits calibrate`";
+    let refused = size(&[&small], Some((320, 180)));
+    assert_contains(&refused.unwrap_err(), parts);
+    let parts = "fan/bounds.toml:2:  | for 320x180, that of | for 160x90; check them apart";
+    let refused = size(&[&small, &large], None);
+    assert_contains(&refused.unwrap_err(), parts);
     // At another size, the limit for any size remains.
     let left = |size| small.clone().at(size).of("identity", "default")[&Metric::FLIP].limit;
     assert_eq!([left((160, 90)), left((320, 180))], [0.2, 0.1]);
@@ -129,11 +117,7 @@ fn every_metric_of_sequences_can_have_a_bound_for_a_number_of_frames() {
     for metric in SequenceMetric::ALL {
         let name = metric.row().name;
         let has_rate = metric.depends_on_rate();
-        let keys = if has_rate {
-            "frames = 4, fps = 60.0,"
-        } else {
-            "frames = 4,"
-        };
+        let keys = ["frames = 4,", "frames = 4, fps = 60.0,"][usize::from(has_rate)];
         let text = format!("[filter.identity]\n{}", line(name, 0.25, keys));
         let bounds = read(&single, &text).unwrap();
         let metric = Metric::Sequence(metric);
@@ -183,11 +167,9 @@ fn limits_for_a_second_size_stand_in_a_file_of_their_own() {
 
     write("_1280x720", &table(0.1, "size = [160, 90],"));
     // Files for other sizes are checked as well.
+    let says = "fan/bounds_1280x720.toml:2: flip_moving: size = [160, 90] in a file for 1280x720";
     for asked in [None, large] {
-        refused(
-            asked,
-            "fan/bounds_1280x720.toml:2: flip_moving: size = [160, 90] in a file for 1280x720",
-        );
+        refused(asked, says);
         refused(asked, "move the limit to bounds_160x90.toml");
     }
     write("_1280x720", "[margin]\nflip_moving = 0.1\n");
@@ -199,30 +181,16 @@ fn limits_for_a_second_size_stand_in_a_file_of_their_own() {
     refused(None, name);
 }
 
-/// A row of refused_bounds.toml.
-#[derive(Deserialize)]
-struct Refused {
-    /// Bounds of all scenes; valid ones if none are given.
-    shared: Option<String>,
-    /// Bounds of the scene.
-    #[serde(default)]
-    own: String,
-    /// Parts of the error.
-    says: Vec<String>,
-}
-
+/// Each row has bounds of all scenes (valid ones if none are given), bounds of the scene, and parts of the error.
 #[test]
 fn bounds_that_mean_nothing_are_refused_with_file_and_line() {
-    #[derive(Deserialize)]
-    struct Table {
-        refused: Vec<Refused>,
-    }
     let good = format!("[default]\n{}", line("flip_moving", 0.1, ""));
-    let table: Table = toml::from_str(include_str!("refused_bounds.toml")).unwrap();
-    for Refused { shared, own, says } in table.refused {
-        let message = read(shared.as_ref().unwrap_or(&good), &own).unwrap_err();
-        let says: Vec<&str> = says.iter().map(String::as_str).collect();
-        assert_contains(&message, &says);
+    let table: toml::Table = include_str!("refused_bounds.toml").parse().unwrap();
+    for row in table["refused"].as_array().unwrap() {
+        let text = |key: &str| row.get(key).map(|text| text.as_str().unwrap());
+        let (shared, own) = (text("shared").unwrap_or(&good), text("own").unwrap_or(""));
+        let says: Vec<String> = row["says"].clone().try_into().unwrap();
+        assert_contains(&read(shared, own).unwrap_err(), &says);
     }
 }
 
@@ -237,14 +205,8 @@ fn bounds_of_a_scene_that_does_not_exist_are_refused() {
 
 #[test]
 fn a_narrower_bound_overrides_a_wider_one_and_a_scene_s_bound_overrides_the_shared_one() {
-    let names = [
-        "flip_moving",
-        "mse_moving",
-        "extent",
-        "energy",
-        "hole",
-        "deficit",
-    ];
+    let names = "flip_moving mse_moving extent energy hole deficit".split(' ');
+    let names: Vec<&str> = names.collect();
     let table = |name: &str, count: usize, limit: f64| {
         let lines = names[..count].iter().map(|metric| line(metric, limit, ""));
         format!("[{name}]\n{}", lines.collect::<String>())
@@ -259,7 +221,8 @@ fn a_narrower_bound_overrides_a_wider_one_and_a_scene_s_bound_overrides_the_shar
     let bounds = read(&shared, &own).unwrap();
     let limits = |filter, preset| {
         let found = bounds.of(filter, preset);
-        names.map(|name| found[&name.parse().unwrap()].limit)
+        let limits = names.iter().map(|name| found[&name.parse().unwrap()].limit);
+        limits.collect::<Vec<f64>>()
     };
     let due = [6.0, 5.0, 4.0, 3.0, 2.0, 1.0];
     assert_eq!(limits("identity", "default"), due);

@@ -12,8 +12,8 @@ use judge::{
 };
 use metrics::Reference;
 use suite::{FilterChoice, Monitor, Rendering, RunPlan, measure_scenes};
-use tests::open_gpu;
-use tracer::{RenderSettings, Scene};
+use tests::{open_gpu, settings};
+use tracer::Scene;
 
 /// Scenes with quick truths.
 const FEW: [&str; 2] = ["sliding_panel", "two_spheres"];
@@ -22,12 +22,7 @@ const FEW: [&str; 2] = ["sliding_panel", "two_spheres"];
 const HARDLY_MOVING: [&str; 1] = ["creep"];
 
 /// Filters with required bounds, and metrics that each scene limits for them.
-const GUARDED: [&str; 4] = [
-    "jump_flood:paper",
-    "jump_flood:corrected",
-    "mcguire:paper",
-    "guertin:paper",
-];
+const GUARDED: &str = "jump_flood:paper jump_flood:corrected mcguire:paper guertin:paper";
 const REQUIRED: [&str; 2] = ["flip_moving", "bleed_lateral"];
 
 /// Size of the required bounds.
@@ -38,18 +33,8 @@ const SIZE: (u32, u32) = (160, 90);
 fn lock_truths() -> (PathBuf, MutexGuard<'static, ()>) {
     static IN_USE: Mutex<()> = Mutex::new(());
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("mutants/160x90_256/seed_1");
-    (
-        folder,
-        IN_USE.lock().unwrap_or_else(PoisonError::into_inner),
-    )
-}
-
-fn render_settings() -> RenderSettings {
-    RenderSettings {
-        width: SIZE.0,
-        height: SIZE.1,
-        ..RenderSettings::default()
-    }
+    let lock = IN_USE.lock().unwrap_or_else(PoisonError::into_inner);
+    (folder, lock)
 }
 
 /// Selects scenes with their bounds; all if no names are given.
@@ -64,15 +49,15 @@ fn select(names: &[&str]) -> Vec<(Scene, SceneBounds)> {
 }
 
 fn guarded() -> Vec<FilterChoice> {
-    select_filters(&GUARDED.map(str::to_owned), None, &[], Programs::Refused).unwrap()
+    let names: Vec<String> = GUARDED.split(' ').map(str::to_owned).collect();
+    select_filters(&names, None, &[], Programs::Refused).unwrap()
 }
 
 /// Judges the instant itself, and the mean of 64 sub-frames.
 fn judge_bars(scene: &Scene, bounds: &SceneBounds, out: &Path) -> [Vec<JudgedScore>; 2] {
-    let settings = render_settings();
     let rendering = Rendering {
         scene,
-        settings,
+        settings: settings(SIZE.into(), 256),
         out,
         monitor: Monitor::SILENT,
     };
@@ -89,13 +74,13 @@ fn judge_bars(scene: &Scene, bounds: &SceneBounds, out: &Path) -> [Vec<JudgedSco
 /// Formats the scores with an outcome.
 fn list(judged: &[JudgedScore], outcome: Outcome) -> String {
     let own = judged.iter().filter(|one| one.outcome == outcome);
-    own.map(|one| {
+    let text = |one: &JudgedScore| {
         format!(
             "{} {:?}, limit {}; ",
             one.metric, one.measured, one.bound.limit
         )
-    })
-    .collect()
+    };
+    own.map(text).collect()
 }
 
 fn check_bars(names: &[&str]) {
@@ -110,13 +95,8 @@ fn check_bars(names: &[&str]) {
         }
         let broken = list(&accumulation, Outcome::Broken);
         let noisy = list(&identity, Outcome::TooNoisy);
-        for (what, list) in [
-            ("64 sub-frames break", broken),
-            ("the truth is too noisy for", noisy),
-        ] {
-            if !list.is_empty() {
-                failures += &format!("{name}: {what} {list}\n");
-            }
+        if !broken.is_empty() || !noisy.is_empty() {
+            failures += &format!("{name}: 64 sub-frames break {broken}, too noisy for {noisy}\n");
         }
     }
     assert!(failures.is_empty(), "{failures}");
@@ -140,7 +120,7 @@ fn every_scene_requires_something_of_guarded_filters() {
     let size = size_for_bounds(scenes.iter().map(|(_, bounds)| bounds), &guarded(), None);
     assert_eq!(size.unwrap(), Some(SIZE));
     for (scene, bounds) in scenes {
-        for filter in GUARDED {
+        for filter in GUARDED.split(' ') {
             let (name, preset) = filter.split_once(':').unwrap();
             let bounds = bounds.of(name, preset);
             for metric in REQUIRED {
@@ -155,16 +135,13 @@ fn every_scene_requires_something_of_guarded_filters() {
 
 fn check_guarded(names: &[&str]) {
     let (scenes, bounds): (Vec<_>, Vec<_>) = select(names).into_iter().unzip();
-    let bounds = scenes
-        .iter()
-        .map(|scene| scene.id.clone())
-        .zip(bounds)
-        .collect();
+    let names = scenes.iter().map(|scene| scene.id.clone());
+    let bounds = names.zip(bounds).collect();
     let (out, _own) = lock_truths();
     let plan = RunPlan {
         scenes,
         filters: guarded(),
-        render: render_settings(),
+        render: settings(SIZE.into(), 256),
         out,
         intervals: true,
         // Equivalent sub-frames are not limited; `check` renders no ladder either.
@@ -173,13 +150,9 @@ fn check_guarded(names: &[&str]) {
     };
     let finished = measure_scenes(&plan, Some(&open_gpu()), Vec::new()).unwrap();
     let checked = check(&finished, judge(&finished, &bounds), Vec::new());
-    let required = checked
-        .findings
-        .iter()
-        .filter(|it| it.level == Level::Required);
-    let not_kept: Vec<_> = required
-        .filter(|it| !matches!(it.outcome, Outcome::Kept | Outcome::NotApplicable))
-        .collect();
+    let mut not_kept = checked.findings;
+    not_kept.retain(|it| it.level == Level::Required);
+    not_kept.retain(|it| !matches!(it.outcome, Outcome::Kept | Outcome::NotApplicable));
     assert_eq!(checked.decision, Decision::Pass, "{not_kept:#?}");
 }
 

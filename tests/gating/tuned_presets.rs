@@ -5,8 +5,8 @@ use std::path::Path;
 use cli::{Programs, paired_table, select_filters, select_scenes};
 use judge::{SceneBounds, read_bounds};
 use suite::Monitor;
-use tests::open_gpu;
-use tracer::{RenderSettings, Scene};
+use tests::{open_gpu, settings};
+use tracer::Scene;
 use tune::{
     Evaluator, LEAST_BLEED, PairedComparison, Preference, compare_candidates, render_scenes,
 };
@@ -20,30 +20,21 @@ fn held_out(names: &[&str], used: &[String]) -> Vec<(Scene, SceneBounds)> {
     let mut choices = select_scenes(&root, &names).unwrap();
     choices.retain(|choice| !used.contains(&choice.scene.id.to_string()));
     let bounds = |folder| read_bounds(&root, folder, None).unwrap();
-    choices
-        .into_iter()
-        .map(|choice| (choice.scene, bounds(choice.folder)))
-        .collect()
+    let choices = choices.into_iter();
+    (choices.map(|choice| (choice.scene, bounds(choice.folder)))).collect()
 }
 
-/// Compares a filter's tuned preset with the search's start preset. Lengths in pixels are as written, or scaled to the picture as
-/// for users.
+/// Compares a filter's tuned preset with the search's start. Lengths in pixels are as written, or scaled to the picture as for users.
 ///
 /// Both presets have the same noise, which only hides differences, so few samples give the same verdict.
 fn compare(name: &str, names: &[&str], width: u32, as_written: bool) -> (PairedComparison, String) {
     let gpu = open_gpu();
-    let render = RenderSettings {
-        width,
-        height: width * 9 / 16,
-        samples_per_pixel: 32,
-        ..RenderSettings::default()
-    };
+    let render = settings([width, width * 9 / 16], 32);
     // Truths are kept between runs of the tests.
     let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join("tuned");
-    let choice = select_filters(&[format!("{name}:tuned")], None, &[], Programs::Refused)
-        .unwrap()
-        .remove(0)
-        .as_written(as_written);
+    let words = [format!("{name}:tuned")];
+    let choices = select_filters(&words, None, &[], Programs::Refused);
+    let choice = choices.unwrap().remove(0).as_written(as_written);
     let mut presets = choice.filter.presets.iter();
     let tuned = presets.find_map(|preset| preset.tuned.as_ref()).unwrap();
     let scenes = held_out(names, &tuned.scenes);

@@ -15,17 +15,18 @@ pub struct Options {
         default_value = "jump_flood:corrected,mcguire:paper,guertin:paper,kino:default"
     )]
     pub filters: Vec<String>,
-    /// Names of scenes, with commas between them [default: all shipped ones]
-    #[arg(long, value_delimiter = ',')]
+    /// Names of scenes or patterns, with commas between them
+    #[arg(
+        long,
+        value_delimiter = ',',
+        default_value = "fan,railing,two_spheres,roll,crossing"
+    )]
     pub scenes: Vec<String>,
     /// Columns and rows of the pictures [default: the size that the shipped limits hold for]
     #[arg(long, value_parser = parse_size)]
     pub size: Option<(u32, u32)>,
     /// Samples per pixel of the truths
-    #[arg(
-        long = "samples-per-pixel",
-        default_value_t = tracer::RenderSettings::default().samples_per_pixel
-    )]
+    #[arg(long = "samples-per-pixel", default_value_t = 64)]
     pub samples: u32,
     /// Mutants of each filter, at most
     #[arg(long, default_value_t = 100)]

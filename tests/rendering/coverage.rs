@@ -5,10 +5,7 @@ use glam::{DVec2, DVec3};
 use tests::half_plane::half_plane;
 use tests::shapes::*;
 
-use crate::moving_shapes::{
-    DISTANCE, HEIGHT, SPEED, WIDTH, expect_coverage, half_plane_scene, mean_over_pixel,
-    moving_scene, pixel_corner,
-};
+use crate::moving_shapes::*;
 use crate::renders::{render_truth, settings_of_two};
 
 /// Checks of one shape's coverage, by alignment, angle of its motion, and exposure.

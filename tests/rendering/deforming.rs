@@ -11,20 +11,18 @@ use tracer::{Key, Mesh, Motion, Scene, Shape};
 use crate::intersection::expect_no_leak;
 use crate::moving_shapes::{DISTANCE, HEIGHT, WIDTH, expect_coverage, pixel_corner};
 use crate::renders::{render_frame, settings_with};
-use crate::scenery::{key, through};
 
 /// Makes a mesh with key shapes: `place` moves each vertex.
 pub fn deforming_mesh(mesh: Mesh, times: &[f64], place: impl Fn(Vec3, f64) -> Vec3) -> Mesh {
-    let shapes: Vec<Shape> = times
-        .iter()
-        .map(|&time| Shape {
-            time,
-            positions: mesh.positions.iter().map(|p| place(*p, time)).collect(),
-            normals: mesh.normals.clone(),
-        })
-        .collect();
+    let shape = |&time: &f64| Shape {
+        time,
+        positions: mesh.positions.iter().map(|p| place(*p, time)).collect(),
+        normals: mesh.normals.clone(),
+    };
+    let shapes: Vec<Shape> = times.iter().map(shape).collect();
+    let positions = shapes[0].positions.clone();
     Mesh {
-        positions: shapes[0].positions.clone(),
+        positions,
         shapes,
         ..mesh
     }
@@ -85,20 +83,16 @@ fn a_stretching_panel_covers_and_moves_as_its_edges_do() {
         }
     });
     let scene = scene_of(stretched, placed);
-    expect_coverage(
-        "stretched",
-        &scene,
-        Alignment::Trailing,
-        |pixel, shutter| {
-            let part = |open: f64, close: f64, offset, speed| {
-                let part = Shutter::new(open, close).expect("not empty");
-                let weight = part.exposure() / shutter.exposure();
-                weight * half_plane(pixel, DVec2::X, offset, speed, part)
-            };
-            let edge = part(shutter.open, -0.2, 5.0, 10.0) + part(-0.2, shutter.close, 2.0, -5.0);
-            edge - half_plane(pixel, DVec2::X, -5.0, 0.0, shutter)
-        },
-    );
+    let covered = |pixel: DVec2, shutter: Shutter| {
+        let part = |open: f64, close: f64, offset, speed| {
+            let part = Shutter::new(open, close).expect("not empty");
+            let weight = part.exposure() / shutter.exposure();
+            weight * half_plane(pixel, DVec2::X, offset, speed, part)
+        };
+        let edge = part(shutter.open, -0.2, 5.0, 10.0) + part(-0.2, shutter.close, 2.0, -5.0);
+        edge - half_plane(pixel, DVec2::X, -5.0, 0.0, shutter)
+    };
+    expect_coverage("stretched", &scene, Alignment::Trailing, covered);
     // At t = 0 the panel reaches from -5 to 2, and its points stretch in proportion.
     let velocities = render_velocities(&scene, VelocityKind::Instantaneous);
     for (pixel, [across, down]) in velocities.into_iter().enumerate() {
@@ -156,13 +150,12 @@ fn the_trees_agree_with_brute_force() {
     let mut scene = empty_scene("potatoes");
     let large = skewed(DVec3::X);
     add(&mut scene, potato(), glowing(1.0), large);
-    let small = through(
-        [(0.0, DVec3::NEG_X), (1.0, DVec3::Y)].map(|(time, place)| Key {
-            scale: DVec3::splat(0.5),
-            orientation: DQuat::from_rotation_x(1.0),
-            ..key(time, place)
-        }),
-    );
+    let half = |(time, place)| Key {
+        scale: DVec3::splat(0.5),
+        orientation: DQuat::from_rotation_x(1.0),
+        ..key(time, place)
+    };
+    let small = through([(0.0, DVec3::NEG_X), (1.0, DVec3::Y)].map(half));
     add(&mut scene, icosphere(1.0, 1), glowing(1.0), small);
     scene.objects[1].mesh = 0;
     expect_what_every_triangle_gives(&scene, [-0.9, 0.6], 1.5, 2000);

@@ -3,17 +3,18 @@
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use frame::{Alignment, Efficiency, Frame, FrameOptions, Ladder, Truth, VelocityKind};
+use frame::{Alignment, Efficiency, Frame, Ladder, Truth, VelocityKind};
 use glam::{DVec3, Vec3};
 use tests::shapes::*;
+use tests::text::read_rows;
 use tests::unwatched;
 use tracer::{
-    Background, Lens, Material, Progress, RenderSettings, Scene, TraceError, frame_hash,
-    ladder_hash, replicate_hash, trace_ladder, trace_truth, truth_hash,
+    Background, Lens, Progress, RenderSettings, Scene, TraceError, frame_hash, ladder_hash,
+    replicate_hash, trace_ladder, trace_truth, truth_hash,
 };
 
-use crate::renders::{render_frame, render_ladder, render_truth, settings};
-use crate::scenery::sun;
+use crate::lens::with_lens;
+use crate::renders::{render_frame, render_ladder, render_truth, settings, sun};
 use crate::translucency::{film, glass};
 
 const RUNGS: [u32; 3] = [1, 4, 16];
@@ -28,19 +29,14 @@ fn busy_scene() -> Scene {
     };
     scene.sun = sun(DVec3::new(0.6, 0.8, 0.0), 1.0, 0.02);
     let at = |x: f64, z: f64| DVec3::new(x, 0.0, z);
-    let smoke = Material {
-        diffuse: Vec3::splat(0.8),
-        ..film(Vec3::ZERO, 0.4, Vec3::new(0.8, 0.9, 1.0))
-    };
+    let mut smoke = film(Vec3::ZERO, 0.4, Vec3::new(0.8, 0.9, 1.0));
+    smoke.diffuse = Vec3::splat(0.8);
     let lamp = film(Vec3::splat(4.0), 0.6, Vec3::ONE);
     let tinted = glass(1.6, Vec3::new(0.9, 1.0, 0.8));
     let turning = spin(at(1.0, -4.0), DVec3::Y, 2.0);
+    let drifting = drift(at(-1.0, -4.0), DVec3::X);
     for (mesh, material, motion) in [
-        (
-            icosphere(1.0, 2),
-            diffuse(0.7),
-            drift(at(-1.0, -4.0), DVec3::X),
-        ),
+        (icosphere(1.0, 2), diffuse(0.7), drifting),
         (cuboid(Vec3::ONE), glowing(2.0), turning),
         (rectangle(9.0, 9.0), diffuse(0.5), placed(at(0.0, -5.0))),
         (icosphere(0.5, 1), smoke, spin(at(0.0, -3.0), DVec3::Y, 1.0)),
@@ -99,10 +95,8 @@ fn one_thread_and_several_give_the_same_bytes() {
 #[test]
 fn another_seed_gives_other_noise() {
     let scene = busy_scene();
-    let other = RenderSettings {
-        seed: 2,
-        ..own_settings()
-    };
+    let mut other = own_settings();
+    other.seed = 2;
     let [a, b] = [own_settings(), other].map(|settings| everything(&scene, &settings));
     assert_ne!(a.1.halves, b.1.halves);
     assert_ne!(a.1.halves[0], a.1.halves[1]);
@@ -133,10 +127,8 @@ fn pictures_bear_the_hashes_of_their_inputs() {
 fn hashes_change_with_everything_that_changes_pixels() {
     let (scene, settings) = (busy_scene(), own_settings());
     let leading = truth_hash(&scene, &settings, Alignment::Leading);
-    let mut all = vec![
-        leading,
-        ladder_hash(&scene, &settings, Alignment::Centred, &[1, 4]),
-    ];
+    let of_ladder = ladder_hash(&scene, &settings, Alignment::Centred, &[1, 4]);
+    let mut all = vec![leading, of_ladder];
     all.extend(hashes(&scene, &settings));
     let changes: [fn(&mut RenderSettings); 4] = [
         |settings| settings.width = 34,
@@ -149,11 +141,8 @@ fn hashes_change_with_everything_that_changes_pixels() {
         change(&mut settings);
         all.extend(hashes(&scene, &settings));
     }
-    all.push(truth_hash(
-        &scene,
-        &settings.with_replicates(4),
-        Alignment::Centred,
-    ));
+    let four = settings.with_replicates(4);
+    all.push(truth_hash(&scene, &four, Alignment::Centred));
     let lens = |aperture, focus| Some(Lens { aperture, focus });
     let changes: [&dyn Fn(&mut Scene); 6] = [
         &|scene| scene.hash = "other".into(),
@@ -179,31 +168,18 @@ fn hashes_change_with_everything_that_changes_pixels() {
 #[test]
 fn hashes_leave_out_what_changes_no_pixel() {
     let (scene, settings) = (busy_scene(), own_settings());
-    let named = RenderSettings {
-        exposure: Some(scene.exposure),
-        ..settings
-    };
-    let of_frame = RenderSettings {
-        options: FrameOptions {
-            velocity: VelocityKind::PreviousFrame,
-            ..settings.options
-        },
-        guard_band: 3,
-        ..named
-    };
+    let mut named = settings;
+    named.exposure = Some(scene.exposure);
+    let mut of_frame = named;
+    of_frame.options.velocity = VelocityKind::PreviousFrame;
+    of_frame.guard_band = 3;
     let own = hashes(&scene, &settings);
     assert_eq!(own[1..], hashes(&scene, &of_frame)[1..]);
     assert_ne!(own[0], frame_hash(&scene, &of_frame));
-    let of_truth = RenderSettings {
-        replicates: 2,
-        ..named
-    };
+    let mut of_truth = named;
+    of_truth.replicates = 2;
     assert_eq!(own[0], frame_hash(&scene, &of_truth));
-    let mut lens = scene.clone();
-    lens.camera.lens = Some(Lens {
-        aperture: 0.3,
-        focus: 3.0,
-    });
+    let lens = with_lens(scene, 0.3, 3.0);
     assert_eq!(own, hashes(&lens.pinhole(), &settings));
 }
 
@@ -240,27 +216,25 @@ fn bad_settings_are_refused_with_the_allowed_values() {
         let refused = trace_truth(scene, &settings, alignment, &unwatched);
         refused.expect_err("refused").to_string()
     };
-    let changes: [fn(&mut RenderSettings); 6] = [
-        |settings| settings.samples_per_pixel = 100,
-        |settings| settings.samples_per_pixel = 4,
-        |settings| settings.replicates = 3,
-        |settings| settings.replicates = 0,
-        |settings| settings.height = 0,
-        |settings| settings.exposure = Some(-0.5),
-    ];
-    let expected = [
-        "is 100 over 8 replicates; allowed: 8 times a power of two up to 65536, such as 128",
-        "is 4 over 8 replicates; allowed: 8 times a power of two up to 65536, such as 8",
-        "replicates is 3; allowed: even numbers from 2, such as 8",
-        "replicates is 0; allowed: even numbers from 2, such as 8",
-        "size is 33x0; allowed: 1 to 16384 pixels on either side, 67108864 in all",
-        "exposure is -0.5 frames; allowed: above 0 and finite (0.5 frames = 180 degrees)",
-    ];
-    for (change, expected) in changes.into_iter().zip(expected) {
-        let mut settings = settings;
-        change(&mut settings);
+    for (change, expected) in read_rows(
+        "
+        samples 100 => is 100 over 8 replicates; allowed: 8 times a power of two up to 65536, such as 128
+        samples 4 => is 4 over 8 replicates; allowed: 8 times a power of two up to 65536, such as 8
+        replicates 3 => replicates is 3; allowed: even numbers from 2, such as 8
+        replicates 0 => replicates is 0; allowed: even numbers from 2, such as 8
+        height 0 => size is 33x0; allowed: 1 to 16384 pixels on either side, 67108864 in all
+        exposure -0.5 => exposure is -0.5 frames; allowed: above 0 and finite (0.5 frames = 180 degrees)",
+    ) {
+        let (mut settings, (name, number)) = (settings, change.split_once(' ').unwrap());
+        let number: f64 = number.parse().unwrap();
+        match name {
+            "samples" => settings.samples_per_pixel = number as u32,
+            "replicates" => settings.replicates = number as u32,
+            "height" => settings.height = number as u32,
+            _ => settings.exposure = Some(number),
+        }
         let refused = refusal(&scene, settings, Alignment::Centred);
-        assert!(refused.ends_with(expected), "{refused}");
+        assert!(refused.ends_with(expected[0]), "{refused}");
     }
     let mut zoom = scene.clone();
     zoom.camera.vertical_fov = vec![(0.0, 1.0), (0.1, 2.0)];

@@ -1,13 +1,12 @@
 //! Frames in engines' forms: velocity from only the camera, colour at pixel centres, a still sky, a guard band.
 
-use frame::{ColorSampling, Frame, VelocityKind};
+use frame::{ColorSampling, VelocityKind};
 use glam::{DQuat, DVec3, Vec3};
 use tests::shapes::*;
 use tests::unwatched;
-use tracer::{Background, Key, RenderSettings, Scene, TraceError, Turn, trace_frame};
+use tracer::{Background, Key, Scene, TraceError, Turn, trace_frame};
 
 use crate::renders::{render_frame, settings, settings_with};
-use crate::scenery::{key, through};
 
 const SIZE: [u32; 2] = [36, 24];
 
@@ -104,16 +103,12 @@ fn a_frame_inside_its_guard_band_equals_the_bare_frame() {
     for velocity in VelocityKind::ALL {
         let settings = settings_with(SIZE, 4, velocity);
         let bare = render_frame(&scene, &settings);
-        let padded = RenderSettings {
-            guard_band: 5,
-            ..settings
-        };
+        let mut padded = settings;
+        padded.guard_band = 5;
         let padded = render_frame(&scene, &padded);
         assert_eq!(padded.size(), (SIZE[0] + 10, SIZE[1] + 10));
-        let cropped = Frame {
-            provenance: bare.provenance.clone(),
-            ..padded.cropped()
-        };
+        let mut cropped = padded.cropped();
+        cropped.provenance = bare.provenance.clone();
         assert_eq!(cropped, bare, "{velocity}");
     }
 }

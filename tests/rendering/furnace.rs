@@ -6,11 +6,10 @@ use frame::Truth;
 use glam::{DQuat, DVec3, Vec2, Vec3};
 use tests::shapes::*;
 use tests::statistics::{estimate_pixels, expect_pooled_agreement};
-use tracer::{Background, EnvironmentMap, Key, Material, Scene, Texture};
+use tracer::{Background, EnvironmentMap, Key, Scene, Texture};
 
 use crate::deforming::deforming_mesh;
-use crate::renders::{expect_near, mean_radiance, render_small_truth};
-use crate::scenery::{facing_up, floor_scene, heights, sun, through, turned};
+use crate::renders::*;
 use crate::translucency::{film, glass};
 
 /// Fails unless the first component agrees with one known value.
@@ -42,11 +41,8 @@ fn a_textured_panel_hangs_upright_and_has_its_holes() {
     // One metre is one pixel; the panel fills the picture.
     let mut panel = rectangle(16.0, 9.0);
     panel.texcoords = vec![Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y];
-    let paint = Material {
-        emission_texture: Some(0),
-        opacity_texture: Some(0),
-        ..glowing(2.0)
-    };
+    let mut paint = glowing(2.0);
+    (paint.emission_texture, paint.opacity_texture) = (Some(0), Some(0));
     let at = placed(DVec3::new(0.0, 0.0, -4.5));
     add(&mut scene, panel, paint, at);
     let mean = render_small_truth(&scene, 64).mean();
@@ -55,8 +51,7 @@ fn a_textured_panel_hangs_upright_and_has_its_holes() {
         let found = mean.color.at(x, y)[0];
         assert!((found - expected).abs() < 1e-6, "{found} at ({x}, {y})");
     }
-    // Interpolated alpha is below 0.5 in a square of two texels with rounded corners: 4 (0.5 + 0.75 - ln(2) / 2) of 16
-    // texels.
+    // Interpolated alpha is below 0.5 in a square of two texels with rounded corners: 4 (0.5 + 0.75 - ln(2) / 2) of 16 texels.
     let area: f64 = mean.coverage[0].pixels.iter().copied().map(f64::from).sum();
     let expected = 144.0 / 16.0 * 4.0 * (1.25 - 0.5 * 2f64.ln());
     // Rms 0.02 in about 25 border pixels: 0.1 in the sum.
@@ -67,10 +62,8 @@ fn a_textured_panel_hangs_upright_and_has_its_holes() {
 fn a_closed_glowing_sphere_has_the_radiance_of_the_geometric_series() {
     for albedo in [0.2, 0.5, 0.8] {
         let mut scene = empty_scene("furnace");
-        let walls = Material {
-            emission: Vec3::splat(1.0 - albedo),
-            ..diffuse(albedo)
-        };
+        let mut walls = diffuse(albedo);
+        walls.emission = Vec3::splat(1.0 - albedo);
         let motion = spin(DVec3::ZERO, DVec3::Y, 2.0);
         add(&mut scene, icosphere(3.0, 2), walls, motion);
         let truth = render_small_truth(&scene, 256);
@@ -85,11 +78,8 @@ fn white_things_under_a_white_sky_cannot_be_seen() {
     let away = |x: f64| DVec3::new(x, 0.0, -4.0);
     let pillar = cuboid(Vec3::new(0.3, 3.0, 0.3));
     let clear = glass(1.5, Vec3::ONE);
-    let dirty = Material {
-        opacity: 0.3,
-        diffuse: Vec3::ONE,
-        ..glass(1.9, Vec3::ONE)
-    };
+    let mut dirty = glass(1.9, Vec3::ONE);
+    (dirty.opacity, dirty.diffuse) = (0.3, Vec3::ONE);
     let white = || diffuse(1.0);
     // Smooth normals, concave corners, glass and motion must neither take nor give energy.
     for (mesh, material, motion) in [
@@ -194,10 +184,8 @@ fn a_surface_in_the_sun_s_shadow_is_black_and_a_hole_lets_it_through() {
     for (opacity, expected) in [(1.0, 0.0), (0.49, 0.6 / PI)] {
         let mut scene = grey_floor();
         scene.sun = sun(DVec3::Y, 1.0, 0.0);
-        let screen = Material {
-            opacity,
-            ..diffuse(0.0)
-        };
+        let mut screen = diffuse(0.0);
+        screen.opacity = opacity;
         let above = facing_up(DVec3::Y);
         add(&mut scene, rectangle(1.0, 1.0), screen, above);
         let what = format!("opacity {opacity}");
@@ -264,13 +252,7 @@ fn a_sky_and_its_image_light_a_floor_by_the_cosine() {
 fn a_small_bright_sun_in_an_image_is_found() {
     let mut scene = grey_floor();
     // One texel 39 degrees from straight up.
-    let bright = |x, y| {
-        if (x, y) == (20, 6) {
-            [1000.0; 3]
-        } else {
-            [0.0; 3]
-        }
-    };
+    let bright = |x, y| [f32::from((x, y) == (20, 6)) * 1000.0; 3];
     scene.background = map(64, 0.0, bright);
     // The bilinear tent around the texel's middle, by the midpoint rule.
     let steps = 200;

@@ -1,6 +1,5 @@
 //! Rendering: frames and truths against known answers, and their files.
 
-mod accumulation;
 mod at_instant;
 mod coverage;
 mod deforming;
@@ -17,7 +16,6 @@ mod moving_shapes;
 mod pixel_grid;
 mod regions;
 mod renders;
-mod scenery;
 mod shutter;
 mod tiles;
 mod translucency;

@@ -9,7 +9,6 @@ use tests::statistics::{coverage_estimates, expect_agreement, expect_total};
 use tracer::{Key, Mesh, RenderSettings, Scene};
 
 use crate::renders::{render_truth, settings};
-use crate::scenery::through;
 
 pub const WIDTH: u32 = 32;
 pub const HEIGHT: u32 = 18;
@@ -22,8 +21,7 @@ pub fn truth_settings() -> RenderSettings {
     settings([WIDTH, HEIGHT], 1024)
 }
 
-/// Makes a scene of one mesh, turned by `angle`, that is at `place(t)` at these times and moves straight between them. The shutter is
-/// open for 0.75 frames.
+/// Makes a scene of one mesh, turned by `angle`, at `place(t)` at these times, straight between them. The shutter is open for 0.75 frames.
 pub fn moving_scene(mesh: Mesh, angle: f64, times: &[f64], place: impl Fn(f64) -> DVec2) -> Scene {
     let mut scene = empty_scene("moving");
     scene.exposure = 0.75;

@@ -10,7 +10,6 @@ use tracer::{
 };
 
 use crate::renders::{render_frame, settings_with};
-use crate::scenery::{key, through};
 
 const WIDTH: u32 = 36;
 const HEIGHT: u32 = 24;
@@ -57,10 +56,8 @@ fn a_grid_that_is_off_by_whole_pixels_shows_what_lies_beside() {
     // Half a pixel changes the silhouette, and layers rendered alone equal the frame's.
     let half = render_on([WIDTH, HEIGHT], [0.5, 0.5]);
     assert_ne!(half.object_id, own.object_id);
-    let grid = PixelGrid {
-        size: [WIDTH, HEIGHT],
-        offset: [0.5, 0.5],
-    };
+    let mut grid = PixelGrid::of_picture(WIDTH, HEIGHT);
+    grid.offset = [0.5, 0.5];
     let scene = drifting_sphere();
     let points = trace_motion_on(&scene, &settings, &PointMotion::RIGHT, &grid).expect("allowed");
     assert_eq!(points.velocity, half.velocity);
@@ -73,12 +70,8 @@ fn movers_show_through_walls_without_a_depth_test() {
     scene.camera.motion = through([Key::REST]);
     let free = render_frame(&scene, &settings([WIDTH, HEIGHT]));
     // A still wall in front of the left half of the picture.
-    add(
-        &mut scene,
-        rectangle(4.0, 4.0),
-        glowing(0.5),
-        placed(DVec3::new(-2.0, 0.0, -1.0)),
-    );
+    let wall = placed(DVec3::new(-2.0, 0.0, -1.0));
+    add(&mut scene, rectangle(4.0, 4.0), glowing(0.5), wall);
     let trace = |motion| {
         let grid = PixelGrid::of_picture(WIDTH, HEIGHT);
         trace_motion_on(&scene, &settings([WIDTH, HEIGHT]), &motion, &grid).expect("allowed")
@@ -90,16 +83,9 @@ fn movers_show_through_walls_without_a_depth_test() {
         assert_eq!(*through.object_id.at(x, y) == 1, is_sphere, "({x}, {y})");
         let is_hidden = is_sphere && *right.object_id.at(x, y) == 2;
         shown += usize::from(is_hidden);
-        if !is_hidden {
-            assert_eq!(
-                through.velocity.at(x, y),
-                right.velocity.at(x, y),
-                "({x}, {y})"
-            );
-        } else {
-            assert_eq!(right.velocity.at(x, y), &[0.0; 2]);
-            assert_ne!(through.velocity.at(x, y), &[0.0; 2]);
-        }
+        let [through, right] = [&through, &right].map(|it| *it.velocity.at(x, y));
+        assert_eq!(through == right, !is_hidden, "({x}, {y})");
+        assert!(!is_hidden || right == [0.0; 2], "({x}, {y})");
     }
     assert!(shown > 10, "{shown} pixels of the sphere are hidden");
 }
@@ -147,10 +133,7 @@ fn pixels_that_are_not_square_cover_the_whole_picture() {
 
 #[test]
 fn a_grid_without_pixels_is_refused() {
-    let grid = PixelGrid {
-        size: [0, 4],
-        offset: [0.0; 2],
-    };
+    let grid = PixelGrid::of_picture(0, 4);
     let settings = settings([WIDTH, HEIGHT]);
     let refused = trace_frame_part(&drifting_sphere(), &settings, &grid, None, &unwatched);
     assert!(matches!(refused, Err(TraceError::Size { width: 0, .. })));

@@ -4,7 +4,7 @@ use frame::{Alignment, Replicate, Truth, TruthError};
 use metrics::{Region, Regions, measure, regions};
 use tests::synthetic::{Object, Sampling, Scene, Shape, VIEWING};
 use tests::unwatched;
-use tracer::{RenderSettings, TruthTracer};
+use tracer::TruthTracer;
 
 use crate::renders::{load_shipped, render_truth, settings};
 
@@ -19,10 +19,9 @@ pub fn expect_support(scene: &str, truth: &Truth) {
     for (object, seen) in truth.support.seen.iter().enumerate() {
         let matte = &mean.coverage[object].pixels;
         let sum = |wanted: bool| -> f64 {
-            (matte.iter().zip(&seen.pixels))
-                .filter(|(_, seen)| **seen == wanted)
-                .map(|(matte, _)| f64::from(*matte))
-                .sum()
+            let pixels = matte.iter().zip(&seen.pixels);
+            let pixels = pixels.filter(|(_, seen)| **seen == wanted);
+            pixels.map(|(matte, _)| f64::from(*matte)).sum()
         };
         let (missed, held) = (sum(false), sum(true));
         // 64 rays miss half of the objects that cover a hundredth of a pixel. Wires are worst, with 0.24 %.
@@ -38,11 +37,8 @@ fn the_support_depends_on_no_noise_and_holds_nearly_all_coverage() {
     for name in ["two_spheres", "fan", "wires"] {
         let scene = load_shipped(name);
         let [few, many] = [(16, 2, 1), (128, 4, 2)].map(|(samples, replicates, seed)| {
-            let settings = RenderSettings {
-                replicates,
-                seed,
-                ..settings([80, 45], samples)
-            };
+            let mut settings = tests::settings_of([80, 45], samples, replicates);
+            settings.seed = seed;
             render_truth(&scene, &settings, Alignment::Trailing)
         });
         expect_support(name, &many);
@@ -59,9 +55,8 @@ fn replicates_with_different_supports_are_refused() {
     let scene = load_shipped("two_spheres");
     let settings = settings([16, 9], 16);
     let tracer = TruthTracer::new(&scene, &settings, &[Alignment::Trailing]).unwrap();
-    let mut replicates: Vec<Replicate> = (0..2)
-        .flat_map(|index| tracer.trace(index, &unwatched).unwrap())
-        .collect();
+    let trace = |index| tracer.trace(index, &unwatched).unwrap().remove(0);
+    let mut replicates: [Replicate; 2] = [0, 1].map(trace);
     assert!(Truth::of(&replicates).is_ok());
     let pixel = &mut replicates[1].support.moving.pixels[0];
     *pixel = !*pixel;

@@ -1,18 +1,17 @@
-//! Renders of scenes, means of their colours, and their comparison with known numbers.
+//! Poses, skies and floors shared by several tests; renders, means of their colours, and comparison with known numbers.
+
+use std::f64::consts::FRAC_PI_2;
 
 use frame::{Alignment, Frame, Image, Ladder, Truth, VelocityKind};
-use tests::{scenes, unwatched};
-use tracer::{RenderSettings, Scene, load_scene, trace_frame, trace_ladder, trace_truth};
-
-/// Makes settings of a size and samples per pixel, those of a truth in 8 replicates.
-pub fn settings([width, height]: [u32; 2], samples_per_pixel: u32) -> RenderSettings {
-    RenderSettings {
-        width,
-        height,
-        samples_per_pixel,
-        ..RenderSettings::default()
-    }
-}
+use glam::{DQuat, DVec3, Vec3};
+pub use tests::near::expect_near;
+pub use tests::settings;
+use tests::shapes::*;
+use tests::{scenes, settings_of, unwatched};
+use tracer::{
+    Background, Key, Material, Motion, RenderSettings, Scene, Sun, load_scene, trace_frame,
+    trace_ladder, trace_truth,
+};
 
 /// Makes settings of a size, samples per pixel, and a kind of motion for the velocity buffer.
 pub fn settings_with(
@@ -27,10 +26,7 @@ pub fn settings_with(
 
 /// Makes settings of a size and samples per pixel in 2 replicates.
 pub fn settings_of_two(size: [u32; 2], samples_per_pixel: u32) -> RenderSettings {
-    RenderSettings {
-        replicates: 2,
-        ..settings(size, samples_per_pixel)
-    }
+    settings_of(size, samples_per_pixel, 2)
 }
 
 pub fn render_frame(scene: &Scene, settings: &RenderSettings) -> Frame {
@@ -52,11 +48,8 @@ pub fn render_ladder(
 
 /// Renders a centred truth of 16 x 9 pixels.
 pub fn render_small_truth(scene: &Scene, samples_per_pixel: u32) -> Truth {
-    render_truth(
-        scene,
-        &settings([16, 9], samples_per_pixel),
-        Alignment::Centred,
-    )
+    let settings = settings([16, 9], samples_per_pixel);
+    render_truth(scene, &settings, Alignment::Centred)
 }
 
 /// Returns the mean of the first component over such a truth.
@@ -81,9 +74,53 @@ pub fn rms_difference(a: &Image, b: &Image) -> f64 {
     (squares.sum::<f64>() / a.pixels.len() as f64).sqrt()
 }
 
-/// Fails unless two numbers are as near as the tolerance.
-#[track_caller]
-pub fn expect_near(what: &str, found: f64, expected: f64, tolerance: f64) {
-    let off = (found - expected).abs();
-    assert!(off <= tolerance, "{what}: {found}, not {expected}");
+/// Makes a still pose.
+pub fn turned(translation: DVec3, orientation: DQuat) -> Motion {
+    Motion::still(Key {
+        translation,
+        orientation,
+        ..Key::REST
+    })
+}
+
+/// Makes the still pose of a rectangle or disc that faces upwards.
+pub fn facing_up(at: DVec3) -> Motion {
+    turned(at, DQuat::from_rotation_x(-FRAC_PI_2))
+}
+
+/// Makes a grey sky that changes with the height.
+pub fn heights(ground: f32, horizon: f32, zenith: f32) -> Background {
+    Background::Gradient {
+        ground: Vec3::splat(ground),
+        horizon: Vec3::splat(horizon),
+        zenith: Vec3::splat(zenith),
+    }
+}
+
+/// Makes a white sun; its angular radius is in radians.
+pub fn sun(direction: DVec3, irradiance: f32, angular_radius: f64) -> Option<Sun> {
+    Some(Sun {
+        direction: direction.normalize(),
+        irradiance: Vec3::splat(irradiance),
+        angular_radius,
+    })
+}
+
+/// Returns the part of unpolarised light that one smooth side of an index reflects, by Fresnel's equations.
+pub fn fresnel(cosine: f64, index: f64) -> f64 {
+    // Snell's law.
+    let inside = (1.0 - (1.0 - cosine * cosine) / (index * index)).sqrt();
+    let across = (cosine - index * inside) / (cosine + index * inside);
+    let along = (index * cosine - inside) / (index * cosine + inside);
+    0.5 * (across * across + along * along)
+}
+
+/// Makes a floor at y = 0, with one small spot that the camera sees at a slope of 1 to 2. There the light of a lamp 1 m above varies by
+/// less than 2e-6 of itself.
+pub fn floor_scene(material: Material) -> Scene {
+    let mut scene = empty_scene("floor");
+    let floor = facing_up(DVec3::ZERO);
+    add(&mut scene, rectangle(100.0, 100.0), material, floor);
+    look_at_a_spot(&mut scene);
+    scene
 }

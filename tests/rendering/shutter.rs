@@ -6,9 +6,7 @@ use tests::half_plane::{area, half_plane};
 use tests::unwatched;
 use tracer::{Interpolation, Scene, TraceError, trace_truth};
 
-use crate::moving_shapes::{
-    HEIGHT, SPEED, WIDTH, expect_coverage, half_plane_scene, pixel_corner, truth_settings,
-};
+use crate::moving_shapes::*;
 use crate::renders::{render_ladder, render_truth, settings};
 
 /// Efficiency, and its formula over the parts of the interval.
@@ -27,9 +25,7 @@ fn curves() -> [Curve; 5] {
         }),
         (trapezoid(1.0, 0.0), |part| part),
         (trapezoid(0.0, 0.5), |part| (2.0 - 2.0 * part).min(1.0)),
-        (trapezoid(0.4, 0.6), |part| {
-            (part / 0.4).min((1.0 - part) / 0.6)
-        }),
+        (trapezoid(0.4, 0.6), |p| (p / 0.4).min((1.0 - p) / 0.6)),
         (Efficiency::Table(TABLE.to_vec()), |part| {
             let step = ((3.0 * part) as usize).min(2);
             let rest = 3.0 * part - step as f64;
@@ -174,9 +170,10 @@ fn invalid_shutters_are_refused() {
     for never in [trapezoid(nan, 0.0), trapezoid(0.0, nan), table(&[1.0, nan])] {
         assert!(never.check().is_err(), "{never}");
     }
+    let (rolling, efficiency) = (-infinite, Efficiency::Box);
     let profile = ShutterProfile {
-        rolling: -infinite,
-        ..ShutterProfile::default()
+        efficiency,
+        rolling,
     };
     assert_eq!(profile.check(), Err(ShutterError::Rolling(-infinite)));
     let reversed = Shutter::new(0.75, 0.25).unwrap_err().to_string();

@@ -17,19 +17,15 @@ fn settings() -> RenderSettings {
 
 /// Tiles at the corners, inside, of one pixel, and the whole of a picture.
 fn tiles(width: u32, height: u32) -> [Tile; 5] {
-    let tile = |x, y, width, height| Tile {
+    let corner = [width - 5, height - 7, 5, 7];
+    let (inside, pixel, whole) = ([9, 6, 16, 12], [17, 11, 1, 1], [0, 0, width, height]);
+    let places = [[0, 0, 8, 8], corner, inside, pixel, whole];
+    places.map(|[x, y, width, height]| Tile {
         x,
         y,
         width,
         height,
-    };
-    [
-        tile(0, 0, 8, 8),
-        tile(width - 5, height - 7, 5, 7),
-        tile(9, 6, 16, 12),
-        tile(17, 11, 1, 1),
-        Tile::whole(width, height),
-    ]
+    })
 }
 
 /// Cuts a tile out of a replicate.
@@ -78,10 +74,8 @@ fn a_tile_of_a_replicate_holds_what_the_replicate_holds_there() {
 #[test]
 fn a_tile_of_a_frame_holds_what_the_frame_holds_there() {
     let scene = load_shipped("fan");
-    let settings = RenderSettings {
-        replicates: 1,
-        ..settings()
-    };
+    let mut settings = settings();
+    settings.replicates = 1;
     let whole = render_frame(&scene, &settings);
     let grid = PixelGrid::of_picture(settings.width, settings.height);
     for tile in tiles(46, 30) {

@@ -1,17 +1,19 @@
-//! Truths and accumulations: stillness, independent halves, sub-frames, motion masks.
+//! Truths and accumulations: stillness, independent halves, sub-frames and their worth, motion masks.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use frame::{Alignment, FAR_DEPTH, Plane, Replicate, Truth};
+use frame::{Alignment, FAR_DEPTH, Picture, Plane, Replicate, Truth};
 use glam::{DVec3, Vec3};
+use metrics::{Metric, Reference};
 use tests::shapes::*;
 use tests::statistics::{estimate_pixels, expect_pooled_agreement};
 use tests::unwatched;
-use tracer::{Background, Parent, RenderSettings, Scene, TruthTracer, trace_ladder};
+use tracer::{
+    Background, Parent, Progress, RenderSettings, Scene, TruthTracer, load_scene, trace_ladder,
+};
 
-use crate::renders::{render_frame, render_ladder, render_truth, settings};
-use crate::scenery::sun;
+use crate::renders::{expect_near, render_frame, render_ladder, render_truth, settings, sun};
 
 const WIDTH: u32 = 48;
 const HEIGHT: u32 = 18;
@@ -131,9 +133,8 @@ fn a_ladder_s_rungs_average_midpoint_instants() {
         for half in &rung.halves {
             let found = half.coverage[1].pixels.chunks(WIDTH as usize);
             let off = found.flat_map(|row| row.iter().zip(&exact));
-            let squares: f64 = off
-                .map(|(found, exact)| (f64::from(*found) - exact).powi(2))
-                .sum();
+            let off = off.map(|(found, exact)| f64::from(*found) - exact);
+            let squares: f64 = off.map(|off| off * off).sum();
             let rms = (squares / f64::from(WIDTH * HEIGHT)).sqrt();
             // Still edges at 32 samples and more: 0.02 (prototype), and few pixels are edges.
             assert!(rms < 0.02, "{count} sub-frames: rms {rms}");
@@ -150,11 +151,11 @@ fn a_ladder_equals_the_truth_at_still_pixels_and_costs_no_more() {
     let settings = own_settings(512);
     let truth = render_truth(&scene, &settings, Alignment::Trailing);
     let work = AtomicU64::new(0);
-    let ladder = trace_ladder(&scene, &settings, &truth, &store::LADDER, &|progress| {
+    let watch = |progress: Progress| {
         work.store(progress.total, Ordering::Relaxed);
         ControlFlow::Continue(())
-    })
-    .expect("allowed");
+    };
+    let ladder = trace_ladder(&scene, &settings, &truth, &store::LADDER, &watch).expect("allowed");
     let whole = u64::from(WIDTH * HEIGHT * settings.samples_per_pixel);
     assert!(work.into_inner() <= whole);
     let mean = truth.mean();
@@ -176,13 +177,11 @@ fn the_motion_mask_is_the_coverage_of_objects_that_move_on_screen() {
     }
     // A dashboard.
     scene.objects[2].parent = Parent::Camera;
+    let along = drift(DVec3::ZERO, SPEED * DVec3::X);
     // Camera still, moving along, turning.
     for (camera, moving) in [
         (placed(DVec3::ZERO), [false, true, false, false]),
-        (
-            drift(DVec3::ZERO, SPEED * DVec3::X),
-            [false, false, true, false],
-        ),
+        (along, [false, false, true, false]),
         (spin(DVec3::ZERO, DVec3::Y, 0.2), [true, true, true, false]),
     ] {
         scene.camera.motion = camera;
@@ -207,5 +206,30 @@ fn a_frame_holds_the_instant_and_not_the_shutter() {
         assert!((frame.depth.at(x, y) / depth - 1.0).abs() < 1e-6);
         let velocity = if inside { SPEED } else { 0.0 };
         assert!((f64::from(frame.velocity.at(x, y)[0]) - velocity).abs() < 1e-5);
+    }
+}
+
+#[test]
+fn n_subframes_are_worth_n() {
+    let folder = tests::scenes().join("sliding_panel");
+    // 128 px per frame at 640x360 are 8 px over this shutter and size: 8 sub-frames are a pixel apart, each count's error well above noise.
+    let scene = load_scene(&folder, Some("128px_30deg")).unwrap();
+    let mut settings = settings([80, 45], 512);
+    settings.exposure = Some(1.0);
+    let mut coarse = settings;
+    coarse.samples_per_pixel = 64;
+    let frame = render_frame(&scene, &coarse);
+    let truth = render_truth(&scene, &settings, Alignment::Trailing);
+    let ladder = render_ladder(&scene, &settings, &truth, &store::LADDER);
+    let reference = Reference::new(&frame, &truth, Some(&ladder), &scene.display.into()).unwrap();
+    // Another seed than the reference's.
+    let mut again = settings;
+    again.seed = 2;
+    for rung in render_ladder(&scene, &again, &truth, &[2, 4, 8]).rungs {
+        let measured = reference.measure(&Picture::mean(&rung.halves));
+        let scores = measured.unwrap().scores;
+        let n = f64::from(rung.subframes);
+        let found = scores.get(Metric::SUBFRAMES).value().unwrap();
+        expect_near(&format!("{n} sub-frames"), found, n, 0.05 * n);
     }
 }

@@ -7,8 +7,7 @@ use tracer::{
     Interpolation, Key, Motion, Parent, PixelGrid, Scene, Turn, trace_further_velocities,
 };
 
-use crate::renders::{self, expect_near, settings_with};
-use crate::scenery::{key, through, turned};
+use crate::renders::{self, expect_near, settings_with, turned};
 
 const WIDTH: u32 = 33;
 const HEIGHT: u32 = 21;

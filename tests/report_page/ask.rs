@@ -82,7 +82,7 @@ fn answers_by_keys_survive_a_reload_and_become_a_scale() {
         browser.until(&format!("document.body.dataset.frame === '{frame}'"));
     }
     let sizes = browser.value(
-        "[...document.querySelectorAll('#stage canvas')].map(own => [own.width, own.getBoundingClientRect().width / own.width])",
+        "$$('#stage canvas').map(own => [own.width, own.getBoundingClientRect().width / own.width])",
     );
     // As many as fit 800 pixels with two rows of 32, and words around them.
     let zoom = sizes[0][1].as_u64().expect("it is a whole number");
@@ -163,10 +163,8 @@ fn the_page_draws_the_sessions_that_the_program_expects() {
     let mut browser = Browser::new(390, 700);
     browser.open(&sandbox.path("out/ask/index.html"), "");
     for most_pairs in [7, 13, 20, 1000] {
-        let study = Study {
-            most_pairs,
-            ..study.clone()
-        };
+        let mut study = study.clone();
+        study.most_pairs = most_pairs;
         let text = serde_json::to_string(&study).unwrap();
         for (question, seeds) in [
             (Question::Truth, 0..20),

@@ -14,19 +14,9 @@ use tungstenite::{Message, WebSocket};
 /// Time limit, far longer than anything here takes on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// Options of a headless Chromium with pictures that are the same everywhere.
-const OPTIONS: [&str; 9] = [
-    "--headless",
-    "--no-sandbox",
-    "--disable-gpu",
-    // Without a graphics card, a processor runs the shaders of pages.
-    "--enable-unsafe-webgpu",
-    "--use-webgpu-adapter=swiftshader",
-    "--hide-scrollbars",
-    "--no-first-run",
-    "--remote-debugging-port=0",
-    "--force-color-profile=srgb",
-];
+/// Options of a headless Chromium with pictures that are the same everywhere; a processor runs the shaders of its pages.
+const OPTIONS: &str = "--headless --no-sandbox --disable-gpu --hide-scrollbars --no-first-run --remote-debugging-port=0 \
+                       --force-color-profile=srgb --enable-unsafe-webgpu --use-webgpu-adapter=swiftshader";
 
 /// Programs to look for on the PATH if the variable CHROMIUM names none.
 const NAMES: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "chrome"];
@@ -46,14 +36,11 @@ impl Browser {
     /// Starts Chromium with an empty tab of this size in pixels.
     pub fn new(width: u32, height: u32) -> Self {
         let profile = tempfile::tempdir().unwrap();
-        let mut process = Command::new(program())
-            .args(OPTIONS)
-            .arg(format!("--user-data-dir={}", profile.path().display()))
-            .arg("about:blank")
-            .stdout(Stdio::null())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
+        let mut command = Command::new(program());
+        command.args(OPTIONS.split_whitespace()).arg("about:blank");
+        command.arg(format!("--user-data-dir={}", profile.path().display()));
+        command.stdout(Stdio::null()).stderr(Stdio::piped());
+        let mut process = command.spawn().unwrap();
         let address = read_address(&mut process);
         let host = address.strip_prefix("ws://").unwrap();
         let stream = TcpStream::connect(host.split('/').next().unwrap()).unwrap();
@@ -91,9 +78,9 @@ impl Browser {
         self.call("Page.setDownloadBehavior", words);
     }
 
-    /// Evaluates an expression, and waits for promises.
+    /// Evaluates an expression, and waits for promises; `$` and `$$` find the first element and all elements of a selector.
     pub fn value(&mut self, expression: &str) -> Value {
-        let words = json!({"expression": expression, "returnByValue": true, "awaitPromise": true});
+        let words = json!({"expression": expression, "returnByValue": true, "awaitPromise": true, "includeCommandLineAPI": true});
         let answer = self.call("Runtime.evaluate", words);
         let error = answer.get("exceptionDetails");
         assert!(error.is_none(), "{expression}: {answer}");
@@ -103,26 +90,23 @@ impl Browser {
     /// Evaluates an expression that is a text.
     pub fn text(&mut self, expression: &str) -> String {
         let value = self.value(expression);
-        let text = value.as_str();
+        let text = value.as_str().map(str::to_owned);
         text.unwrap_or_else(|| panic!("{expression}: {value}"))
-            .to_owned()
     }
 
     /// Returns the text of the first element that a selector finds.
     pub fn read(&mut self, selector: &str) -> String {
-        self.text(&format!("document.querySelector('{selector}').textContent"))
+        self.text(&format!("$('{selector}').textContent"))
     }
 
     /// Clicks the first element that a selector finds.
     pub fn click(&mut self, selector: &str) {
-        self.value(&format!("document.querySelector('{selector}').click()"));
+        self.value(&format!("$('{selector}').click()"));
     }
 
     /// Returns whether the first element that a selector finds is visible.
     pub fn shows(&mut self, selector: &str) -> bool {
-        self.value(&format!(
-            "document.querySelector('{selector}').checkVisibility()"
-        )) == true
+        self.value(&format!("$('{selector}').checkVisibility()")) == true
     }
 
     /// Waits until an expression is true.
@@ -195,7 +179,7 @@ impl Browser {
     /// Returns left, top, width and height of the first element that a selector finds, in the window.
     pub fn place(&mut self, selector: &str) -> [f64; 4] {
         let place = self.value(&format!(
-            "(() => {{ const box = document.querySelector('{selector}').getBoundingClientRect(); \
+            "(() => {{ const box = $('{selector}').getBoundingClientRect(); \
              return [box.left, box.top, box.width, box.height]; }})()"
         ));
         [0, 1, 2, 3].map(|at| place[at].as_f64().unwrap())
@@ -216,38 +200,29 @@ impl Browser {
 
     fn picture_at(&mut self, [x, y, width, height]: [f64; 4]) -> Vec<u8> {
         let clip = json!({"x": x, "y": y, "width": width, "height": height, "scale": 1});
-        let shot = self.call(
-            "Page.captureScreenshot",
-            json!({"clip": clip, "captureBeyondViewport": true}),
-        );
+        let words = json!({"clip": clip, "captureBeyondViewport": true});
+        let shot = self.call("Page.captureScreenshot", words);
         STANDARD.decode(shot["data"].as_str().unwrap()).unwrap()
     }
 
     /// Returns the page's complaints: errors, warnings and refused requests.
     pub fn complaints(&mut self) -> Vec<String> {
-        const COMPLAINTS: [&str; 4] = [
-            "Runtime.exceptionThrown",
-            "Runtime.consoleAPICalled",
-            "Log.entryAdded",
-            "Page.javascriptDialogOpening",
-        ];
+        const COMPLAINTS: &str = "Runtime.exceptionThrown Runtime.consoleAPICalled Log.entryAdded Page.javascriptDialogOpening";
         // All earlier events have arrived before this answer.
         self.value("0");
-        let events = self.events.iter();
-        let complaints =
-            events.filter(|event| COMPLAINTS.iter().any(|method| event["method"] == *method));
+        let is_complaint = |event: &&Value| COMPLAINTS.split(' ').any(|own| event["method"] == own);
+        let complaints = self.events.iter().filter(is_complaint);
         complaints.map(Value::to_string).collect()
     }
 
     /// Returns the addresses of all requests, except for embedded pictures.
     pub fn requests(&mut self) -> Vec<String> {
         self.value("0");
-        let sent =
-            (self.events.iter()).filter(|event| event["method"] == "Network.requestWillBeSent");
-        sent.filter_map(|event| event["params"]["request"]["url"].as_str())
-            .filter(|url| !url.starts_with("data:"))
-            .map(str::to_owned)
-            .collect()
+        let is_sent = |event: &&Value| event["method"] == "Network.requestWillBeSent";
+        let sent = self.events.iter().filter(is_sent);
+        let urls = sent.filter_map(|event| event["params"]["request"]["url"].as_str());
+        let urls = urls.filter(|url| !url.starts_with("data:"));
+        urls.map(str::to_owned).collect()
     }
 
     fn call(&mut self, method: &str, params: Value) -> Value {
@@ -256,9 +231,8 @@ impl Browser {
         if let Some(session) = &self.session {
             message["sessionId"] = json!(session);
         }
-        self.socket
-            .send(Message::text(message.to_string()))
-            .unwrap();
+        let message = Message::text(message.to_string());
+        self.socket.send(message).unwrap();
         loop {
             let Message::Text(text) = self.socket.read().unwrap() else {
                 continue;

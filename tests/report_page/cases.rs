@@ -8,14 +8,12 @@ use crate::{Check, make_page, measure, open_case, open_page, press, run_checks, 
 
 /// Returns the picture in a pane, as a data address.
 fn canvas(browser: &mut Browser, place: &str) -> String {
-    browser.text(&format!(
-        "document.querySelector('[data-place={place}] canvas').toDataURL()"
-    ))
+    browser.text(&format!("$('[data-place={place}] canvas').toDataURL()"))
 }
 
 fn pick(browser: &mut Browser, side: &str, picture: &str) {
     browser.value(&format!(
-        "(() => {{ const menu = document.querySelector('[name={side}]'); menu.value = '{picture}'; \
+        "(() => {{ const menu = $('[name={side}]'); menu.value = '{picture}'; \
          menu.dispatchEvent(new Event('change')); }})()"
     ));
     settle(browser);
@@ -51,13 +49,13 @@ fn any_filter_can_be_compared_with_any_other(browser: &mut Browser, page: &Path)
     pick(browser, "right", "velocity_gather:fine");
     assert_eq!(canvas(browser, "over"), own);
     assert_eq!(canvas(browser, "under"), gathered);
-    let tags = "[...document.querySelectorAll('.stack .tag')].map(tag => tag.textContent).join()";
+    let tags = "$$('.stack .tag').map(tag => tag.textContent).join()";
     assert_eq!(browser.text(tags), "velocity_gather:fine,identity:default");
     pick(browser, "right", "identity:default");
     assert_eq!(canvas(browser, "under"), own);
     // A picture does not differ from itself; the instant differs from the truth.
     press(browser, "5");
-    let colors = "(() => { const own = document.querySelector('[data-place=under] canvas'); \
+    let colors = "(() => { const own = $('[data-place=under] canvas'); \
                   const copy = new OffscreenCanvas(own.width, own.height).getContext('2d'); copy.drawImage(own, 0, 0); \
                   return new Set(new Uint32Array(copy.getImageData(0, 0, own.width, own.height).data.buffer)).size; })()";
     assert_eq!(browser.value(colors), 1);
@@ -65,7 +63,7 @@ fn any_filter_can_be_compared_with_any_other(browser: &mut Browser, page: &Path)
     assert!(browser.value(colors).as_u64().unwrap() > 1);
     for picture in split("instant scatter_oracle@trailing accumulate:16@trailing flip") {
         pick(browser, "left", picture);
-        let shown = browser.text("document.querySelector('[name=left]').value");
+        let shown = browser.text("$('[name=left]').value");
         assert_eq!(shown, picture);
     }
 }
@@ -81,8 +79,7 @@ fn a_link_opens_the_same_view(browser: &mut Browser, page: &Path) {
     assert!(link.starts_with("#plate/velocity_gather:fine&"), "{link}");
     let views = |browser: &mut Browser| {
         ["left", "right"].map(|place| {
-            let transform =
-                format!("document.querySelector('[data-place={place}]').style.transform");
+            let transform = format!("$('[data-place={place}]').style.transform");
             (canvas(browser, place), browser.text(&transform))
         })
     };
@@ -123,22 +120,20 @@ fn blink_goes_on_until_it_is_stopped(browser: &mut Browser, page: &Path) {
 
 fn wheel_and_worst_place_zoom_and_the_zoom_is_shown(browser: &mut Browser, page: &Path) {
     open_case(browser, page, "plate/identity:default");
-    let zoom = "document.querySelector('.zoom').textContent";
+    let zoom = "$('.zoom').textContent";
     assert_eq!(browser.text(zoom), "1×");
     let [left, top, width, height] = browser.place(".stack");
     browser.turn_wheel(left + width / 3.0, top + height / 2.0, -100.0);
     browser.until(&format!("{zoom} === '1.3×'"));
     press(browser, "w");
     assert_eq!(browser.text(zoom), "6×");
-    let worst = browser.text("document.querySelector('article.open .viewer_place').dataset.worst");
-    browser.until(&format!(
-        "document.querySelector('.readout').dataset.pixel === '{worst}'"
-    ));
+    let worst = browser.text("$('article.open .viewer_place').dataset.worst");
+    browser.until(&format!("$('.readout').dataset.pixel === '{worst}'"));
     press(browser, "0");
     assert_eq!(browser.text(zoom), "1×");
     // The read-out floats next to the pointer.
     browser.point(left + width / 2.0, top + height / 2.0);
-    browser.until("document.querySelector('.tip').textContent.includes('identity:default: ')");
+    browser.until("$('.tip').textContent.includes('identity:default: ')");
     let [x, y, ..] = browser.place(".tip");
     let off = [x - left - width / 2.0, y - top - height / 2.0];
     assert!(off.iter().all(|off| off.abs() < 40.0), "{x} {y}");
@@ -153,12 +148,12 @@ fn divider_and_keys_change_the_shown_pictures(browser: &mut Browser, page: &Path
     let [left, top, width, height] = browser.place(".stack");
     let [middle, row] = [left + width / 2.0, top + height / 2.0];
     browser.drag([middle, row], [left + 0.9 * width, row]);
-    let split_at = browser.value("document.querySelector('[name=split]').value");
+    let split_at = browser.value("$('[name=split]').value");
     assert_eq!(split_at, "90");
     let mut seen = vec![first, browser.picture(STAGE)];
     for key in split("3 4 1 a m m e 5 1 + [ w ArrowRight x") {
         if key == "ArrowRight" {
-            browser.value("document.querySelector('.stack').focus()");
+            browser.value("$('.stack').focus()");
         }
         press(browser, key);
         let now = browser.picture(STAGE);
@@ -170,17 +165,18 @@ fn divider_and_keys_change_the_shown_pictures(browser: &mut Browser, page: &Path
     browser.value("document.getElementById('keys').close()");
 
     browser.value("location.hash = '#overview'");
-    browser.until("document.querySelector('#overview').checkVisibility()");
+    browser.until("$('#overview').checkVisibility()");
     assert!(!browser.shows("#viewer"));
 }
 
 fn headings_sort_both_ways(browser: &mut Browser, _: &Path) {
     let column = |browser: &mut Browser, press: bool| -> Vec<f64> {
         if press {
-            browser.value("document.querySelectorAll('.sortable')[0].tHead.rows[0].cells[1].querySelector('button').click()");
+            browser
+                .value("$$('.sortable')[0].tHead.rows[0].cells[1].querySelector('button').click()");
         }
         let values = browser.value(
-            "[...document.querySelector('.sortable tbody:not(.group)').rows].map(row => Number(row.cells[1].dataset.value))",
+            "[...$('.sortable tbody:not(.group)').rows].map(row => Number(row.cells[1].dataset.value))",
         );
         serde_json::from_value(values).unwrap()
     };
@@ -195,7 +191,7 @@ fn headings_sort_both_ways(browser: &mut Browser, _: &Path) {
 fn rows_of_one_shutter_stay_together_when_headings_sort(browser: &mut Browser, _: &Path) {
     let names = |browser: &mut Browser| {
         let rows = browser.text(
-            "[...document.querySelector('.sortable').tBodies].map(group => [...group.rows].map(row => \
+            "[...$('.sortable').tBodies].map(group => [...group.rows].map(row => \
              row.cells[0].textContent).sort().join(', ')).join('; ')",
         );
         rows.split("; ").map(str::to_owned).collect::<Vec<_>>()
@@ -205,7 +201,7 @@ fn rows_of_one_shutter_stay_together_when_headings_sort(browser: &mut Browser, _
     let headings = [&before[0], &before[2]];
     assert_eq!(headings, ["trailing shutter", "centred shutter"]);
     assert!(before[1].contains("velocity_gather:fine") && before[3].contains("bevy:high"));
-    browser.value("document.querySelector('.sortable').tHead.rows[0].cells[1].querySelector('button').click()");
+    browser.value("$('.sortable').tHead.rows[0].cells[1].querySelector('button').click()");
     assert_eq!(names(browser), before);
 }
 
@@ -239,7 +235,7 @@ fn printed_pages_show_both_pictures_whole(browser: &mut Browser, page: &Path) {
         "{over:?} {under:?}"
     );
     assert_eq!(under[2..], over[2..]);
-    let clip = browser.text("getComputedStyle(document.querySelector('.over')).clipPath");
+    let clip = browser.text("getComputedStyle($('.over')).clipPath");
     assert_eq!(clip, "none");
     assert!(!browser.shows("#viewer .toolbar"));
 }

@@ -113,17 +113,17 @@ fn a_page_opens_without_complaint_and_asks_for_nothing_else() {
 fn every_key_that_the_page_lists_works(browser: &mut Browser, page: &Path) {
     open_case(browser, page, "plate/identity:default");
     let state = "[location.hash.split('&')[0], document.documentElement.dataset.theme, document.getElementById('viewer').dataset.mode, \
-                 ...['left', 'right', 'split'].map(name => document.querySelector(`[name=${name}]`).value), \
-                 document.querySelector('[name=exposure]:checked').value, document.querySelector('.zoom').textContent, \
-                 document.querySelector('.readout').dataset.pixel, document.getElementById('viewer').hidden].join()";
-    let is_open = "(document.querySelector('article.open')?.id ?? 'overview') === location.hash.slice(1).split('&')[0]";
+                 ...['left', 'right', 'split'].map(name => $(`[name=${name}]`).value), \
+                 $('[name=exposure]:checked').value, $('.zoom').textContent, \
+                 $('.readout').dataset.pixel, document.getElementById('viewer').hidden].join()";
+    let is_open = "($('article.open')?.id ?? 'overview') === location.hash.slice(1).split('&')[0]";
     let mut before = browser.text(state);
     for key in split(
         "3 4 5 1 a A m M x w - + = 0 e [ ] PageUp PageDown ArrowRight ArrowLeft ArrowDown ArrowUp t j k l h 2 o",
     ) {
         if key == "PageUp" {
             // Side by side it was hidden.
-            browser.value("document.querySelector('.stack').focus()");
+            browser.value("$('.stack').focus()");
         }
         browser.press(key);
         // A key pressed while another case is about to open is lost.
@@ -153,29 +153,20 @@ fn a_broken_bound_is_seen_with_its_place_and_its_pictures() {
     let output = sandbox.check(&["--filters", "identity"]);
     assert_eq!(output.status.code(), Some(1));
     let mut browser = open_page(&make_page(&sandbox));
-    let outcome = browser.text("document.querySelector('.outcome').innerText");
+    let outcome = browser.text("$('.outcome').innerText");
     let due = "FAIL 1 required bound: 1 broken";
     assert!(outcome.starts_with(due), "{outcome}");
     browser.click(".failures a");
     browser.until("location.hash === '#plate/identity:default'");
     settle(&mut browser);
-    let section = browser.text("document.querySelector('article.open .verdicts').innerText");
-    let parts = [
-        "Why it failed",
-        "BROKEN flip_moving 0.2",
-        "it serves a test",
-        "no_blur",
-        "95 % CI",
-        "noise floor",
-    ];
+    let section = browser.text("$('article.open .verdicts').innerText");
+    let parts = "Why it failed | BROKEN flip_moving 0.2 | it serves a test | no_blur | 95 % CI | noise floor";
     assert_contains(&section, &parts);
     // Truth, output and error are drawn, and no two of them are equal.
-    let canvas = |at: usize| {
-        format!("document.querySelectorAll('article.open .crop canvas')[{at}].toDataURL()")
-    };
+    let canvas = |at: usize| format!("$$('article.open .crop canvas')[{at}].toDataURL()");
     let [truth, output, error] = [0, 1, 2].map(canvas);
     browser.until(&format!(
-        "new Set([{truth}, {output}, {error}, (() => {{ const own = document.querySelector('article.open .crop canvas'); \
+        "new Set([{truth}, {output}, {error}, (() => {{ const own = $('article.open .crop canvas'); \
          return Object.assign(document.createElement('canvas'), {{width: own.width, height: own.height}}).toDataURL(); }})()]).size === 4"
     ));
     let worst = sandbox.read_findings()[0].worst.clone().unwrap();

@@ -11,11 +11,9 @@ use crate::{make_page, make_page_within, measure, open_case};
 
 /// Returns the read-out's rows by layer, each with its texts.
 pub fn read_out(browser: &mut Browser, x: u32, y: u32) -> serde_json::Value {
-    browser.until(&format!(
-        "document.querySelector('.readout').dataset.pixel === '{x},{y}'"
-    ));
+    browser.until(&format!("$('.readout').dataset.pixel === '{x},{y}'"));
     browser.value(
-        "Object.fromEntries([...document.querySelectorAll('.readout tr:not([hidden])')].map(row => \
+        "Object.fromEntries($$('.readout tr:not([hidden])').map(row => \
          [row.dataset.layer, [...row.cells].slice(1).map(cell => cell.textContent).filter(text => text)]))",
     )
 }
@@ -94,7 +92,7 @@ fn assert_read_outs(browser: &mut Browser, files: &[ExrFile; 4]) {
         browser.point(left + at[0], top + at[1]);
         check(browser, x, y);
     }
-    browser.value("document.querySelector('.stack').focus()");
+    browser.value("$('.stack').focus()");
     browser.press("ArrowRight");
     browser.press("ArrowDown");
     check(browser, 4, 3);
@@ -112,7 +110,7 @@ fn numbers_and_tables_in_a_page_or_beside_it_are_those_of_the_files() {
     let files = files_of(&sandbox, own.unwrap());
     let whole = make_page(&sandbox);
     let mut browser = Browser::new(1280, 900);
-    let article = "[...document.querySelectorAll('article.open > :not(.viewer_place)')].map((own) => own.textContent).join()";
+    let article = "$$('article.open > :not(.viewer_place)').map((own) => own.textContent).join()";
     open_case(&mut browser, &whole, "plate/velocity_gather:fine");
     let words = browser.text(article);
     assert!(words.contains("flip_moving"), "{words}");
@@ -126,9 +124,7 @@ fn numbers_and_tables_in_a_page_or_beside_it_are_those_of_the_files() {
     assert_eq!(browser.text(article), words);
     assert_read_outs(&mut browser, &files);
     browser.press("k");
-    browser.until(
-        "document.querySelector('article.open h2').textContent === 'plate / identity:default'",
-    );
+    browser.until("$('article.open h2').textContent === 'plate / identity:default'");
     assert_eq!(browser.complaints(), [""; 0]);
     let due = [&page, &tables, &numbers].map(|path| address_of(path));
     assert_eq!(browser.requests(), due);
@@ -146,5 +142,5 @@ fn numbers_and_tables_in_a_page_or_beside_it_are_those_of_the_files() {
     fs::remove_file(&numbers).unwrap();
     open(&mut browser);
     browser.until(&format!("{article}.includes('tables_0.js is missing')"));
-    browser.until("document.querySelector('.hint').textContent.includes('scene_0.js is missing')");
+    browser.until("$('.hint').textContent.includes('scene_0.js is missing')");
 }

@@ -22,7 +22,7 @@ fn main() {
     times.sort();
     let [least, median, most] = [0, REPEATS / 2, REPEATS - 1].map(|at| times[at].as_secs_f64());
     let bytes = page.metadata().expect("its size").len();
-    let elements = browser.value("document.querySelectorAll('*').length");
+    let elements = browser.value("$$('*').length");
     println!(
         "opened in {median:.2} s ({least:.2} to {most:.2} s, {REPEATS} times): {:.1} MB, {elements} elements",
         bytes as f64 / 1e6

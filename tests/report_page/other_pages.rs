@@ -23,17 +23,15 @@ fn a_comparison_shows_pictures_first_and_a_change_with_sign_and_word() {
     assert!(top + height < 900.0, "the pictures are on the first screen");
     let before = browser.picture(".pair");
     browser.value(
-        "(() => { const own = document.querySelector('.trio input'); own.value = 5; own.dispatchEvent(new Event('input')); })()",
+        "(() => { const own = $('.trio input'); own.value = 5; own.dispatchEvent(new Event('input')); })()",
     );
     assert!(browser.picture(".pair") != before, "the divider moves");
-    let changes = browser.text(
-        "[...document.querySelectorAll('td.worse')].map(cell => cell.textContent).join('; ')",
-    );
+    let changes = browser.text("$$('td.worse').map(cell => cell.textContent).join('; ')");
     assert!(changes.starts_with('+'), "{changes}");
     assert!(changes.contains(" worse"), "{changes}");
     // For scores where higher is better, less is worse and has a minus.
     let psnr = browser.text(
-        "[...document.querySelectorAll('.trio ~ .scroll tr')].find(row => row.textContent.startsWith('psnr_moving')).cells[3].textContent",
+        "$$('.trio ~ .scroll tr').find(row => row.textContent.startsWith('psnr_moving')).cells[3].textContent",
     );
     assert!(psnr.starts_with('-') && psnr.ends_with("worse"), "{psnr}");
     assert_eq!(browser.complaints(), [""; 0]);
@@ -52,7 +50,7 @@ fn a_tuning_fits_the_screen_and_marks_unbeaten_candidates() {
     browser.open(&page, "");
     assert_eq!(browser.value("document.documentElement.scrollWidth"), 390);
     // No blue mark of the chart has another mark to the left and below, or next to it.
-    let beaten = "(() => { const marks = [...document.querySelectorAll('.drawings svg')[0].querySelectorAll('circle:not(.ring)')]; \
+    let beaten = "(() => { const marks = [...$$('.drawings svg')[0].querySelectorAll('circle:not(.ring)')]; \
                   const at = mark => [mark.cx.baseVal.value, -mark.cy.baseVal.value]; \
                   const blue = marks.filter(mark => !mark.classList.contains('faint')); \
                   return [blue.length, blue.filter(own => marks.some(other => at(other)[0] < at(own)[0] - 0.05 && at(other)[1] < at(own)[1] - 0.05)).length]; })()";
@@ -71,10 +69,11 @@ fn a_sequence_plays_in_step_and_goes_frame_by_frame() {
     // The last sequence is the filter's.
     let last = sandbox.read_run().sequences.len() - 1;
     browser.open(&page, &format!("#{last}"));
-    let loaded = "[...document.querySelectorAll('#pictures img:not([hidden])')].every(own => own.complete && own.naturalWidth === 64)";
+    let loaded =
+        "$$('#pictures img:not([hidden])').every(own => own.complete && own.naturalWidth === 64)";
     browser.until(loaded);
     let addresses = |browser: &mut Browser| {
-        browser.text("[...document.querySelectorAll('#pictures img:not([hidden])')].map(own => own.src).join(' ')")
+        browser.text("$$('#pictures img:not([hidden])').map(own => own.src).join(' ')")
     };
     // The first frame has no change.
     assert_eq!(addresses(&mut browser).split(' ').count(), 4);

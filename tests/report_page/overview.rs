@@ -10,7 +10,7 @@ use crate::{Check, make_page, measure, open_page, run_checks};
 /// Returns the names in the visible rows.
 fn rows(browser: &mut Browser) -> String {
     browser.text(
-        "[...document.querySelectorAll('.panel:not([hidden]) tbody:not(.group) tr:not([hidden])')].map(row => \
+        "$$('.panel:not([hidden]) tbody:not(.group) tr:not([hidden])').map(row => \
          row.cells[0].textContent).join()",
     )
 }
@@ -46,11 +46,10 @@ fn the_search_filters_rows_and_references_show_on_request() {
     let due = "accumulate:1 identity identity:default scatter_oracle velocity_gather:fine";
     assert_eq!(all, due);
     show("at('[value=psnr_moving]').checked = true");
-    let title = browser.text("document.querySelector('.panel:not([hidden])').dataset.metric");
+    let title = browser.text("$('.panel:not([hidden])').dataset.metric");
     assert_eq!(title, "psnr_moving");
     // The thumbnail of the truth is above its column, whichever score is shown.
-    browser
-        .until("document.querySelector('.panel:not([hidden]) th.scene img').naturalWidth === 64");
+    browser.until("$('.panel:not([hidden]) th.scene img').naturalWidth === 64");
     assert_eq!(browser.complaints(), [""; 0]);
 }
 
@@ -76,15 +75,15 @@ fn a_link_opens_the_same_table(browser: &mut Browser, page: &Path) {
     );
     browser.until("location.hash === '#overview&metric=row_loss&search=y_g%20%26%20100%25%2B'");
     assert_eq!(rows(browser), "");
-    let nothing = "document.querySelector('.nothing').checkVisibility()";
+    let nothing = "$('.nothing').checkVisibility()";
     assert_eq!(browser.value(nothing), true);
     browser.value(
-        "(() => { const search = document.querySelector('[name=search]'); search.value = 'y_g'; \
+        "(() => { const search = $('[name=search]'); search.value = 'y_g'; \
          search.dispatchEvent(new Event('input', {bubbles: true})); })()",
     );
     browser.until("location.hash === '#overview&metric=row_loss&search=y_g'");
     let link = browser.text("location.hash");
-    let seen = "[document.querySelector('.panel:not([hidden])').dataset.metric, document.querySelector('[name=search]').value].join()";
+    let seen = "[$('.panel:not([hidden])').dataset.metric, $('[name=search]').value].join()";
     browser.value("document.wasSeen = true; location.reload()");
     browser.until("!document.wasSeen && document.readyState === 'complete'");
     browser.until(&format!("{seen} === 'row_loss,y_g'"));
@@ -105,21 +104,14 @@ fn a_link_opens_the_same_table(browser: &mut Browser, page: &Path) {
 fn a_cell_shows_its_worst_place_and_a_name_leads_to_the_filter(browser: &mut Browser, _: &Path) {
     let [x, y, width, height] = browser.place(".panel tbody:not(.group) tr:not([hidden]) a.case");
     browser.point(x + width / 2.0, y + height / 2.0);
-    browser.until("!document.querySelector('.peek').hidden");
-    let different = "new Set([...document.querySelectorAll('.peek canvas')].map(canvas => canvas.toDataURL())).size";
+    browser.until("!$('.peek').hidden");
+    let different = "new Set($$('.peek canvas').map(canvas => canvas.toDataURL())).size";
     assert_eq!(browser.value(different), 3);
     browser.click(".winners a");
     browser.until("location.hash === '#filter:velocity_gather:fine'");
     assert!(!browser.shows("#overview"));
-    let text = browser.text("document.querySelector('article.open').innerText");
-    let parts = [
-        "velocity_gather:fine",
-        "published",
-        "limits",
-        "Parameters",
-        "Scenes, the weakest first",
-        "plate",
-    ];
+    let text = browser.text("$('article.open').innerText");
+    let parts = "velocity_gather:fine | published | limits | Parameters | Scenes, the weakest first | plate";
     assert_contains(&text, &parts);
     browser.click("article.open a.scene");
     browser.until("location.hash.startsWith('#plate/velocity_gather:fine')");
@@ -127,15 +119,15 @@ fn a_cell_shows_its_worst_place_and_a_name_leads_to_the_filter(browser: &mut Bro
 }
 
 fn only_the_table_that_is_seen_is_parsed_until_somebody_prints(browser: &mut Browser, _: &Path) {
-    let tables = "document.querySelectorAll('.panel table').length";
+    let tables = "$$('.panel table').length";
     assert_eq!(browser.value(tables), 1);
     browser.click("[name=metric][value=psnr_moving]");
     browser.until(&format!("{tables} === 2"));
-    let sorted = "document.querySelector('.panel:not([hidden]) thead th[aria-sort]') !== null";
+    let sorted = "$('.panel:not([hidden]) thead th[aria-sort]') !== null";
     browser.click(".panel:not([hidden]) thead th:nth-child(2) button");
     assert_eq!(browser.value(sorted), true);
     browser.paper();
-    let panels = browser.value("document.querySelectorAll('.panel').length");
+    let panels = browser.value("$$('.panel').length");
     assert_eq!(browser.value(tables), panels);
     assert_eq!(rows(browser), "velocity_gather:fine,identity:default");
 }
@@ -150,16 +142,14 @@ fn tables_have_captions_and_pictures_have_words(browser: &mut Browser, page: &Pa
             ("img", "!own.hasAttribute('alt')"),
             (
                 "canvas",
-                "!own.closest('[aria-hidden=true]') && own.checkVisibility() && !own.ariaLabel",
+                "!hidden && own.checkVisibility() && !own.ariaLabel",
             ),
-            (
-                "svg",
-                "!own.closest('[aria-hidden=true]') && !own.ariaLabel",
-            ),
+            ("svg", "!hidden && !own.ariaLabel"),
             ("button", "!own.ariaLabel && !own.textContent.trim()"),
         ] {
+            let lacks = lacks.replace("hidden", "own.closest('[aria-hidden=true]')");
             let found = browser.text(&format!(
-                "[...document.querySelectorAll('{elements}')].filter(own => {lacks}).map(own => own.outerHTML.slice(0, 200)).join('; ')"
+                "$$('{elements}').filter(own => {lacks}).map(own => own.outerHTML.slice(0, 200)).join('; ')"
             ));
             assert_eq!(found, "", "{part} {elements}");
         }

@@ -38,7 +38,7 @@ fn show(page: &Path, part: &str, folder: &Path) {
         for scheme in ["light", "dark"] {
             browser.prefer(scheme);
             browser.open(page, part);
-            browser.until("!document.querySelector('#viewer:not([hidden])') || document.querySelector('#viewer').dataset.drawn === document.querySelector('#viewer').dataset.asked");
+            browser.until("!$('#viewer:not([hidden])') || $('#viewer').dataset.drawn === $('#viewer').dataset.asked");
             browser
                 .value("new Promise(done => requestAnimationFrame(() => setTimeout(done, 300)))");
             let most = SCREENFULS * f64::from(height);

@@ -1,9 +1,9 @@
 //! Finishes and environments read from a scene's files.
 
 use image::{ImageBuffer, Rgb32FImage};
-use tracer::{Background, EnvironmentMap, Finish};
+use tracer::{Background, Finish};
 
-use crate::scene_folder::Folder;
+use crate::Folder;
 
 /// Loads the finish of the second object's material `paint`, with more MTL statements and more keys of its table in the scene.
 fn load_finish(statements: &str, keys: &str) -> Finish {
@@ -22,6 +22,7 @@ fn load_finish(statements: &str, keys: &str) -> Finish {
 fn roughness_makes_gloss_and_metallic_makes_metal_and_a_scene_changes_them() {
     let coated = |roughness, index| Finish::Coated { roughness, index };
     let metal = |roughness| Finish::Conductor { roughness };
+    let both = "metallic = false\nindex_of_refraction = 1.3";
     for (statements, keys, expected) in [
         ("", "", Finish::Diffuse),
         // Exporters write a refractive index for every material.
@@ -37,11 +38,7 @@ fn roughness_makes_gloss_and_metallic_makes_metal_and_a_scene_changes_them() {
         ("", "roughness = 0.1", coated(0.1, 1.5)),
         ("Pr 0.5\nNi 2", "roughness = 0.1", coated(0.1, 2.0)),
         ("Pr 0.5", "metallic = true", metal(0.5)),
-        (
-            "Pr 0.5\nPm 1",
-            "metallic = false\nindex_of_refraction = 1.3",
-            coated(0.5, 1.3),
-        ),
+        ("Pr 0.5\nPm 1", both, coated(0.5, 1.3)),
         ("Pr 0.5", "index_of_refraction = 1", Finish::Diffuse),
     ] {
         let found = load_finish(statements, keys);
@@ -70,19 +67,11 @@ fn an_environment_is_read_from_exr_and_hdr() {
         let Background::Map(map) = folder.load().unwrap().background else {
             panic!("{name} is a map");
         };
-        let EnvironmentMap {
-            width,
-            height,
-            texels,
-            strength,
-            rotation,
-            ..
-        } = map;
-        assert_eq!((width, height, strength), (4, 2, 2.0));
-        assert_eq!(rotation, std::f64::consts::FRAC_PI_2);
+        assert_eq!((map.width, map.height, map.strength), (4, 2, 2.0));
+        assert_eq!(map.rotation, std::f64::consts::FRAC_PI_2);
         // EXR stays linear, and the shared exponent of HDR holds these numbers exactly.
         let expected: Vec<[f32; 3]> = (0..8).map(|count| [count as f32, 1.0, 0.5]).collect();
-        assert_eq!(texels, expected, "{name}");
+        assert_eq!(map.texels, expected, "{name}");
     }
     let folder = folder_with_background("image = \"sky.exr\"");
     counting_image().save(folder.path.join("sky.exr")).unwrap();

@@ -8,12 +8,7 @@ use crate::{load_shipped, shipped_with_variants};
 
 /// Projects a world point into the still camera's picture, in pixels.
 fn project(scene: &Scene, point: DVec3) -> DVec2 {
-    let seen = scene
-        .camera
-        .motion
-        .at(0.0)
-        .inverse()
-        .transform_point3(point);
+    let seen = (scene.camera.motion.at(0.0).inverse()).transform_point3(point);
     let focal = f64::from(scene.height) / 2.0 / (scene.camera.vertical_fov[0].1 / 2.0).tan();
     let middle = DVec2::new(f64::from(scene.width), f64::from(scene.height)) / 2.0;
     middle + focal * DVec2::new(seen.x, -seen.y) / -seen.z
@@ -30,22 +25,19 @@ fn pixel_range(scene: &Scene, name: &str, time: f64) -> [DVec2; 2] {
     let index = object_index(scene, name);
     let to_world = scene.object_to_world(index, time);
     let positions = &scene.meshes[scene.objects[index].mesh].positions;
-    let pixels = positions
-        .iter()
-        .map(|position| project(scene, to_world.transform_point3(position.as_dvec3())));
-    pixels.fold(
-        [DVec2::INFINITY, DVec2::NEG_INFINITY],
-        |[least, largest], pixel| [least.min(pixel), largest.max(pixel)],
-    )
+    let world = |position: &glam::Vec3| to_world.transform_point3(position.as_dvec3());
+    let pixels = positions.iter().map(|own| project(scene, world(own)));
+    let none = [DVec2::INFINITY, DVec2::NEG_INFINITY];
+    pixels.fold(none, |[least, largest], own| {
+        [least.min(own), largest.max(own)]
+    })
 }
 
 #[test]
 fn every_scene_loads_with_every_variant() {
     let listings = list_scenes(scenes()).unwrap_or_else(|error| panic!("{error}"));
-    let names: Vec<_> = listings
-        .iter()
-        .map(|listing| listing.name.as_str())
-        .collect();
+    let names = listings.iter().map(|listing| listing.name.as_str());
+    let names: Vec<&str> = names.collect();
     let expected = "cockpit creep crossing dolly fan fence flag flat_field foliage frame_edge glasshouse neon ornaments \
                     pan_sky panel_over_texture railing ramp_floor reversal roll shallow_focus sliding_panel sparks \
                     two_spheres walker wheel_roll wires";
@@ -99,6 +91,17 @@ fn the_panel_moves_at_the_speed_of_its_variant() {
         let found = after - before;
         assert!(found.distance(expected) < 3e-4, "{variant}: {found}");
     }
+}
+
+#[test]
+fn the_lorry_stops_within_a_sequence() {
+    let scene = load_shipped("reversal@stopping");
+    let lorry = object_index(&scene, "lorry");
+    let at = |time| scene.object_to_world(lorry, time).translation.x;
+    let steps = [-1.0, 0.0, 1.0, 2.0].map(|time| at(time + 1.0) - at(time));
+    let due = [0.6, 0.6, 0.0, 0.0];
+    let is_due = |(step, due): (f64, f64)| (step - due).abs() < 1e-9;
+    assert!(steps.into_iter().zip(due).all(is_due), "{steps:?}");
 }
 
 #[test]
@@ -163,13 +166,8 @@ fn the_car_is_seen_whole_behind_the_railing_and_its_wheels_roll() {
 
 #[test]
 fn the_fan_turns_at_the_speed_of_its_variant() {
-    for (name, degrees) in [
-        ("fan", 45.0),
-        ("fan@5deg", 5.0),
-        ("fan@20deg", 20.0),
-        ("fan@45deg", 45.0),
-        ("fan@60deg", 60.0),
-    ] {
+    let variants = ["fan", "fan@5deg", "fan@20deg", "fan@45deg", "fan@60deg"];
+    for (name, degrees) in variants.into_iter().zip([45.0, 5.0, 20.0, 45.0, 60.0]) {
         let scene = load_shipped(name);
         let fan = object_index(&scene, "fan");
         let blade = |time| scene.object_to_world(fan, time).transform_vector3(DVec3::X);

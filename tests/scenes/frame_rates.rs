@@ -1,11 +1,11 @@
 //! Scenes at other frame rates than their files'.
 
 use frame::{Alignment, Frame, Truth, VelocityKind};
-use tests::unwatched;
+use tests::text::{assert_contains, read_rows};
+use tests::{settings, unwatched};
 use tracer::{FrameRate, RenderSettings, Scene, load_scene, trace_frame, trace_truth};
 
-use crate::scene_folder::Folder;
-use crate::{load_shipped, shipped};
+use crate::{Folder, load_shipped, shipped};
 
 const WIDTH: u32 = 64;
 const HEIGHT: u32 = 18;
@@ -14,23 +14,14 @@ const SPEED: f64 = 8.0;
 /// Width of the bar, in pixels.
 const BAR: f64 = 5.5;
 
-fn settings() -> RenderSettings {
-    RenderSettings {
-        width: WIDTH,
-        height: HEIGHT,
-        samples_per_pixel: 64,
-        ..RenderSettings::default()
-    }
-}
-
 fn render_frame(scene: &Scene, velocity: VelocityKind) -> Frame {
-    let mut settings = settings();
+    let mut settings = settings([WIDTH, HEIGHT], 64);
     settings.options.velocity = velocity;
     trace_frame(scene, &settings, &unwatched).unwrap()
 }
 
 fn render_truth(scene: &Scene, alignment: Alignment) -> Truth {
-    trace_truth(scene, &settings(), alignment, &unwatched).unwrap()
+    trace_truth(scene, &settings([WIDTH, HEIGHT], 64), alignment, &unwatched).unwrap()
 }
 
 /// Measures the middle of the bar's smear, in pixels right of the picture's, and its length without the bar.
@@ -112,19 +103,14 @@ fn at_60_frames_per_second_every_scene_is_as_its_file_says() {
 }
 
 fn assert_same_frame(one: &Frame, other: &Frame, what: &str) {
-    let other = Frame {
-        provenance: one.provenance.clone(),
-        frames_per_second: one.frames_per_second,
-        ..other.clone()
-    };
+    let mut other = other.clone();
+    (other.provenance, other.frames_per_second) = (one.provenance.clone(), one.frames_per_second);
     assert!(*one == other, "{what}: the frames differ");
 }
 
 fn assert_same_truth(one: &Truth, other: &Truth, what: &str) {
-    let other = Truth {
-        provenance: one.provenance.clone(),
-        ..other.clone()
-    };
+    let mut other = other.clone();
+    other.provenance = one.provenance.clone();
     assert!(*one == other, "{what}: the truths differ");
 }
 
@@ -139,9 +125,7 @@ fn write_paths(folder: &Folder, times: f64, exposure: f64) {
     let head = head.replace("rolling = 0.1", &format!("rolling = {:?}", 0.1 * times));
     let mut scene = head.replace("exposure = 0.5", &format!("exposure = {exposure:?}"));
     for part in parts {
-        let (time, rest) = part
-            .split_once(',')
-            .expect("a time stands first in its key");
+        let (time, rest) = part.split_once(',').expect("a key's time is first");
         let time: f64 = time.parse().expect("a number");
         scene += &format!("time = {:?},{rest}", time * times);
     }
@@ -230,9 +214,8 @@ fn times_beyond_the_keys_are_refused() {
         ("144fps_1-48s", ["at frame -3,", "begin at frame -2.4"]),
     ] {
         let text = check(variant, Alignment::Trailing).unwrap();
-        for part in [variant, "the shapes of object cloth", parts[0], parts[1]] {
-            assert!(text.contains(part), "{text}: {part}");
-        }
+        assert_contains(&text, &[variant, "the shapes of object cloth"]);
+        assert_contains(&text, &parts);
     }
     let text = check("24fps", Alignment::Leading).unwrap();
     assert!(text.contains("end at frame 0.4"), "{text}");
@@ -247,19 +230,16 @@ fn times_beyond_the_keys_are_refused() {
 #[test]
 fn names_that_are_no_rates_are_refused() {
     let folder = Folder::new();
-    for (variant, part) in [
-        ("0fps", "0 frames per second; allowed: 1 to 1000"),
-        ("-24fps", "-24 frames per second; allowed"),
-        ("2000fps", "2000 frames per second; allowed"),
-        (
-            "24fps_1-0s",
-            "a shutter time of 1/0 s; allowed: 1/1 to 1/100000",
-        ),
-        ("24fps@24fps", "variant \"24fps\" is unknown"),
-        ("slow@24fps", "variant \"slow\" is unknown"),
-    ] {
-        let text = load_scene(&folder.path, Some(variant)).unwrap_err();
-        let text = text.to_string();
-        assert!(text.contains(part), "{variant}: {text}");
+    for (variant, parts) in read_rows(
+        "
+        0fps => 0 frames per second; allowed: 1 to 1000
+        -24fps => -24 frames per second; allowed
+        2000fps => 2000 frames per second; allowed
+        24fps_1-0s => a shutter time of 1/0 s; allowed: 1/1 to 1/100000
+        24fps@24fps => variant \"24fps\" is unknown
+        slow@24fps => variant \"slow\" is unknown",
+    ) {
+        let refused = load_scene(&folder.path, Some(variant)).unwrap_err();
+        assert_contains(&refused.to_string(), &parts);
     }
 }

@@ -1,8 +1,8 @@
 //! Variants of every scene: sealed ones, changed by a seed, and `unlit`, with surfaces that emit their own colours.
 
 use frame::{ColorSampling, Frame};
-use tests::unwatched;
-use tracer::{RenderSettings, Scene, Seal, trace_frame};
+use tests::{settings, unwatched};
+use tracer::{Scene, Seal, trace_frame};
 
 use crate::{load_shipped, shipped};
 
@@ -11,13 +11,8 @@ const HEIGHT: u32 = 36;
 
 /// Renders at the pixels' centres, without a lens, which has its own noise.
 fn render(scene: &Scene, seed: u64) -> Frame {
-    let mut settings = RenderSettings {
-        width: WIDTH,
-        height: HEIGHT,
-        samples_per_pixel: 1,
-        seed,
-        ..RenderSettings::default()
-    };
+    let mut settings = settings([WIDTH, HEIGHT], 1);
+    settings.seed = seed;
     settings.options.color = ColorSampling::Point;
     trace_frame(&scene.clone().pinhole(), &settings, &unwatched).unwrap()
 }
@@ -42,10 +37,8 @@ fn every_scene_has_sealed_variants_that_move_otherwise() {
 fn a_mirrored_scene_is_seen_left_for_right() {
     for name in shipped() {
         let scene = load_shipped(&name);
-        let seal = Seal {
-            mirrored: true,
-            ..Seal::NOTHING
-        };
+        let mut seal = Seal::NOTHING;
+        seal.mirrored = true;
         let [before, after] = [&scene, &seal.apply(scene.clone())].map(|scene| render(scene, 1));
         let mut same = 0;
         for y in 0..HEIGHT {

@@ -29,10 +29,8 @@ fn intervals_of(pictures: &[&Picture], frame: &Frame, replicates: &[Replicate]) 
     let parts = truths_without_pairs(replicates).unwrap();
     assert_eq!(parts.len() as u64, REPLICATES / 2);
     let reference = |truth| Reference::new(frame, truth, None, &frame.display.into()).unwrap();
-    let (whole, parts) = (
-        reference(&truth),
-        parts.iter().map(reference).collect::<Vec<_>>(),
-    );
+    let whole = reference(&truth);
+    let parts: Vec<_> = parts.iter().map(reference).collect();
     let scores =
         |reference: &Reference, picture: &Picture| reference.measure(picture).unwrap().scores;
     let of_picture = |picture: &&Picture| {
@@ -60,29 +58,24 @@ fn measure_intervals(scene: &Scene, blur: &Blur) -> Found {
 /// a few pixels, are nearly perfect in most pixels: there the truth's noise decides the scores.
 fn trace_intervals(
     name: &str,
-    [width, height]: [u32; 2],
+    size: [u32; 2],
     samples_of_converged: u32,
     seeds: u64,
 ) -> [(&'static str, Found); 4] {
     let scene = load_scene(tests::scenes().join(name), None).unwrap();
-    let settings = |samples_per_pixel, seed| RenderSettings {
-        width,
-        height,
-        samples_per_pixel,
-        seed,
-        ..RenderSettings::default()
+    let settings = |samples_per_pixel, seed| {
+        let settings = tests::settings(size, samples_per_pixel);
+        RenderSettings { seed, ..settings }
     };
     let frame = trace_frame(&scene, &settings(256, 1), &unwatched).unwrap();
     let converged = settings(samples_of_converged, 1000);
     let truth = trace_truth(&scene, &converged, Alignment::Trailing, &unwatched).unwrap();
     let ladder = trace_ladder(&scene, &converged, &truth, &[4, 8], &unwatched).unwrap();
     let [four, eight] = [0, 1].map(|rung| Picture::mean(&ladder.rungs[rung].halves));
+    let oracle = scatter_oracle(&frame, truth.shutter, &truth.shutter_profile);
     let pictures = [
         ("the frame", frame.picture()),
-        (
-            "the oracle",
-            scatter_oracle(&frame, truth.shutter, &truth.shutter_profile),
-        ),
+        ("the oracle", oracle),
         ("4 sub-frames", four),
         ("8 sub-frames, moved", shift(&eight)),
     ];
@@ -100,10 +93,7 @@ fn trace_intervals(
         .collect();
     std::array::from_fn(|at| {
         let (name, picture) = &pictures[at];
-        let own = found
-            .iter()
-            .map(|intervals| intervals[at].clone())
-            .collect();
+        let own = found.iter().map(|it| it[at].clone()).collect();
         (*name, (own, measure_scores(picture, &frame, &truth)))
     })
 }
@@ -140,11 +130,7 @@ fn assert_about_95_percent(scene: &Scene, blur: &Blur) {
         assert!(is_right, "{blur:?}, {metric}: {held} of {SEEDS} hold it");
     }
     // Intervals of percentiles are wider than necessary.
-    for metric in [
-        "flip_p95_moving",
-        "flip_weighted_median_moving",
-        "label_tv_p95",
-    ] {
+    for metric in "flip_p95_moving flip_weighted_median_moving label_tv_p95".split(' ') {
         let held = count_holding(metric, &measured);
         let is_right = held >= about_95_percent.start;
         assert!(is_right, "{blur:?}, {metric}: {held} of {SEEDS} hold it");
@@ -174,16 +160,9 @@ fn about_95_of_100_intervals_of_larger_pictures_contain_the_converged_score() {
 }
 
 /// Scores that the truth's noise raises by as much as itself where a picture is perfect.
-const RAISED_BY_NOISE: [&str; 5] = [
-    "mae_moving",
-    "mae_full",
-    "smape_moving",
-    "smape_full",
-    "row_loss",
-];
+const RAISED_BY_NOISE: &str = "mae_moving mae_full smape_moving smape_full row_loss";
 
-/// Expects that intervals of traced truths contain the converged scores: those that noise raises for all pictures, others for the moved
-/// one.
+/// Expects that intervals of traced truths contain the converged scores: those that noise raises for all pictures, others for the moved.
 fn assert_traced(scene: &str, size: [u32; 2], seeds: u64, of_moved: &str) {
     let traced = trace_intervals(scene, size, 2048, seeds);
     // Four standard deviations below the mean: of 48 intervals 45.6, with one of 1.5.
@@ -195,7 +174,7 @@ fn assert_traced(scene: &str, size: [u32; 2], seeds: u64, of_moved: &str) {
         assert!(held >= least, "{what}: {held} of {seeds}");
     };
     for (picture, measured) in &traced {
-        for metric in RAISED_BY_NOISE {
+        for metric in RAISED_BY_NOISE.split(' ') {
             assert_held(picture, metric, measured);
         }
     }

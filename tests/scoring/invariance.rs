@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use frame::{AtInstant, Frame, Image, Picture, Raster, Support, Truth};
+use frame::{AtInstant, Frame, Image, Picture, Plane, Raster, Support, Truth};
 use metrics::{Measured, Measurement, Metric, ObjectMetric, Scores, Viewing, measure};
 use tests::synthetic::{Blur, Object, Sampling, Scene, Shape, VIEWING};
 
@@ -45,13 +45,10 @@ fn remap(
     turn: impl Fn([f32; 2]) -> [f32; 2],
 ) -> Scores {
     let (frame, truth, output) = VARIED.clone();
+    let mattes = |all: &[Plane]| (all.iter().map(|it| take(it, width, height, &source))).collect();
     let picture = |picture: &Picture| Picture {
         color: take(&picture.color, width, height, &source),
-        coverage: picture
-            .coverage
-            .iter()
-            .map(|matte| take(matte, width, height, &source))
-            .collect(),
+        coverage: mattes(&picture.coverage),
     };
     let instant = picture(&frame.picture());
     let frame = Frame {

@@ -15,6 +15,7 @@ mod sequences;
 
 use frame::{Frame, Picture, Truth};
 use metrics::{Measured, Measurement, Score, Scores, measure};
+use tests::near::expect_near as assert_near;
 use tests::synthetic::{Blur, Object, Sampling, Scene, Shape, VIEWING};
 
 fn scene([width, height]: [u32; 2], objects: Vec<Object>) -> Scene {
@@ -46,18 +47,14 @@ fn smear(from: f64, to: f64) -> Blur {
 
 /// Shifts the true smear along and across the motion, in pixels.
 fn shifted(shift: [f64; 2]) -> Blur {
-    Blur {
-        shift,
-        ..Blur::TRUE
-    }
+    let own = Blur::TRUE;
+    Blur { shift, ..own }
 }
 
 /// Dilates the true smear across the motion to both sides, in pixels.
 fn dilated(dilation: f64) -> Blur {
-    Blur {
-        dilation,
-        ..Blur::TRUE
-    }
+    let own = Blur::TRUE;
+    Blur { dilation, ..own }
 }
 
 /// Mixes two pictures, `part` of the way to the second.
@@ -74,10 +71,8 @@ fn mix(first: &Picture, second: &Picture, part: f32) -> Picture {
 }
 
 fn noisy(samples: u32, seed: u64) -> Sampling {
-    Sampling {
-        samples,
-        seed: Some(seed),
-    }
+    let seed = Some(seed);
+    Sampling { samples, seed }
 }
 
 fn clean_truth(scene: &Scene) -> Truth {
@@ -115,14 +110,6 @@ fn find_reason(scores: &Scores, metric: &str) -> String {
         Measured::NotApplicable { reason } => reason,
         Measured::Score(score) => panic!("{metric} scores {} where it means nothing", score.value),
     }
-}
-
-#[track_caller]
-fn assert_near(what: &str, found: f64, expected: f64, tolerance: f64) {
-    assert!(
-        (found - expected).abs() <= tolerance,
-        "{what}: {found}, expected {expected} within {tolerance}"
-    );
 }
 
 /// Expects scores, each with its name, value and tolerance.

@@ -72,15 +72,12 @@ fn the_squared_error_is_unbiased_and_the_plain_one_is_not() {
 #[test]
 fn a_perfect_picture_s_unbiased_error_scatters_by_its_floor() {
     let converged = TRUTH.mean();
-    let truths: Vec<Scores> = (0..100)
-        .map(|seed| sliding_disc().truth([noisy(16, 3000 + seed), noisy(16, 4000 + seed)]))
-        .map(|truth| score(&converged, &truth))
-        .collect();
+    let truth = |seed: u64| sliding_disc().truth([noisy(16, 3000 + seed), noisy(16, 4000 + seed)]);
+    let truths = (0..100).map(|seed| score(&converged, &truth(seed)));
+    let truths: Vec<Scores> = truths.collect();
     for name in "mse_moving mse_support mse_full relmse_moving mse_frozen".split(' ') {
-        let found: Vec<Score> = truths
-            .iter()
-            .map(|scores| find_score(scores, name))
-            .collect();
+        let found = truths.iter().map(|scores| find_score(scores, name));
+        let found: Vec<Score> = found.collect();
         let root_mean_square = |values: &dyn Fn(&Score) -> f64| {
             let squares = found.iter().map(|score| values(score).powi(2));
             (squares.sum::<f64>() / found.len() as f64).sqrt()
@@ -91,8 +88,7 @@ fn a_perfect_picture_s_unbiased_error_scatters_by_its_floor() {
             let inside = |score: &&Score| score.value.abs() <= floors * score.floor;
             found.iter().filter(inside).count()
         };
-        // A standard deviation from 100 values errs by a fourteenth; noise that is not normal moves the floor by a
-        // fifth.
+        // A standard deviation from 100 values errs by a fourteenth; noise that is not normal moves the floor by a fifth.
         let ratio = scatter / floor;
         assert!((0.7..1.25).contains(&ratio), "{name}: {ratio}");
         // Of 100 normal values, 68, 95 and 99.7 are inside; four standard deviations below.
@@ -112,8 +108,7 @@ fn a_converged_picture_scores_about_the_floor_of_a_noisy_truth() {
     for name in names.split(' ') {
         let score = find_score(&scores, name);
         let ratio = score.value / score.floor;
-        // Half A and the mean differ by exactly the mean's noise, drawn once more: equal except for chance and, for FLIP, for noise in
-        // both pictures.
+        // Half A and the mean differ by the mean's noise, drawn once more: equal but for chance and, for FLIP, for noise in both pictures.
         assert!((0.7..1.4).contains(&ratio), "{name}: {score:?}");
     }
     for name in ["lateral_growth", "row_gain", "row_loss"] {
@@ -122,12 +117,10 @@ fn a_converged_picture_scores_about_the_floor_of_a_noisy_truth() {
         assert!(value < 2.0 * floor, "{name}: {value} {floor}");
     }
     // Below the noise, PSNR stays at the value that the truth can support.
-    let scores = (0..)
-        .map(|seed| sliding_disc().truth([noisy(128, 500 + seed), noisy(128, 600 + seed)]))
-        .map(|truth| score(&converged, &truth))
-        .find(|scores| find_score(scores, "mse_moving").value < 0.0)
-        .expect("every other truth scores a perfect picture below 0");
-    let psnr = find_score(&scores, "psnr_moving");
+    let truth = |seed: u64| sliding_disc().truth([noisy(128, 500 + seed), noisy(128, 600 + seed)]);
+    let mut scores = (0..).map(|seed| score(&converged, &truth(seed)));
+    let below_0 = scores.find(|scores| find_score(scores, "mse_moving").value < 0.0);
+    let psnr = find_score(&below_0.expect("every other one is"), "psnr_moving");
     assert_eq!(psnr.value, psnr.floor);
 }
 
@@ -147,8 +140,7 @@ fn floors_fall_as_the_truth_converges() {
             continue;
         };
         let name = metric.name();
-        // The still background has no noise, nothing is shaded anew, the margin hides noise, and one sum can be small by
-        // chance.
+        // The still background has no noise, nothing is shaded anew, the margin hides noise, and one sum can be small by chance.
         let has_none = name.contains("static") || name.starts_with("bleed");
         if has_none || ["mse_shading", "energy"].contains(&name.as_str()) {
             continue;
@@ -183,8 +175,7 @@ fn noise_in_the_ladder_does_not_lower_the_bar() {
     for subframes in [4, 8] {
         let scores = score_blur(&reference, &Blur::accumulation(subframes), 4096);
         let ratio = find_score(&scores, "n_eq").value / f64::from(subframes);
-        // Two halves of 8 samples: unbiased, their noise scatters the counts by 3 %; counted as error, it adds at least
-        // 14 %.
+        // Two halves of 8 samples: unbiased, their noise scatters the counts by 3 %; counted as error, it adds at least 14 %.
         assert_near("n_eq", ratio, 1.0, 0.1);
     }
 }

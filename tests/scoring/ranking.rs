@@ -8,7 +8,7 @@ use metrics::{Measured, Metric, Scores};
 use suite::{Case, CaseId, FORMAT, InputFormat, Overall, Run, overall};
 use tests::synthetic::{Blur, Object, Shape};
 use tests::text::assert_contains;
-use tracer::{Family, RenderSettings, SceneId};
+use tracer::{Family, SceneId};
 
 use crate::{measure_blur, scene};
 
@@ -38,9 +38,7 @@ fn any_scores() -> Scores {
 
 fn make_case(scene: usize, scores: &Scores, (name, bar, alignment, flip, common): Entry) -> Case {
     let of = |name: &str| {
-        let own = ENTRIES
-            .iter()
-            .find(|entry| (entry.0, entry.2) == (name, alignment));
+        let own = (ENTRIES.iter()).find(|entry| (entry.0, entry.2) == (name, alignment));
         own.unwrap().3 * SCENES[scene]
     };
     let flip = flip * SCENES[scene];
@@ -96,13 +94,7 @@ fn make_run() -> Run {
         program: suite::PROGRAM.to_owned(),
         command: Vec::new(),
         adapter: None,
-        render: RenderSettings {
-            width: 48,
-            height: 32,
-            samples_per_pixel: 16,
-            replicates: 2,
-            ..RenderSettings::default()
-        },
+        render: tests::settings_of([48, 32], 16, 2),
         common_alignment: Alignment::Centred,
         overall: overall(&cases),
         read_back: 0,
@@ -138,11 +130,8 @@ fn print_means(run: &Run, heading: usize, end: &str) -> String {
 
 /// Expects names in this order.
 fn assert_order(text: &str, names: &[&str]) {
-    let places: Vec<usize> = names
-        .iter()
-        .map(|name| text.find(name).expect(name))
-        .collect();
-    assert!(places.is_sorted(), "{names:?} at {places:?} in {text}");
+    let places = names.iter().map(|name| text.find(name).expect(name));
+    assert!(places.is_sorted(), "{names:?} in {text}");
 }
 
 #[test]
@@ -188,31 +177,12 @@ fn a_ranking_by_flip_stays_within_a_shutter_and_shows_its_references() {
     let (trailing, centred) = means.split_once("centred shutter").unwrap();
     let centred = centred.split("\n\n").next().unwrap();
     let trailing = trailing.split_once("trailing shutter").unwrap().1;
-    for (rows, names) in [
-        (
-            trailing,
-            [
-                "[scatter_oracle]",
-                "jump_flood:paper",
-                "[accumulate:1]",
-                "[identity]",
-            ],
-        ),
-        (
-            centred,
-            [
-                "[scatter_oracle]",
-                "kino:default",
-                "[identity]",
-                "jimenez:wicked",
-            ],
-        ),
-    ] {
+    let of_trailing = "[scatter_oracle] jump_flood:paper [accumulate:1] [identity]";
+    let of_centred = "[scatter_oracle] kino:default [identity] jimenez:wicked";
+    for (rows, names) in [(trailing, of_trailing), (centred, of_centred)] {
         let rows = rows.lines().skip(1).filter(|line| line.starts_with("  "));
-        let found: Vec<&str> = rows
-            .map(|line| line.split_whitespace().next().unwrap())
-            .collect();
-        assert_eq!(found, names);
+        let found = rows.map(|line| line.split_whitespace().next().unwrap());
+        assert_eq!(found.collect::<Vec<_>>().join(" "), names);
     }
     let text = print_table(&run);
     let fits = text.lines().all(|line| line.chars().count() <= 80);
@@ -235,11 +205,9 @@ fn skill_over_scenes_is_a_ratio_of_means() {
         case.scores.moving.flip = Measured::score(flip, 0.0);
         case.scores.skill.flip = Measured::score((0.101 - flip) / 0.001, 1.0);
     }
-    let means = overall(&cases);
-    let found = means
-        .iter()
-        .find(|mean| mean.name == "kino:default" && mean.metric == Metric::SKILL)
-        .unwrap();
+    let means = overall(&cases).into_iter();
+    let mut means = means.filter(|mean| mean.name == "kino:default");
+    let found = means.find(|mean| mean.metric == Metric::SKILL).unwrap();
     let [way, gained] = [0.6 * (0.154 - 0.024), 0.6 * (0.154 - 0.087)];
     let due = (gained + 0.010) / (way + 0.001);
     assert!((found.mean - due).abs() < 1e-9, "{found:?} {due}");

@@ -86,8 +86,7 @@ pub fn copy_changed_filter(name: &str, copy: &Path, change: impl FnOnce(&str) ->
     fs::write(&kernels, change(&text)).unwrap();
 }
 
-/// Writes a filter that is a shell script with the files as $1 and $2. `lines` is the script, and `more` is
-/// appended to filter.toml.
+/// Writes a filter that is a shell script with the files as $1 and $2. `lines` is the script, and `more` is appended to filter.toml.
 pub fn write_program(folder: &Path, name: &str, lines: &str, more: &str) {
     let command = "command = [\"./blur.sh\", \"{frame}\", \"{out}\"]";
     write_manifest(folder, name, &format!("{command}\n{more}"));

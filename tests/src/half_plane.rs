@@ -14,10 +14,8 @@ fn uniform_sum(limit: f64, widths: &[f64]) -> f64 {
     let degree = widths.len() as i32;
     let sum: f64 = (0..1u32 << widths.len())
         .map(|subset| {
-            let taken = widths
-                .iter()
-                .enumerate()
-                .filter(|(index, _)| subset >> index & 1 == 1);
+            let numbered = widths.iter().enumerate();
+            let taken = numbered.filter(|(index, _)| subset >> index & 1 == 1);
             let shift: f64 = taken.map(|(_, width)| width).sum();
             let sign = (-1.0f64).powi(subset.count_ones() as i32);
             sign * (limit - shift).max(0.0).powi(degree)

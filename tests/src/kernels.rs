@@ -5,6 +5,7 @@
 mod babylon;
 mod dagor;
 mod gathers;
+mod godot;
 mod jimenez;
 mod kino;
 mod tiles;
@@ -81,6 +82,7 @@ pub fn place_taps(filter: &str, preset: &str, steady: &Steady, noise: f64) -> Ve
         "urp" => gathers::urp(preset, steady, noise),
         "vort" => gathers::vort(steady, noise),
         "dagor" => dagor::place_taps(preset, steady, noise),
+        "godot" => godot::place_taps(preset, steady, noise),
         "mcguire" => tiles::mcguire(preset, steady, noise),
         "guertin" => tiles::guertin(steady, noise),
         _ => panic!("say here what {filter} averages"),
@@ -94,10 +96,11 @@ pub fn along_motion(steady: &Steady, offset: [f64; 2]) -> f64 {
 
 /// Makes a tap on the pixel itself.
 fn own(weight: f64) -> Tap {
-    Tap {
-        offset: [0.0, 0.0],
-        weight,
-    }
+    tap([0.0, 0.0], weight)
+}
+
+fn tap(offset: [f64; 2], weight: f64) -> Tap {
+    Tap { offset, weight }
 }
 
 /// Splits a tap between pixels into the four around it.
@@ -109,10 +112,8 @@ fn bilinear(offset: [f64; 2], weight: f64) -> [Tap; 4] {
             0.0 => 1.0 - part[axis],
             _ => part[axis],
         };
-        Tap {
-            offset: [low[0] + corner[0], low[1] + corner[1]],
-            weight: weight * share(0) * share(1),
-        }
+        let offset = [low[0] + corner[0], low[1] + corner[1]];
+        tap(offset, weight * share(0) * share(1))
     })
 }
 
@@ -120,10 +121,18 @@ fn nearest(offset: f64) -> f64 {
     (offset + 0.5).floor()
 }
 
+/// Makes a tap of weight 1 on the nearest pixel.
+fn nearest_tap(offset: [f64; 2]) -> Tap {
+    tap(offset.map(nearest), 1.0)
+}
+
 /// Makes taps of equal weight at these parts of a trail, read between pixels.
 fn on_trail(trail: [f64; 2], parts: impl IntoIterator<Item = f64>) -> Vec<Tap> {
-    parts
-        .into_iter()
-        .flat_map(|part| bilinear(scaled(trail, part), 1.0))
-        .collect()
+    let taps = parts.into_iter().map(|part| scaled(trail, part));
+    taps.flat_map(|offset| bilinear(offset, 1.0)).collect()
+}
+
+/// Makes taps of equal weight at the nearest pixels to these parts of a trail.
+fn at_pixels(trail: [f64; 2], parts: impl Iterator<Item = f64>) -> Vec<Tap> {
+    parts.map(|part| nearest_tap(scaled(trail, part))).collect()
 }

@@ -24,7 +24,23 @@ use std::path::{Path, PathBuf};
 
 use filters::Gpu;
 pub use gpu::{ready_blur, shared_gpu};
-use tracer::Progress;
+use tracer::{Progress, RenderSettings};
+
+/// Makes settings of a size and samples per pixel, those of a truth in 8 replicates.
+pub fn settings([width, height]: [u32; 2], samples_per_pixel: u32) -> RenderSettings {
+    RenderSettings {
+        width,
+        height,
+        samples_per_pixel,
+        ..RenderSettings::default()
+    }
+}
+
+/// Makes settings of a truth in another number of replicates.
+pub fn settings_of(size: [u32; 2], samples_per_pixel: u32, replicates: u32) -> RenderSettings {
+    let own = settings(size, samples_per_pixel);
+    RenderSettings { replicates, ..own }
+}
 
 /// Watches a render and lets it continue.
 pub fn unwatched(_: Progress) -> ControlFlow<()> {

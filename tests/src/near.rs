@@ -19,3 +19,13 @@ pub fn assert_within(found: impl Into<f64>, range: impl RangeBounds<f64> + Debug
     let found = found.into();
     assert!(range.contains(&found), "{found}, expected in {range:?}");
 }
+
+/// Fails unless two numbers are as near as the tolerance.
+#[track_caller]
+pub fn expect_near(what: &str, found: f64, expected: f64, tolerance: f64) {
+    let off = (found - expected).abs();
+    assert!(
+        off <= tolerance,
+        "{what}: {found}, not {expected} within {tolerance}"
+    );
+}

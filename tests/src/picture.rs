@@ -1,7 +1,7 @@
 //! Small frames of surfaces, each with its own motion, and their blurs.
 
 use filters::{Blur, Filter, Input, Settings};
-use frame::{Frame, Image, Plane, Raster, Vectors};
+use frame::{Frame, Image, Plane, Raster, Reprojection, Vectors};
 
 use crate::ramp::Ramp;
 use crate::random::Random;
@@ -84,13 +84,8 @@ impl Picture {
 
     /// Makes a picture of one surface left of the middle, and of another one right of it.
     pub fn halves(width: u32, height: u32, left: Surface, right: Surface) -> Self {
-        Self::new(
-            width,
-            height,
-            |x, _| {
-                if x < width / 2 { left } else { right }
-            },
-        )
+        let side = |x: u32| if x < width / 2 { left } else { right };
+        Self::new(width, height, |x, _| side(x))
     }
 
     /// Gives the pixels of these columns and rows their own greys, from 0 to 1.
@@ -106,18 +101,19 @@ impl Picture {
         self
     }
 
-    /// Makes the input of a filter with these colours in place of its own.
+    /// Makes the input of a filter with these colours in place of its own, from a still camera.
     pub fn input<'a>(&'a self, color: &'a [&'a Image]) -> Input<'a> {
         Input {
             color,
             velocity: &self.velocity,
             velocity_next: Some(&self.velocity),
             velocity_z: None,
+            exclusion: None,
             depth: &self.depth,
             exposure: self.exposure,
             frames_per_second: None,
             frame_index: 0,
-            reprojection: None,
+            reprojection: Some(Reprojection::STILL),
             camera: None,
         }
     }
@@ -170,6 +166,7 @@ pub fn frame_input<'a>(frame: &'a Frame, color: &'a [&'a Image]) -> Input<'a> {
         velocity: &frame.velocity,
         velocity_next: frame.velocity_next.as_ref().or(Some(&frame.velocity)),
         velocity_z: frame.velocity_z.as_ref(),
+        exclusion: None,
         depth: &frame.depth,
         reprojection: Some(frame.reprojection.moved(f64::from(frame.guard_band))),
         camera: frame.camera,
@@ -195,10 +192,8 @@ pub fn ramp_length(image: &Image) -> f64 {
 
 /// Makes a picture that is black left of the middle and white right of it, all in one motion at one depth.
 pub fn moving_edge(width: u32, height: u32, velocity: [f32; 2]) -> Picture {
-    let ahead = Surface {
-        velocity,
-        ..white(0.0)
-    };
+    let mut ahead = white(0.0);
+    ahead.velocity = velocity;
     Picture::halves(width, height, ahead.gray(0.0), ahead)
 }
 

@@ -12,11 +12,8 @@ pub struct Ramp {
 impl Ramp {
     /// Measures an edge from (position, brightness) at rising positions, in pixels. Slopes count with their sign, so that noise cancels.
     pub fn of(profile: &[(f64, f64)]) -> Self {
-        let slopes: Vec<(f64, f64)> = profile
-            .windows(2)
-            .map(|pair| (0.5 * (pair[0].0 + pair[1].0), pair[1].1 - pair[0].1))
-            .collect();
-        Self::spread(slopes)
+        let slope = |pair: &[(f64, f64)]| (0.5 * (pair[0].0 + pair[1].0), pair[1].1 - pair[0].1);
+        Self::spread(profile.windows(2).map(slope).collect::<Vec<_>>())
     }
 
     /// Makes the ramp of offsets in pixels, each with its weight.

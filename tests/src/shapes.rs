@@ -95,13 +95,22 @@ pub fn glowing(radiance: f32) -> Material {
 
 /// Makes a translation at a constant velocity (metres per frame) through `at` at `t = 0`.
 pub fn drift(at: DVec3, velocity: DVec3) -> Motion {
-    let key = |time: f64| Key {
+    through([0.0, 1.0].map(|time| key(time, at + time * velocity)))
+}
+
+/// Makes a pose without rotation at a time.
+pub fn key(time: f64, translation: DVec3) -> Key {
+    Key {
         time,
-        translation: at + time * velocity,
+        translation,
         ..Key::REST
-    };
+    }
+}
+
+/// Makes a motion at constant velocities through keys.
+pub fn through(keys: impl Into<Vec<Key>>) -> Motion {
     Motion {
-        keys: vec![key(0.0), key(1.0)],
+        keys: keys.into(),
         ..Motion::default()
     }
 }
@@ -110,9 +119,8 @@ pub fn drift(at: DVec3, velocity: DVec3) -> Motion {
 pub fn spin(at: DVec3, axis: DVec3, rate: f64) -> Motion {
     let turn = Turn { axis, angle: rate };
     let start = Key {
-        translation: at,
         turn,
-        ..Key::REST
+        ..key(0.0, at)
     };
     let end = Key {
         time: 1.0,
@@ -120,19 +128,12 @@ pub fn spin(at: DVec3, axis: DVec3, rate: f64) -> Motion {
         turn: Turn::NONE,
         ..start
     };
-    Motion {
-        keys: vec![start, end],
-        ..Motion::default()
-    }
+    through([start, end])
 }
 
 /// Makes a pose that never changes.
 pub fn placed(at: DVec3) -> Motion {
-    let translation = at;
-    Motion::still(Key {
-        translation,
-        ..Key::REST
-    })
+    Motion::still(key(0.0, at))
 }
 
 /// Makes a mesh of triangles without normals or texture coordinates, in one slot.
@@ -187,8 +188,7 @@ pub fn cuboid(size: Vec3) -> Mesh {
     mesh(positions, halves.concat())
 }
 
-/// Makes a closed sphere around the origin: an icosahedron whose triangles are split into four `splits` times, with
-/// smooth normals.
+/// Makes a closed sphere around the origin: an icosahedron whose triangles are split into four `splits` times, with smooth normals.
 pub fn icosphere(radius: f32, splits: u32) -> Mesh {
     let golden = 0.5 * (1.0 + 5f64.sqrt());
     #[rustfmt::skip]

@@ -163,8 +163,7 @@ impl Scene {
         }
     }
 
-    /// Finds the pixels that the open shutter sees: the same for all truths of the scene, whatever their noise. It is rendered once per
-    /// scene and program.
+    /// Finds the pixels that the open shutter sees: the same for all truths of the scene, whatever their noise, rendered once per scene.
     pub fn support(&self) -> Support {
         static FOUND: Mutex<Vec<(Scene, Support)>> = Mutex::new(Vec::new());
         let mut found = FOUND.lock().expect("no test fails in here");
@@ -245,10 +244,8 @@ impl Scene {
 
     fn names(&self) -> Vec<String> {
         let objects = (1..=self.objects.len()).map(|id| format!("object{id}"));
-        ["background".to_owned()]
-            .into_iter()
-            .chain(objects)
-            .collect()
+        let background = std::iter::once("background".to_owned());
+        background.chain(objects).collect()
     }
 
     /// Poses the objects for a blur, with their ids; still ones are not blurred.

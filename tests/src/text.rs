@@ -1,9 +1,45 @@
 //! Checks of texts, and tables in text.
 
+/// Parts of a message: a list, or one text of them, `part | part`.
+pub trait Parts {
+    /// Lists the parts.
+    fn list(&self) -> Vec<&str>;
+}
+
+impl Parts for str {
+    fn list(&self) -> Vec<&str> {
+        self.split(" | ").collect()
+    }
+}
+
+impl<T: AsRef<str>> Parts for [T] {
+    fn list(&self) -> Vec<&str> {
+        self.iter().map(AsRef::as_ref).collect()
+    }
+}
+
+impl<T: AsRef<str>, const N: usize> Parts for [T; N] {
+    fn list(&self) -> Vec<&str> {
+        self.as_slice().list()
+    }
+}
+
+impl<T: AsRef<str>> Parts for Vec<T> {
+    fn list(&self) -> Vec<&str> {
+        self.as_slice().list()
+    }
+}
+
+impl<T: Parts + ?Sized> Parts for &T {
+    fn list(&self) -> Vec<&str> {
+        (**self).list()
+    }
+}
+
 /// Fails, with the whole text, if it lacks one of `parts`.
 #[track_caller]
-pub fn assert_contains(text: &str, parts: &[&str]) {
-    for part in parts {
+pub fn assert_contains(text: &str, parts: &(impl Parts + ?Sized)) {
+    for part in parts.list() {
         assert!(text.contains(part), "\"{part}\" is missing from:\n{text}");
     }
 }

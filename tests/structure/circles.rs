@@ -10,11 +10,9 @@ fn no_crate_has_a_circle_of_modules() {
     let mut wrong = String::new();
     for folder in sources() {
         for circles in find_all_circles(&read_modules(&folder)) {
-            wrong.extend(
-                circles
-                    .lines()
-                    .map(|line| format!("{}: {line}\n", folder.display())),
-            );
+            for line in circles.lines() {
+                wrong += &format!("{}: {line}\n", folder.display());
+            }
         }
     }
     assert!(
@@ -26,10 +24,8 @@ fn no_crate_has_a_circle_of_modules() {
 /// Finds the circles of files, and those of folders.
 fn find_all_circles(texts: &Texts) -> [String; 2] {
     let pairs = find_pairs(texts);
-    [
-        find_circles(&pairs),
-        find_circles(&find_folder_pairs(&pairs)),
-    ]
+    let of_folders = find_folder_pairs(&pairs);
+    [&pairs, &of_folders].map(find_circles)
 }
 
 /// Finds the circles, each with the uses that close it.
@@ -40,10 +36,8 @@ fn find_circles(pairs: &Pairs) -> String {
         circle.retain(|it| reach(pairs, it).contains(module));
         circles.insert(circle);
     }
-    circles
-        .iter()
-        .map(|circle| describe(pairs, circle))
-        .collect()
+    let texts = circles.iter().map(|circle| describe(pairs, circle));
+    texts.collect()
 }
 
 /// Finds the modules that a module uses, directly or through others.

@@ -2,7 +2,7 @@
 
 use frame::{Camera, Image, Plane, Raster, Reprojection, Vectors};
 
-use crate::filter::CameraUse;
+use crate::filter::{CameraUse, EXCLUSION};
 use crate::{Filter, FilterError};
 
 /// Frames per second if neither the frame nor the filter's convention says.
@@ -20,6 +20,8 @@ pub struct Input<'a> {
     /// Change of depth over the interval of `velocity`, in metres per frame; above 0 moves away. Filters that read it refuse to run
     /// without it.
     pub velocity_z: Option<&'a Plane>,
+    /// 1 on objects that a blur leaves alone, 0 elsewhere. Filters that read it refuse to run without it.
+    pub exclusion: Option<&'a Plane>,
     /// Distance along the view axis, in metres; above 0.
     pub depth: &'a Plane,
     /// The camera's motion since the frame before, between places of these rasters. Filters that read it refuse to run
@@ -64,6 +66,13 @@ impl Input<'_> {
                 Some(place_of(z, index))
             })?;
         }
+        if let Some(mask) = self.exclusion {
+            check_raster(EXCLUSION, mask, size, "from 0 to 1", |mask| {
+                let mut pixels = mask.pixels.iter();
+                let index = pixels.position(|share| !(0.0..=1.0).contains(share))?;
+                Some(place_of(mask, index))
+            })?;
+        }
         check_raster("depth", self.depth, size, "finite and above 0", |depth| {
             let index = frame::find_broken(&depth.pixels, 0.0)?;
             Some(place_of(depth, index))
@@ -76,6 +85,7 @@ impl Input<'_> {
     fn check_further(&self, reads: &[&str]) -> Result<(), String> {
         let is_there = |name: &str| match name {
             "velocity_next" => self.velocity_next.is_some(),
+            EXCLUSION => self.exclusion.is_some(),
             _ => self.velocity_z.is_some(),
         };
         match reads.iter().find(|name| !is_there(name)) {

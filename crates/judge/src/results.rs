@@ -15,7 +15,7 @@ use crate::numbers::round_to_digits;
 use crate::ranking::filters::{RankedFilter, RankedScore, rank_by_score};
 
 /// Version of the layout of a file of results.
-const RESULTS_FORMAT: u32 = 2;
+const RESULTS_FORMAT: u32 = 3;
 
 /// Significant digits of a score.
 const DIGITS: usize = 5;
@@ -34,6 +34,8 @@ pub struct Results {
     pub size: [u32; 2],
     /// Mean samples per pixel of the truths.
     pub samples_per_pixel: u32,
+    /// Shutter that FLIP* compares with.
+    pub common_alignment: Alignment,
     /// Number of the scenes' sealed variants; none for the scenes themselves.
     pub seal: Option<u64>,
     /// One per scene and filter preset.
@@ -102,6 +104,7 @@ impl Results {
             adapter: run.adapter.as_ref().map(|own| own.name.clone()),
             size: [run.render.width, run.render.height],
             samples_per_pixel: run.render.samples_per_pixel,
+            common_alignment: run.common_alignment,
             seal,
             scores: Vec::new(),
         }
@@ -114,6 +117,7 @@ impl Results {
             [
                 ("pictures", format!("{}x{}", own.size[0], own.size[1])),
                 ("samples per pixel", own.samples_per_pixel.to_string()),
+                ("shutter in common", own.common_alignment.to_string()),
                 ("adapter", own.adapter.clone().unwrap_or_else(none)),
                 ("seal", own.seal.map_or_else(none, |seed| seed.to_string())),
             ]
@@ -140,13 +144,11 @@ impl Results {
                  all filters anew"
             )));
         }
-        if self.has_centred() != newer.has_centred() {
-            let which = |own: &Self| if own.has_centred() { "a" } else { "no" };
+        if self.common_alignment != newer.common_alignment {
             return Err(Error::Usage(format!(
-                "the run has {} centred filter and {own} has {}, so that FLIP* compares with another shutter; have a centred \
-                 filter in both",
-                which(&newer),
-                which(self)
+                "FLIP* of the run is against a {} shutter and that of {own} against a {} one; measure a filter of that shutter too, in \
+                 an empty folder",
+                newer.common_alignment, self.common_alignment
             )));
         }
         self.program = newer.program;
@@ -224,16 +226,11 @@ impl Results {
             .max_by(|a, b| error(a).partial_cmp(&error(b)).expect("scores are numbers"))
     }
 
-    /// Returns whether FLIP* is against a centred shutter.
-    fn has_centred(&self) -> bool {
-        (self.scores.iter()).any(|own| own.alignment == Alignment::Centred)
-    }
-
     /// Ranks the filter presets of each shutter by FLIP. The filter that does nothing is ranked in both: its FLIP* is against a centred
     /// shutter, if any filter declares one.
     pub fn ranking(&self) -> Vec<Vec<RankedFilter>> {
         let centred = Alignment::Centred;
-        let has_centred = self.has_centred();
+        let has_centred = self.common_alignment == centred;
         let unblurred = (self.scores.iter())
             .filter(|own| has_centred && own.filter == IDENTITY && own.alignment != centred)
             .filter_map(|own| own.ranked(centred, Metric::CommonFlip));

@@ -2,18 +2,21 @@
 
 use std::path::{Path, PathBuf};
 
-use filters::Filter;
-use frame::{Alignment, FileError, Frame, Ladder, Picture, Provenance, Truth, read_exr};
+use filters::{EXCLUSION, Filter};
+use frame::{Alignment, FileError, Frame, Ladder, Picture, Plane, Provenance, Truth, read_exr};
 use serde::{Deserialize, Serialize};
 use store::{RenderFile, read_text};
 use tracer::SceneId;
 
 use crate::Error;
+use crate::inputs::border::wide;
 
 /// Name of the file that marks a folder as ingested.
 pub const INGESTED_FILE: &str = "ingested.json";
 /// Name of the engine's own blurred picture in that folder.
 pub const BLURRED: &str = "blurred.exr";
+/// Name of the mask of what a blur leaves alone in that folder.
+pub const EXCLUSION_FILE: &str = "exclusion.exr";
 /// Version of the layout of the file.
 pub const INGESTED_FORMAT: u32 = 1;
 /// Halves of a truth, each a picture of the whole shutter.
@@ -47,7 +50,7 @@ pub struct EngineScene {
     pub ladder: Vec<u32>,
     /// True if the folder has the engine's own blurred picture.
     pub has_picture: bool,
-    /// Inputs of the frame that few filters read: `velocity_next`, `velocity_z`.
+    /// Inputs of the frame that few filters read: `velocity_next`, `velocity_z`, `exclusion`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub further_inputs: Vec<String>,
     /// Hash of the capture.
@@ -176,6 +179,15 @@ impl EngineScene {
                 self.folder.join(file.path()).display()
             ))),
         }
+    }
+
+    /// Reads the mask of what a blur leaves alone, as wide as a frame with a border; none if the capture had none.
+    pub(crate) fn read_exclusion(&self, frame: &Frame) -> Result<Option<Plane>, Error> {
+        if !self.further_inputs.iter().any(|name| name == EXCLUSION) {
+            return Ok(None);
+        }
+        let mask = read_exr(&self.folder.join(EXCLUSION_FILE))?.plane(EXCLUSION)?;
+        Ok(Some(wide(&mask, frame.guard_band)))
     }
 
     /// Reads a rung of the ladder from a scene's folder of a run.

@@ -27,7 +27,8 @@ pub use bench::{
 };
 pub use colors::{magma, velocity_wheel};
 pub use engine_scene::{
-    BLURRED, EngineScene, INGESTED_FILE, INGESTED_FORMAT, engine_name, name_in_one_word,
+    BLURRED, EXCLUSION_FILE, EngineScene, INGESTED_FILE, INGESTED_FORMAT, engine_name,
+    name_in_one_word,
 };
 pub use error::Error;
 pub use filter_choice::FilterChoice;
@@ -57,6 +58,7 @@ pub use monitor::{Monitor, Step};
 pub use pack::unpacked::{Unpacked, take_pack};
 pub use pack::write_pack;
 pub use random::Random;
+pub use render::exclusion::FilterFrame;
 pub use render::ladders::{SHARP, sharp_picture};
 pub use render::merge::{Merged, merge};
 pub use render::rendering::Rendering;

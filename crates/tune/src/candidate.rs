@@ -1,8 +1,8 @@
 //! Candidate of a tuning, ready to blur scenes.
 
 use filters::{Blur, Filter, FilterError, Kernels, Settings};
-use frame::{Frame, Image, Plane};
-use suite::{Monitor, Runner, filter_input, pack_planes, unpack_planes};
+use frame::{Image, Plane};
+use suite::{FilterFrame, Monitor, Runner, filter_input, pack_planes, unpack_planes};
 
 /// A filter with settings to try, ready for pictures of one size.
 pub struct Candidate<'a> {
@@ -32,7 +32,7 @@ impl<'a> Candidate<'a> {
     }
 
     /// Blurs a scene's frame; its mattes too if `bleed` is to be measured.
-    pub fn blur(&mut self, frame: &Frame, bleed: bool) -> Result<Blurred, FilterError> {
+    pub fn blur(&mut self, frame: &FilterFrame, bleed: bool) -> Result<Blurred, FilterError> {
         let mattes = match bleed {
             true => pack_planes(&frame.coverage),
             false => Vec::new(),

@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use filters::Filter;
-use frame::{Frame, Image, Plane, Truth};
+use frame::{Image, Plane, Truth};
 use judge::{Bounds, SceneBounds};
 use metrics::{Metric, ObjectMetric, Reference, Viewing, flip_ldr};
 use serde::{Deserialize, Serialize};
-use suite::{Error, Monitor, Rendering};
+use suite::{Error, FilterFrame, Monitor, Rendering};
 use tracer::{RenderSettings, Scene};
 
 /// A scene, rendered once and used for hundreds of measurements.
@@ -16,7 +16,7 @@ pub struct RenderedScene {
     /// The scene's name, with its variant.
     pub name: String,
     /// Input of the filter.
-    pub frame: Frame,
+    pub frame: FilterFrame,
     /// Reference to compare pictures with.
     pub truth: Truth,
     /// The scene's bounds for pictures of this size, for every filter.
@@ -42,10 +42,7 @@ pub fn render_scenes(
         };
         Ok(RenderedScene {
             name: scene.id.to_string(),
-            frame: match filter.further_inputs().is_empty() {
-                true => rendering.frame()?,
-                false => rendering.frame_with_further_velocities()?,
-            },
+            frame: rendering.frame_for(filter)?,
             truth: rendering.truth(filter.alignment)?,
             viewing: scene.display.into(),
             bounds: bounds.clone().at((render.width, render.height)),

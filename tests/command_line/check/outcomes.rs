@@ -4,9 +4,10 @@ use std::fs;
 
 use frame::{Frame, Truth, read_exr};
 use metrics::Metric;
+use tests::text::{assert_contains, squeeze};
 
-use super::{KEPT, bound, check, json, make_bounded};
-use crate::sandbox::{IDENTITY, SCENE, Sandbox, assert_refused, split};
+use super::{KEPT, assert_ends, bound, check, json, make_bounded};
+use crate::sandbox::{IDENTITY, SCENE, Sandbox, assert_refused, split, stderr};
 
 #[test]
 fn scores_within_their_bounds_pass() {
@@ -81,15 +82,10 @@ fn a_limit_inside_the_interval_gives_exit_code_4_and_the_samples_to_decide() {
     let sandbox = make_bounded(0.9, "required");
     let found = &json(&sandbox, "--filters identity")["findings"][0];
     let [low, high] = ["low", "high"].map(|end| found["interval"][end].as_f64().unwrap());
-    // The distance of the limit from the interval's middle is a little more than a quarter of its half width. 16 times the
-    // samples halve the width twice.
+    // The limit is a little more than a quarter of the half width off the interval's middle. 16 times the samples halve the width twice.
     let limit = 0.5 * (low + high) + 0.26 * 0.5 * (high - low);
     sandbox.write("bounds.toml", &bound("flip_moving", limit, "required"));
-    let parts = [
-        "UNDECIDED flip_moving",
-        "1024 samples per pixel would settle it",
-        "raise the samples per pixel",
-    ];
+    let parts = "UNDECIDED flip_moving | 1024 samples per pixel would settle it | raise the samples per pixel";
     check(&sandbox, "", 4, &parts);
     let value = found["value"].as_f64().unwrap();
     write_target(&sandbox, value.min(limit));
@@ -105,15 +101,11 @@ fn a_bound_within_three_floors_gives_exit_code_2_and_the_strictest_bound() {
     write_target(&sandbox, 0.99 * strictest);
     let allowed = format!("the noise floor of {floor:.5}");
     let within = "LIMIT WITHIN NOISE flip_moving";
-    let parts = [
-        within,
-        &allowed[..20],
-        "at the strictest",
-        "stricter than three noise floors",
-    ];
-    check(&sandbox, "", 2, &parts);
+    let words = "at the strictest | stricter than three noise floors";
+    check(&sandbox, "", 2, &[within, &allowed[..20]]);
+    check(&sandbox, "", 2, words);
     // Another bound that is broken is certain.
-    let text = fs::read_to_string(sandbox.path("scenes/plate/bounds.toml")).unwrap();
+    let text = sandbox.text("scenes/plate/bounds.toml");
     sandbox.write("bounds.toml", &text.replace("limit = 0.9", "limit = 0.02"));
     let parts = [within, "BROKEN label_tv", "a required bound is broken"];
     check(&sandbox, "", 1, &parts);
@@ -154,7 +146,7 @@ fn check_refuses_bad_input_before_it_renders() {
         refuse(more, parts);
     }
     fs::create_dir(sandbox.path("scenes/plates")).unwrap();
-    fs::write(sandbox.path("scenes/plates/bounds.toml"), "").unwrap();
+    sandbox.put("scenes/plates/bounds.toml", "");
     let found = "plates/bounds.toml: bounds of a scene that does not exist";
     refuse("", &[found]);
 }
@@ -184,4 +176,45 @@ fn an_error_map_that_no_file_holds_is_measured_again() {
     for (found, expected) in map.pixels.iter().zip(&expected.pixels) {
         assert!((found - expected).abs() < 1e-6, "{found} {expected}");
     }
+}
+
+#[test]
+fn a_finished_run_is_judged_without_an_adapter() {
+    let sandbox = make_bounded(0.2, "required");
+    let broken = ["BROKEN flip_moving"];
+    let made = check(&sandbox, "", 1, &broken);
+    let judge = |line: &str| sandbox.without_adapter(&split(&format!("check {line}")));
+    // The run wrote the page and its files already.
+    let lines = made.split_inclusive('\n');
+    let made: String = (lines.filter(|line| !line.starts_with("report: "))).collect();
+    let note = "nothing was measured or verified now: the scores are those that out/run.json has\n";
+    let judged = assert_ends(&judge("out/run.json --evidence"), 1, &[note]);
+    assert_eq!(judged.replace(note, ""), made);
+    let said = stderr(&judge("out/run.json --json"));
+    assert_contains(&squeeze(&said), &[note.trim_end()]);
+    // Evidence takes a while, so it is only made on request.
+    let plain = assert_ends(&judge("out"), 1, &broken);
+    assert!(!plain.contains("worst at"), "{plain}");
+
+    sandbox.write("bounds.toml", &bound("flip_moving", 0.9, "required"));
+    assert_ends(&judge("out"), 0, &["1 required bound: 1 met"]);
+    assert_eq!(sandbox.read_findings()[0].limit, 0.9);
+
+    let refuse = |line: &str, parts: &[&str]| assert_refused(&judge(line), 2, parts);
+    let parts = ["elsewhere/plate", "no such scene", "--scenes-dir"];
+    refuse("out --scenes-dir elsewhere", &parts);
+    let parts = ["--size", "cannot be used with", "RUN"];
+    refuse("out --size 64x32", &parts);
+    fs::remove_file(sandbox.path("scenes/plate/bounds.toml")).unwrap();
+    refuse("out", &["out/run.json", "none of its scores has a bound"]);
+}
+
+#[test]
+fn a_judgement_of_another_run_is_refused() {
+    let sandbox = make_bounded(0.2, "required");
+    let run = sandbox.path("out/run.json");
+    let text = fs::read_to_string(&run).unwrap();
+    fs::write(&run, text.replace("\"seed\": 1,", "\"seed\": 2,")).unwrap();
+    let row = " => judgement.json | about another run.json | shuttertruth check out/run.json";
+    sandbox.refuse_rows("report out --html page.html", row);
 }

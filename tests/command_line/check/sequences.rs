@@ -1,31 +1,18 @@
 //! Limits on scores of sequences.
 
-use std::fs;
-
 use judge::Outcome;
 use metrics::{Metric, SequenceMetric};
 use suite::Run;
-
 use tests::text::assert_contains;
 
-use super::calibrated::{assert_limits, calibrate};
-use super::{assert_ends, check, json};
+use super::{assert_ends, assert_limits, calibrate, check, json};
 use crate::sandbox::{Sandbox, assert_refused, split};
 
 /// Makes a sandbox whose plate has limits on a single frame and on sequences of three frames. The identity's flicker is some hundredths
 /// of display white, squared.
 fn bounded_sequence() -> Sandbox {
     let sandbox = Sandbox::new();
-    sandbox.write(
-        "bounds.toml",
-        "[default]
-flip_moving = { limit = 0.9, why = \"it serves a test\" }
-[filter.identity]
-flicker = { limit = 0.0001, frames = 3, why = \"a hundredth of white\" }
-popping = { limit = 0.9, frames = 3, why = \"it serves a test\" }
-jod = { limit = 1.0, frames = 3, fps = 60, why = \"it serves a test\", level = \"report\" }
-",
-    );
+    sandbox.write("bounds.toml", include_str!("sequences.toml"));
     sandbox
 }
 
@@ -71,14 +58,13 @@ fn a_check_judges_the_sequence_and_the_first_frame_as_without_it() {
     assert_eq!(sandbox.read_findings()[0], findings[0]);
     let worst = assert_flicker(&sandbox);
 
-    let read = |name: &str| fs::read_to_string(sandbox.path(name)).unwrap();
+    let read = |name: &str| sandbox.text(name);
     let limit = "BROKEN flicker over 3 frames";
-    let parts = [
-        "identity:default flicker",
-        limit,
-        &format!("; worst in frame {worst}"),
-    ];
-    assert_contains(&read("junit.xml"), &parts);
+    let frame = format!("; worst in frame {worst}");
+    assert_contains(
+        &read("junit.xml"),
+        &["identity:default flicker", limit, &frame],
+    );
     assert_contains(&read("out/report.html"), &[limit, "sequences.html"]);
     let json = &json(&sandbox, "--filters identity --frames 3")["findings"];
     assert_eq!(json[1]["kind"], "broken");
@@ -127,10 +113,9 @@ fn calibrated_limits_of_sequences_pass_the_filter_and_fail_a_worse_one() {
     assert_eq!(proposed.matches(", frames = 2, ").count(), 8, "{proposed}");
     assert_contains(&proposed, &[", frames = 2, fps = 60.0, size = [64, 32]"]);
     // The dirt of two small frames is mostly noise of the truth, and its intervals differ from seed to seed.
-    let lines = proposed
-        .lines()
-        .filter(|line| !line.starts_with("fixed_pattern"));
-    sandbox.write("bounds.toml", &lines.collect::<Vec<_>>().join("\n"));
+    let mut lines: Vec<&str> = proposed.lines().collect();
+    lines.retain(|line| !line.starts_with("fixed_pattern"));
+    sandbox.write("bounds.toml", &lines.join("\n"));
     let met = "11 required bounds: 11 met";
     assert_limits(&sandbox, "--frames 2", met, "BROKEN error over 2 frames");
 }

@@ -6,16 +6,13 @@ use tests::root;
 use tests::text::{assert_contains, read_rows};
 
 use super::installed::install_glslang;
-use super::{
-    BINDINGS, COPY, find_module, list, read_log, refuse, write_compiler, write_honest_compiler,
-    write_pass,
-};
+use super::*;
 use crate::sandbox::{Sandbox, assert_done, read_below, split, stdout};
 
 /// Writes a pass over HLSL, and the texture after it.
 fn write_hlsl(sandbox: &Sandbox, more: &str) {
     write_pass(sandbox, "blur.hlsl", &format!("{more}{BINDINGS}"));
-    fs::write(sandbox.path("translated/copy.wgsl"), COPY).unwrap();
+    sandbox.put("translated/copy.wgsl", COPY);
 }
 
 /// Working HLSL still works if `slangc` lacks one of its libraries, or a module is unreadable here.
@@ -28,7 +25,7 @@ fn a_compiler_that_fails_is_followed_by_the_next() {
     let noise = format!("for m in 1 2 3 4 5 6 7 8 9 0; do {noise}; done");
     let failing = format!("{noise}\necho 'error 00100: failed to load slang-glslang'; exit 1");
     write_compiler(&sandbox, "slangc", &failing);
-    fs::write(sandbox.path("junk"), "no module").unwrap();
+    sandbox.put("junk", "no module");
     write_honest_compiler(&sandbox, "dxc", &sandbox.path("junk"));
     write_honest_compiler(&sandbox, "glslangValidator", &module);
     let listed = list(&sandbox);

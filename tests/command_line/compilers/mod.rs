@@ -66,7 +66,7 @@ fn write_honest_compiler(sandbox: &Sandbox, program: &str, module: &Path) {
 }
 
 fn read_log(sandbox: &Sandbox) -> String {
-    fs::read_to_string(sandbox.path("log.txt")).unwrap()
+    sandbox.text("log.txt")
 }
 
 /// Bindings of the module that fake compilers output.
@@ -109,7 +109,7 @@ fn slang_hlsl_and_wesl_go_through_their_compilers() {
     ] {
         let sandbox = Sandbox::new();
         write_pass(&sandbox, file, BINDINGS);
-        fs::write(sandbox.path("translated/copy.wgsl"), COPY).unwrap();
+        sandbox.put("translated/copy.wgsl", COPY);
         let script = format!(
             "case \"$*\" in {words}*) ;; *) echo \"called as $*\"; exit 3;; esac\n\
              for word; do case \"$word\" in *.spv) /bin/cp {module} \"$word\";; esac; done"
@@ -128,7 +128,7 @@ fn slang_hlsl_and_wesl_go_through_their_compilers() {
     fs::write(&manifest, text.replace(texture, "")).unwrap();
     let wgsl = COPY.replace(binding, "");
     let wgsl = wgsl.replace("textureLoad(tile_motion, id.xy, 0)", "vec4<f32>()");
-    fs::write(sandbox.path("compiled.wgsl"), wgsl).unwrap();
+    sandbox.put("compiled.wgsl", wgsl);
     let script = format!(
         "case \"$*\" in \"compile -D FAST -D FINE \"/*/blur.wesl) ;; *) echo \"called as $*\" >&2; exit 3;; esac\n\
          /bin/cat {}",

@@ -53,11 +53,8 @@ impl Claim {
     /// Makes a file of uncompressed zeros, or only some bytes after the header.
     pub fn file(&self) -> Vec<u8> {
         let more = (0..self.more_channels).map(|at| format!("c{at:05}"));
-        let names: Vec<String> = ["B", "G", "R"]
-            .map(str::to_owned)
-            .into_iter()
-            .chain(more)
-            .collect();
+        let mut names = ["B", "G", "R"].map(str::to_owned).to_vec();
+        names.extend(more);
         let mut channels = Vec::new();
         for name in &names {
             channels.extend(name.bytes().chain([0]));
@@ -122,9 +119,8 @@ pub fn png(width: u32, height: u32, [depth, kind]: [u8; 2], zeros: usize) -> Vec
     encoder.set_depth(BitDepth::from_u8(depth).unwrap());
     encoder.set_color(ColorType::from_u8(kind).unwrap());
     let mut writer = encoder.write_header().unwrap();
-    writer
-        .write_chunk(chunk::IDAT, &rows.finish().unwrap())
-        .unwrap();
+    let written = writer.write_chunk(chunk::IDAT, &rows.finish().unwrap());
+    written.unwrap();
     drop(writer);
     file
 }

@@ -10,9 +10,8 @@ fn read_sources(crate_name: &str) -> String {
     let files = WalkDir::new(root().join("crates").join(crate_name)).into_iter();
     let paths = files.map(|entry| entry.unwrap().into_path());
     let sources = paths.filter(|path| path.extension().is_some_and(|end| end == "rs"));
-    sources
-        .map(|path| fs::read_to_string(path).unwrap())
-        .collect()
+    let texts = sources.map(fs::read_to_string);
+    texts.collect::<Result<_, _>>().unwrap()
 }
 
 /// Finds the value of a constant, named `NAME` or, if several crates have one, `crate::NAME`.
@@ -70,9 +69,9 @@ fn number(text: &str) -> f64 {
     }
     match text.split_once("<<") {
         Some((one, bits)) => number(one) * number(bits).exp2(),
-        None => text
-            .split('*')
-            .map(|part| part.trim().parse::<f64>().unwrap())
-            .product(),
+        None => {
+            let factors = text.split('*').map(|part| part.trim().parse::<f64>());
+            factors.map(Result::unwrap).product()
+        }
     }
 }

@@ -41,9 +41,9 @@ fn names_of_files_are_printed_without_control_codes() {
     let sandbox = Sandbox::measured();
     let below = |name: &str| format!("{HOSTILE}/{name}");
     fs::create_dir_all(sandbox.path(&below("scene"))).unwrap();
-    fs::write(sandbox.path(&below("run.json")), "no run").unwrap();
+    sandbox.put(&below("run.json"), "no run");
     let scene = "family = \"a\n::error::c\"\n";
-    fs::write(sandbox.path(&below("scene/scene.toml")), scene).unwrap();
+    sandbox.put(&below("scene/scene.toml"), scene);
     // The name is the last word.
     for line in [
         "run --out o --scenes-dir",
@@ -102,10 +102,10 @@ fn names_in_files_are_printed_without_control_codes() {
 #[test]
 fn names_in_a_run_are_printed_without_control_codes() {
     let sandbox = Sandbox::measured();
-    let text = fs::read_to_string(sandbox.path("out/run.json")).unwrap();
+    let text = sandbox.text("out/run.json");
     let planted = text.replace("\"identity\"", "\"a\\u001b[35m\\u009b2J\"");
     assert_ne!(planted, text);
-    fs::write(sandbox.path("out/run.json"), planted).unwrap();
+    sandbox.put("out/run.json", planted);
     sandbox.write_bound(0.2);
     for (line, code) in [("compare out out", 0), ("check out", 1)] {
         let output = sandbox.outside_ci(&split(line));

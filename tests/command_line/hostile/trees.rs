@@ -1,11 +1,10 @@
 //! Geometry that a tree cannot split, and renders that exceed memory.
 
+use std::path::PathBuf;
 use std::process::Output;
 use std::time::{Duration, Instant};
 
-use crate::sandbox::{
-    OBJ, SCENE, Sandbox, assert_done, assert_refused, files_below, split, stderr,
-};
+use crate::sandbox::*;
 
 /// Renders the scene, and fails if that takes long. These cases once took longer, or ended the program.
 fn render(sandbox: &Sandbox, more: &str) -> Output {
@@ -29,20 +28,15 @@ fn with_faces(more: &str) -> Sandbox {
 fn pictures(sandbox: &Sandbox) -> Vec<Vec<frame::Channel>> {
     let mut files = files_below(&sandbox.path("out"));
     files.retain(|file| file.extension().is_some_and(|kind| kind == "exr"));
-    let channels = files
-        .iter()
-        .map(|path| frame::read_exr(path).unwrap().channels);
-    channels.collect()
+    let channels = |path: &PathBuf| frame::read_exr(path).unwrap().channels;
+    files.iter().map(channels).collect()
 }
 
 /// Writes triangles of these corners as statements of an OBJ file.
 fn triangles(corners: impl Iterator<Item = [[f64; 3]; 3]>) -> String {
-    corners
-        .map(|corners| {
-            let vertices = corners.map(|[x, y, z]| format!("v {x:e} {y:e} {z:e}\n"));
-            vertices.concat() + "f -3 -2 -1\n"
-        })
-        .collect()
+    let vertex = |[x, y, z]: [f64; 3]| format!("v {x:e} {y:e} {z:e}\n");
+    let faces = corners.map(|corners| corners.map(vertex).concat() + "f -3 -2 -1\n");
+    faces.collect()
 }
 
 #[test]
@@ -96,9 +90,8 @@ fn geometry_that_is_hard_to_split_renders() {
     // Many objects in one place.
     let crowd = Sandbox::new();
     let (head, object) = SCENE.split_once("[object.plate]").unwrap();
-    let objects: String = (0..1000)
-        .map(|index| format!("[object.plate_{index}]{object}"))
-        .collect();
+    let named = |index| format!("[object.plate_{index}]{object}");
+    let objects: String = (0..1000).map(named).collect();
     crowd.write("scene.toml", &format!("{head}{objects}"));
     for sandbox in [nested, thin, crowd] {
         assert_done(&render(&sandbox, ""));
@@ -115,21 +108,12 @@ fn geometry_and_light_beyond_the_limits_are_refused_before_a_picture_is_written(
     let huge = format!("{OBJ}{}", triangles([huge].into_iter()));
     // The sum of two such radiances overflows a float.
     let bright = "newmtl paint\nKd 0.5 0.5 0.5\nKe 3e38 3e38 3e38\n".to_owned();
-    let rows: [(&str, String, &[&str]); 3] = [
-        (
-            "plate.obj",
-            one_place,
-            &[
-                "plate.obj",
-                "object plate",
-                "allowed: 256",
-                "delete all but one",
-            ],
-        ),
-        ("plate.obj", huge, &["plate"]),
-        ("plate.mtl", bright, &["plate"]),
-    ];
-    for (file, text, parts) in rows {
+    let parts = "plate.obj | object plate | allowed: 256 | delete all but one";
+    for (file, text, parts) in [
+        ("plate.obj", one_place, parts),
+        ("plate.obj", huge, "plate"),
+        ("plate.mtl", bright, "plate"),
+    ] {
         let sandbox = Sandbox::new();
         sandbox.write(file, &text);
         assert_refused(&render(&sandbox, ""), 2, parts);

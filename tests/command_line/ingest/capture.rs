@@ -4,11 +4,11 @@ use std::fs;
 use std::path::PathBuf;
 
 use frame::{
-    Alignment, Channel, ExrFile, FAR_DEPTH, Frame, FrameOptions, Image, Raster, Samples,
-    VelocityKind, read_exr, write_exr, write_half_exr,
+    Alignment, Channel, ExrFile, FAR_DEPTH, Frame, Image, Raster, Samples, VelocityKind, read_exr,
+    write_exr, write_half_exr,
 };
-use tests::unwatched;
-use tracer::{RenderSettings, load_scene, trace_frame};
+use tests::{settings, unwatched};
+use tracer::{load_scene, trace_frame};
 
 use crate::sandbox::Sandbox;
 
@@ -17,22 +17,10 @@ pub const WIDTH: u32 = 96;
 pub const HEIGHT: u32 = 54;
 const NEAR: f32 = 0.1;
 
-pub const DESCRIPTION: &str = "\
-engine = \"Test Engine 1.2\"
-scene = \"plate\"
-exposure = 0.5
-alignment = \"trailing\"
-";
+pub const DESCRIPTION: &str = include_str!("capture.toml");
 
 /// Velocity in normalised device coordinates, upwards, and reversed depth with a far plane at infinity.
-pub const CONVENTION: &str = "\
-[convention]
-velocity = \"ndc\"
-velocity_y = \"up\"
-depth = \"reversed\"
-near = 0.1
-color_scale = 2.0
-";
+pub const CONVENTION: &str = include_str!("engine.toml");
 
 /// A folder `capture` in a sandbox, with the sandbox's plate as an engine would draw it.
 pub struct Capture<'a> {
@@ -56,20 +44,12 @@ impl<'a> Capture<'a> {
         fs::create_dir(sandbox.path("capture")).unwrap();
         capture.write("capture.toml", DESCRIPTION);
         capture.write("engine.toml", CONVENTION);
-        let Frame {
-            color,
-            velocity,
-            depth,
-            object_id,
-            ..
-        } = &capture.frame;
-        capture.write_color("color.exr", color);
+        let frame = &capture.frame;
+        capture.write_color("color.exr", &frame.color);
         let [x, y] = [2.0 / WIDTH as f32, -2.0 / HEIGHT as f32];
-        let velocity = [
-            velocity.map(|motion| motion[0] * x),
-            velocity.map(|motion| motion[1] * y),
-        ];
-        let reversed = depth.map(|depth| match *depth == FAR_DEPTH {
+        let axes = [(0, x), (1, y)];
+        let velocity = axes.map(|(axis, by)| frame.velocity.map(|motion| motion[axis] * by));
+        let reversed = frame.depth.map(|depth| match *depth == FAR_DEPTH {
             true => 0.0,
             false => NEAR / depth,
         });
@@ -83,7 +63,7 @@ impl<'a> Capture<'a> {
         let mut file = ExrFile::new(WIDTH, HEIGHT);
         file.channels.push(Channel {
             name: "object".into(),
-            samples: Samples::U32(object_id.pixels.clone()),
+            samples: Samples::U32(frame.object_id.pixels.clone()),
         });
         write_exr(&capture.path("object.exr"), &file).unwrap();
         capture
@@ -101,13 +81,11 @@ impl<'a> Capture<'a> {
         let mut blurred = self.frame.color.map(|_| [0.0; 3]);
         for index in 0..count {
             let time = shutter.at((f64::from(index) + 0.5) / f64::from(count));
-            let Frame {
-                color, object_id, ..
-            } = render_plate(self.sandbox, time);
-            let ids = has_ids.then_some(&object_id);
-            self.write_picture(&format!("subframes/{index:04}.exr"), &color, ids);
+            let frame = render_plate(self.sandbox, time);
+            let (color, ids) = (&frame.color, has_ids.then_some(&frame.object_id));
+            self.write_picture(&format!("subframes/{index:04}.exr"), color, ids);
             if index < 4 {
-                blurred = blurred.zip(&color, |sum, color| {
+                blurred = blurred.zip(color, |sum, color| {
                     std::array::from_fn(|channel| sum[channel] + 0.25 * color[channel])
                 });
             }
@@ -120,8 +98,8 @@ impl<'a> Capture<'a> {
         self.sandbox.path("capture").join(name)
     }
 
-    pub fn write(&self, name: &str, text: &str) {
-        fs::write(self.path(name), text).unwrap();
+    pub fn write(&self, name: &str, content: impl AsRef<[u8]>) {
+        fs::write(self.path(name), content).unwrap();
     }
 
     /// Writes colour with the convention's exposure.
@@ -131,10 +109,8 @@ impl<'a> Capture<'a> {
 
     /// Reads colour as [`Capture::write_color`] wrote it.
     pub fn read_color(&self, name: &str) -> Image {
-        let file = read_exr(&self.path(name)).unwrap();
-        file.color("")
-            .unwrap()
-            .map(|pixel| pixel.map(|value| 0.5 * value))
+        let color = read_exr(&self.path(name)).unwrap().color("").unwrap();
+        color.map(|pixel| pixel.map(|value| 0.5 * value))
     }
 
     /// Writes colour, and the ids of objects as floats, -1 for the background.
@@ -152,16 +128,8 @@ impl<'a> Capture<'a> {
 /// Renders the scene of a folder at a time, with the velocity that engines have.
 pub fn render_instant(folder: PathBuf, samples_per_pixel: u32, time: f64) -> Frame {
     let scene = load_scene(folder, None).unwrap().later_by(time);
-    let settings = RenderSettings {
-        width: WIDTH,
-        height: HEIGHT,
-        samples_per_pixel,
-        options: FrameOptions {
-            velocity: VelocityKind::PreviousFrame,
-            ..FrameOptions::default()
-        },
-        ..RenderSettings::default()
-    };
+    let mut settings = settings([WIDTH, HEIGHT], samples_per_pixel);
+    settings.options.velocity = VelocityKind::PreviousFrame;
     trace_frame(&scene, &settings, &unwatched).unwrap()
 }
 

@@ -4,12 +4,9 @@ use std::fs;
 use std::path::Path;
 
 use suite::{Monitor, TRAVERSALS, Verification};
-use tests::text::assert_contains;
+use tests::text::{Parts, assert_contains};
 
-use super::{
-    QUICK, change_manifest, change_replicate, entries, pack_forged, packed, refuse_forged,
-    renew_truth, replicate_file, replicate_files, run, write,
-};
+use super::*;
 use crate::sandbox::{Sandbox, assert_refused, split, stderr, stdout};
 
 const VERIFY: &str = "truths verify";
@@ -32,7 +29,7 @@ fn a_truth_of_an_engine_is_no_success() {
     }
     let place = "out/slow@engine: cannot be traced again";
     sandbox.refuse(VERIFY, &[place, "only that engine can draw", "--scenes"]);
-    sandbox.execute(&split("truths verify --scenes plate"));
+    sandbox.done("truths verify --scenes plate");
 }
 
 /// A folder of truths is the user's own and is not traced again, but its headers are not trusted either.
@@ -40,10 +37,8 @@ fn a_truth_of_an_engine_is_no_success() {
 fn a_kept_file_that_says_that_an_engine_drew_it_is_rendered_again() {
     let sandbox = packed();
     let files = ["frame.exr", "truth_trailing.exr", "ladder_trailing/n4.exr"];
-    let all = files
-        .map(str::to_owned)
-        .into_iter()
-        .chain(replicate_files());
+    let files = files.map(str::to_owned).into_iter();
+    let all = files.chain(replicate_files());
     for file in all.clone() {
         mark_drawn(&sandbox.path("out/plate").join(file));
     }
@@ -52,14 +47,14 @@ fn a_kept_file_that_says_that_an_engine_drew_it_is_rendered_again() {
         let drawn = frame::read_attribute(&sandbox.path("fresh/plate").join(&file), "engine");
         assert_eq!(drawn, None, "{file}");
     }
-    sandbox.execute(&split("truths verify fresh"));
+    sandbox.done("truths verify fresh");
 }
 
 /// Changes each attribute in turn in these kept files of a plate, with right checksums, and the checksum itself.
 fn change_attributes(files: &[String]) {
     let sandbox = Sandbox::new();
     let run = "run --quiet --filter identity --size 16x16 --samples-per-pixel 16 --jitter-frames 2";
-    sandbox.execute(&split(&format!("{run} --replicates 2")));
+    sandbox.done(&format!("{run} --replicates 2"));
     let scene = tracer::load_scene(sandbox.path("scenes/plate"), None).unwrap();
     let kept = &suite::list_scene_renders(&sandbox.path("out"), Path::new("out")).unwrap()[0];
     let verification = Verification { seed: 5, tiles: 1 };
@@ -148,16 +143,13 @@ fn no_pack_turns_a_failed_check_into_a_success() {
         });
     }
     renew_truth(&sandbox);
-    let refuse = |parts: &[&str]| {
+    let refuse = |parts: &dyn Parts| {
         let output = check("forged.tar.zst");
         assert_eq!(output.status.code(), Some(2), "{}", stdout(&output));
         assert_contains(&stderr(&output), parts);
         refuse_forged(&sandbox, 1, parts);
     };
-    let replicate = [
-        "forged.tar.zst/plate/truth_trailing/replicate_00",
-        "channel",
-    ];
+    let replicate = "forged.tar.zst/plate/truth_trailing/replicate_00 | channel";
     pack_forged(&sandbox);
     refuse(&replicate);
     // Without its truth, a run would make one from the replicates.
@@ -193,14 +185,14 @@ fn leave_out(sandbox: &Sandbox, begin: &str) {
 fn replicates_that_are_in_no_truth_are_traced_too() {
     let sandbox = packed();
     let render = "truths render --quiet --scenes plate --size 64x32 --samples-per-pixel 16";
-    sandbox.execute(&split(&format!("{render} --replicates 8..10 --out part")));
-    let printed = sandbox.execute(&split("truths verify part"));
+    sandbox.done(&format!("{render} --replicates 8..10 --out part"));
+    let printed = sandbox.done("truths verify part");
     assert!(printed.starts_with("part: 1 tile of "), "{printed}");
     for file in [8, 9].map(replicate_file) {
         let [from, to] = ["part/plate", "out/plate"].map(|below| sandbox.path(below).join(&file));
         fs::copy(from, to).unwrap();
     }
-    sandbox.execute(&split(VERIFY));
+    sandbox.done(VERIFY);
     let path = |out: &str| sandbox.path(out).join("plate").join(replicate_file(9));
     let refuse = |line: &str, part: &str| {
         let output = sandbox.shuttertruth(&split(line));

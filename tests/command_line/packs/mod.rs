@@ -3,18 +3,17 @@
 mod forgeries;
 mod refusals;
 mod round_trip;
-mod verification;
 
 use std::fs;
 use std::io::{Read, Write};
 use std::path::Path;
 use std::process::Output;
-use std::sync::OnceLock;
 
 use frame::{Replicate, Truth};
 use store::Manifest;
+use tests::text::Parts;
 
-use crate::sandbox::{Files, Sandbox, assert_refused, split};
+use crate::sandbox::{Sandbox, assert_refused, split};
 use crate::shared_runs::QUICK;
 
 /// Replicates of a truth.
@@ -27,28 +26,25 @@ fn quick(sandbox: &Sandbox, line: &str) -> Output {
 
 /// Measures into the folder `out`, or another one.
 fn run(sandbox: &Sandbox, line: &str) {
-    sandbox.execute(&split(&format!("run {line} {QUICK}")));
+    sandbox.done(&format!("run {line} {QUICK}"));
 }
 
 /// Makes a sandbox with a finished run of the identity in `out`, and its pack `truths.tar.zst`.
 fn packed() -> Sandbox {
-    static FILES: OnceLock<Files> = OnceLock::new();
-    Sandbox::of(FILES.get_or_init(|| {
-        let sandbox = Sandbox::new();
-        run(&sandbox, "--filter identity");
-        sandbox.execute(&["truths", "pack"]);
-        sandbox.read_files()
-    }))
+    Sandbox::once(|sandbox| {
+        run(sandbox, "--filter identity");
+        sandbox.done("truths pack");
+    })
 }
 
 /// Packs the run in `out` as `forged.tar.zst`.
 fn pack_forged(sandbox: &Sandbox) {
-    sandbox.execute(&split("truths pack --out forged.tar.zst"));
+    sandbox.done("truths pack --out forged.tar.zst");
 }
 
 /// Checks that `verify` refuses `forged.tar.zst` with this exit code, and that a run refuses it and leaves nothing of it.
 #[track_caller]
-fn refuse_forged(sandbox: &Sandbox, code: i32, parts: &[&str]) {
+fn refuse_forged(sandbox: &Sandbox, code: i32, parts: &(impl Parts + ?Sized)) {
     let verified = sandbox.shuttertruth(&split("truths verify forged.tar.zst"));
     assert_refused(&verified, code, parts);
     let line = "run --filter identity --truths forged.tar.zst --out fresh";

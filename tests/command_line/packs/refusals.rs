@@ -4,14 +4,13 @@ use std::fs;
 
 use store::Manifest;
 use tar::EntryType;
+use tests::text::Parts;
 
-use super::{
-    Packed, change_manifest, compress, entries, manifest, packed, quick, refuse_forged, run, write,
-};
+use super::*;
 use crate::sandbox::{Sandbox, assert_refused, make_fifo, quick_command, split};
 
 #[track_caller]
-fn refuse_to_pack(sandbox: &Sandbox, words: &str, parts: &[&str]) {
+fn refuse_to_pack(sandbox: &Sandbox, words: &str, parts: &(impl Parts + ?Sized)) {
     sandbox.refuse(&format!("truths pack {words} --out none.tar.zst"), parts);
     assert!(!sandbox.path("none.tar.zst").exists());
 }
@@ -20,16 +19,13 @@ fn refuse_to_pack(sandbox: &Sandbox, words: &str, parts: &[&str]) {
 fn what_is_no_finished_run_is_not_packed() {
     let sandbox = packed();
     fs::create_dir(sandbox.path("empty")).unwrap();
-    let parts = ["empty/run.json", "there is no such file"];
-    refuse_to_pack(&sandbox, "empty", &parts);
-    let parts = ["--scenes: no \"plat\" there", "did you mean plate?"];
-    refuse_to_pack(&sandbox, "--scenes plat", &parts);
-    for file in [
-        "frame.exr",
-        "truth_trailing.exr",
-        "truth_trailing/replicate_007.exr",
-        "ladder_trailing/n64.exr",
-    ] {
+    let parts = "empty/run.json | there is no such file";
+    refuse_to_pack(&sandbox, "empty", parts);
+    let parts = "--scenes: no \"plat\" there | did you mean plate?";
+    refuse_to_pack(&sandbox, "--scenes plat", parts);
+    let replicate = "truth_trailing/replicate_007.exr";
+    let rung = "ladder_trailing/n64.exr";
+    for file in ["frame.exr", "truth_trailing.exr", replicate, rung] {
         let path = sandbox.path("out/plate").join(file);
         let bytes = fs::read(&path).unwrap();
         fs::remove_file(&path).unwrap();
@@ -46,7 +42,7 @@ fn what_is_no_finished_run_is_not_packed() {
     refuse_to_pack(&sandbox, "", &[rung, "its header has the hash"]);
     fs::write(&path, own).unwrap();
     let render = "truths render --quiet --scenes plate --size 64x32 --samples-per-pixel 16";
-    sandbox.execute(&split(&format!("{render} --seed 2 --out out")));
+    sandbox.done(&format!("{render} --seed 2 --out out"));
     let parts = ["plate/truth_trailing.exr", "the run was measured with"];
     refuse_to_pack(&sandbox, "", &parts);
 }
@@ -59,12 +55,12 @@ fn with_other_seed() -> Sandbox {
 }
 
 /// An unpacked pack.
-struct Parts {
+struct Pack {
     sandbox: Sandbox,
     entries: Vec<Packed>,
 }
 
-impl Parts {
+impl Pack {
     fn new() -> Self {
         let sandbox = packed();
         let entries = entries(&sandbox.path("truths.tar.zst"));
@@ -96,7 +92,7 @@ impl Parts {
 
 #[test]
 fn an_archive_that_differs_from_its_manifest_is_refused() {
-    let parts = Parts::new();
+    let parts = Pack::new();
     let [name, next] = [5, 6].map(|at| parts.entries[at].name.clone());
     let last = parts.entries.last().unwrap().clone();
 
@@ -120,7 +116,7 @@ fn an_archive_that_differs_from_its_manifest_is_refused() {
 
 #[test]
 fn links_and_names_that_leave_the_folder_are_refused() {
-    let parts = Parts::new();
+    let parts = Pack::new();
     let name = &parts.entries[5].name.clone();
     for (kind, found) in [
         (EntryType::Symlink, "as a link; allowed: regular files"),
@@ -150,7 +146,7 @@ fn links_and_names_that_leave_the_folder_are_refused() {
 
 #[test]
 fn manifests_that_promise_too_much_are_refused() {
-    let parts = Parts::new();
+    let parts = Pack::new();
     parts.refuse_manifest(|all| all.format = 2, "it has format 2; allowed: 1");
     parts.refuse_manifest(|all| all.files.clear(), "names no file");
     parts.refuse_manifest(|all| all.files.swap(2, 3), "allowed: the order of paths");
@@ -180,16 +176,12 @@ fn manifests_that_promise_too_much_are_refused() {
 
 #[test]
 fn an_archive_that_was_cut_off_or_goes_on_is_refused() {
-    let parts = Parts::new();
+    let parts = Pack::new();
     let forged = parts.sandbox.path("forged.tar.zst");
     let bytes = fs::read(parts.sandbox.path("truths.tar.zst")).unwrap();
-    for bytes in [
-        &bytes[..bytes.len() / 2],
-        &bytes[..bytes.len() - 1],
-        &[&bytes[..], b"more"].concat(),
-        &[],
-        &vec![b'x'; bytes.len()],
-    ] {
+    let (half, most) = (&bytes[..bytes.len() / 2], &bytes[..bytes.len() - 1]);
+    let (more, other) = ([&bytes[..], b"more"].concat(), vec![b'x'; bytes.len()]);
+    for bytes in [half, most, &more, &[], &other] {
         fs::write(&forged, bytes).unwrap();
         parts.refused(&["cut off"]);
     }
@@ -208,14 +200,11 @@ fn an_archive_that_was_cut_off_or_goes_on_is_refused() {
 
 #[test]
 fn a_file_whose_header_has_another_hash_than_the_manifest_is_refused() {
-    let Parts {
-        sandbox,
-        mut entries,
-    } = Parts::new();
+    let Pack { sandbox, entries } = &mut Pack::new();
     let other = with_other_seed();
-    other.execute(&split("truths pack other --out other.tar.zst"));
+    other.done("truths pack other --out other.tar.zst");
     let other = manifest(&super::entries(&other.path("other.tar.zst")));
-    change_manifest(&mut entries, |manifest| {
+    change_manifest(entries, |manifest| {
         for (file, other) in manifest.files.iter_mut().zip(other.files) {
             file.content_hash = other.content_hash;
         }
@@ -223,7 +212,7 @@ fn a_file_whose_header_has_another_hash_than_the_manifest_is_refused() {
     write(&sandbox.path("forged.tar.zst"), &entries);
     let words = "run --filter identity --seed 2 --truths forged.tar.zst --out fresh";
     let found = ["has another content_hash than manifest.json says"];
-    assert_refused(&quick(&sandbox, words), 2, &found);
+    assert_refused(&quick(sandbox, words), 2, &found);
     assert!(!sandbox.path("fresh/plate").exists());
 }
 

@@ -1,6 +1,4 @@
-//! Questions to people, and the scale of their answers.
-
-mod refusals;
+//! Questions to people, the scale of their answers, and answers that are refused.
 
 use std::fs;
 
@@ -9,9 +7,9 @@ use study::{
     Answer, AnswerFile, Chosen, Clip, DisplayFacts, Question, SHARP_CLIP, ShownPair, Study,
     TRUTH_CLIP, draw_session,
 };
-use tests::text::{assert_contains, squeeze};
+use tests::text::{assert_contains, read_rows, squeeze};
 
-use crate::sandbox::{Sandbox, assert_same_files, files_below, read_below, split};
+use crate::sandbox::{Sandbox, assert_refused, assert_same_files, files_below, read_below, split};
 
 /// Filters of the trailing shutter, from the best to the worst.
 const FILTERS: &str = "jump_flood:paper,velocity_gather:fine,identity";
@@ -79,19 +77,11 @@ fn prefer_first(pair: &ShownPair) -> Chosen {
     }
 }
 
-fn opposite(choice: Chosen) -> Chosen {
-    match choice {
-        Chosen::Left => Chosen::Right,
-        Chosen::Right => Chosen::Left,
-        Chosen::Neither => Chosen::Neither,
-    }
-}
-
 /// Writes files of answers; returns the words that name them.
 fn write_answers(sandbox: &Sandbox, files: &[AnswerFile]) -> Vec<String> {
     let write = |(index, file): (usize, &AnswerFile)| {
         let name = format!("answers_{index}.json");
-        fs::write(sandbox.path(&name), serde_json::to_string(file).unwrap()).unwrap();
+        sandbox.put(&name, serde_json::to_string(file).unwrap());
         name
     };
     files.iter().enumerate().map(write).collect()
@@ -119,12 +109,8 @@ fn a_page_has_copies_of_the_pictures_and_refuses_what_people_cannot_compare() {
         assert_eq!(picture(copy), picture(original), "{copy}");
     }
     let text = sandbox.done("people ask out --out other --filters jump_flood,ident* --scenes slow");
-    let parts = [
-        "2 filters of the trailing shutter on 1 scene",
-        "every pair once, and 2 checks",
-        "128 pixels",
-        "Nobody has answered yet",
-    ];
+    let parts = "2 filters of the trailing shutter on 1 scene | every pair once, and 2 checks | 128 pixels | \
+        Nobody has answered yet";
     assert_contains(&squeeze(&text), &parts);
     finish_half_a_page(&sandbox);
     sandbox.refuse_rows(
@@ -154,10 +140,11 @@ fn answers_to_a_page_become_a_scale_beside_the_scores_of_the_run() {
         .map(|seed| {
             answer(&study, Question::Truth, seed, |pair, index| {
                 let choice = prefer_first(pair);
-                match (index + seed as usize).is_multiple_of(4) && !pair.is_check() {
-                    true => opposite(choice),
-                    false if pair.is_check() && seed == 5 => Chosen::Left,
-                    false => choice,
+                match (choice, (index + seed as usize).is_multiple_of(4)) {
+                    _ if pair.is_check() && seed == 5 => Chosen::Left,
+                    (Chosen::Left, true) if !pair.is_check() => Chosen::Right,
+                    (Chosen::Right, true) if !pair.is_check() => Chosen::Left,
+                    _ => choice,
                 }
             })
         })
@@ -174,10 +161,7 @@ fn answers_to_a_page_become_a_scale_beside_the_scores_of_the_run() {
     assert_eq!(scale["comparisons"], 6 * 6);
     assert_eq!(scale["resampled"], "people");
     let filters = scale["filters"].as_array().unwrap();
-    let order: Vec<&str> = filters
-        .iter()
-        .map(|own| own["filter"].as_str().unwrap())
-        .collect();
+    let order: Vec<&Value> = filters.iter().map(|own| &own["filter"]).collect();
     let due = "jump_flood:paper velocity_gather:fine identity:default";
     assert_eq!(order, split(due));
     let number = |value: &Value| value.as_f64().unwrap();
@@ -200,14 +184,8 @@ fn answers_to_a_page_become_a_scale_beside_the_scores_of_the_run() {
     assert_eq!(score("psnr_moving")["correlation"], 1.0);
 
     let table = sandbox.execute(&preferences(&names, &["--run", "out"]));
-    let parts = [
-        "Which looks more like the truth?",
-        "6 sessions, 48 answers",
-        "answers_5.json",
-        "1000 resamples of sessions",
-        "people chose alike in",
-        "flip_moving +1.00",
-    ];
+    let parts = "Which looks more like the truth? | 6 sessions, 48 answers | answers_5.json | \
+        1000 resamples of sessions | people chose alike in | flip_moving +1.00";
     assert_contains(&squeeze(&table), &parts);
     let mut lines = table.lines();
     assert!(lines.all(|line| line.chars().count() <= 80), "{table}");
@@ -216,14 +194,9 @@ fn answers_to_a_page_become_a_scale_beside_the_scores_of_the_run() {
     let one = answer(&study, Question::Better, 9, |pair, _| prefer_first(pair));
     let names = write_answers(&sandbox, &[one]);
     let table = sandbox.execute(&preferences(&names, &[]));
-    let parts = [
-        "1 session, 8 answers",
-        "fewer than 5 sessions",
-        "the prior alone holds",
-        "0 of 2 checks failed",
-    ];
+    let parts = "1 session, 8 answers | fewer than 5 sessions | the prior alone holds | 0 of 2 checks failed";
     assert_contains(&squeeze(&table), &parts);
-    refusals::assert_answers_are_refused(&sandbox, &study);
+    assert_answers_are_refused(&sandbox, &study);
 }
 
 /// Makes a page where a killed process had begun another one.
@@ -239,4 +212,92 @@ fn finish_half_a_page(sandbox: &Sandbox) {
     sandbox.done(ask);
     let [half, page] = ["half", "page"].map(|folder| read_below(&sandbox.path(folder)));
     assert_same_files(&half, &page);
+}
+
+type Change = fn(&mut AnswerFile);
+
+/// Checks that answers to questions that no page of this run asked are refused.
+pub fn assert_answers_are_refused(sandbox: &Sandbox, study: &Study) {
+    let session = |seed| answer(study, Question::Truth, seed, |pair, _| prefer_first(pair));
+    let refuse = |files: &[AnswerFile], parts: &[&str]| {
+        let names = write_answers(sandbox, files);
+        assert_refused(&sandbox.shuttertruth(&preferences(&names, &[])), 2, parts);
+    };
+    let seed = "answers_1.json: has the seed 1 of answers_0.json";
+    refuse(&[session(1), session(1)], &[seed, "counts once"]);
+    let changed = |change: Change| {
+        let mut file = session(3);
+        change(&mut file);
+        file
+    };
+    let others = changed(|file| file.study.pictures = "0".to_owned());
+    let about = "answers_1.json: answers about other pictures";
+    let says = format!("{about} than answers_0.json: the pictures differ");
+    refuse(&[session(1), others], &[&says]);
+    let parts = ["answer 5 of 8 is about"];
+    refuse(&[changed(swap_sides)], &parts);
+    let more = changed(|file| file.answers.push(file.answers[0].clone()));
+    refuse(&[more], &["9 answers; allowed: 1 to 8"]);
+    let parts = ["no scale of the trailing shutter exists", " | "];
+    refuse(&[changed(|file| file.answers.truncate(1))], &parts);
+    for (change, parts) in read_rows(
+        r#"
+        /format 2 => answers_0.json: has format 2; allowed: 1
+        /seed 4 => answer 1 of 8 is about | the seed 4 shows
+        /seed 1152921504606846976 => allowed: 0 to 9007199254740991
+        /answers [] => 0 answers; allowed: 1 to 8
+        /answers/0/milliseconds -1.0 => answer 1 of 8 took -1 milliseconds
+        /study/shutters/0/filters ["identity:default"] => its page has this many filters
+        /study/shutters/0/telling_scenes [7] => differs from the sharp frame"#,
+    ) {
+        let mut file = serde_json::to_value(session(3)).unwrap();
+        let (pointer, value) = change.split_once(' ').unwrap();
+        *file.pointer_mut(pointer).unwrap() = serde_json::from_str(value).unwrap();
+        refuse(&[serde_json::from_value(file).unwrap()], &parts);
+    }
+
+    let text = serde_json::to_string(&session(3)).unwrap();
+    let [named, strange] = [
+        ("\"seed\"", "\"name\":\"A. Person\",\"seed\""),
+        ("\"left\"", "\"neither\\n::error::\""),
+    ]
+    .map(|(from, to)| text.replacen(from, to, 1));
+    for (text, parts) in [
+        ("{}", &["is no file of answers: it has no format"][..]),
+        (&text[..200], &["is no file of answers"]),
+        (&named, &["unknown field `name`"]),
+        (&strange, &["unknown field `neither", "| ::error::`"]),
+        (
+            r#"{"format":1}"#,
+            &["is no file of answers", "missing field"],
+        ),
+    ] {
+        sandbox.put("answers_0.json", text);
+        sandbox.refuse("people preferences answers_0.json", parts);
+    }
+    assert_runs_are_told_apart(sandbox, &write_answers(sandbox, &[session(1)]));
+}
+
+/// Swaps both sides of an answer. A check of one clip looks the same from both sides, so it gets another scene.
+fn swap_sides(file: &mut AnswerFile) {
+    let own = &mut file.answers[4];
+    std::mem::swap(&mut own.left, &mut own.right);
+    own.scene.name = "plate".to_owned() + if own.left == own.right { "s" } else { "" };
+}
+
+/// Another seed makes other truths, a changed filter makes other pictures.
+fn assert_runs_are_told_apart(sandbox: &Sandbox, names: &[String]) {
+    let with_run = preferences(names, &["--run", "out"]);
+    let refuse = |parts: &[&str]| assert_refused(&sandbox.shuttertruth(&with_run), 2, parts);
+    sandbox.execute(&with_run);
+    let output = sandbox.path("out/plate/identity_default/output.png");
+    let before = fs::read(&output).unwrap();
+    fs::copy(sandbox.path("out/plate/truth_trailing.png"), &output).unwrap();
+    refuse(&["another run: the pictures differ"]);
+    fs::write(&output, before).unwrap();
+    sandbox.execute(&with_run);
+    sandbox.measure(&format!("--filters {FILTERS} --seed 2 --jitter-frames 0"));
+    refuse(&["another run: the truths differ"]);
+    sandbox.measure("--filters identity --no-cache");
+    refuse(&["is not the run", "fits nothing"]);
 }

@@ -5,8 +5,6 @@ mod layers;
 mod page;
 mod tuning;
 
-use std::fs;
-
 use crate::sandbox::Sandbox;
 
 const REPORT: &str = "report out/run.json --html page/report.html";
@@ -15,7 +13,7 @@ const REPORT: &str = "report out/run.json --html page/report.html";
 fn make_page(sandbox: &Sandbox) -> String {
     let printed = sandbox.done(REPORT);
     assert!(printed.contains("written: page/report.html ("), "{printed}");
-    fs::read_to_string(sandbox.path("page/report.html")).unwrap()
+    sandbox.text("page/report.html")
 }
 
 /// Finds every text between two texts.

@@ -2,21 +2,18 @@
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::sync::OnceLock;
 
 use metrics::Metric;
 use tests::text::assert_contains;
 
 use super::{REPORT, address, between, find_article, make_page, panel, planes};
-use crate::sandbox::{Files, Sandbox, assert_done};
+use crate::sandbox::{Sandbox, assert_done, split};
 
 /// Makes a sandbox with a run of three filters on two scenes.
 fn measured() -> Sandbox {
-    static FILES: OnceLock<Files> = OnceLock::new();
-    Sandbox::once(&FILES, || {
-        let sandbox = Sandbox::two_scenes();
+    Sandbox::once(|sandbox| {
+        sandbox.add_slow_scene();
         sandbox.measure("--filters identity,velocity_gather:fine,jump_flood:corrected");
-        sandbox
     })
 }
 
@@ -41,18 +38,14 @@ fn a_page_shows_the_scores_and_means_of_the_run() {
     }
     // Each follows the previous one.
     let mut rest = between(&page, "aria-label=\"FLIP of every case\"", "</table>")[0];
-    let means = run
-        .overall
-        .iter()
-        .filter(|mean| mean.metric == Metric::FLIP);
-    let mut means: Vec<_> = means.collect();
+    let mut means: Vec<_> = run.overall.iter().collect();
+    means.retain(|mean| mean.metric == Metric::FLIP);
     means.sort_by(|a, b| a.mean.total_cmp(&b.mean));
     assert_eq!(means.len(), 10, "seven references and three filters");
     for own in means {
         let (mean, [low, high]) = (own.mean, own.interval);
-        let cells = format!(
-            "data-value=\"{mean}\">{mean:.3}</td><td class=\"note\">{low:.3} to {high:.3}</td>"
-        );
+        let interval = format!("<td class=\"note\">{low:.3} to {high:.3}</td>");
+        let cells = format!("data-value=\"{mean}\">{mean:.3}</td>{interval}");
         rest = rest.split_once(&cells).expect(&cells).1;
     }
     assert_contains(&page, &[&run.program, "--samples-per-pixel 16", "seed 1"]);
@@ -82,16 +75,13 @@ fn every_case_has_an_article_with_its_layers() {
             assert!(plane < scenes[scene].len(), "{layers}");
         }
         let names: Vec<&str> = pairs.map(|(name, _)| name).collect();
-        let dilated = if case.filter == "jump_flood" {
-            " dilated"
-        } else {
-            ""
-        };
-        let due = format!(
-            "truth output instant flip signed bleed label_tv unknowable velocity depth\
-             {dilated} objects"
+        let mut due = split(
+            "truth output instant flip signed bleed label_tv unknowable velocity depth objects",
         );
-        assert_eq!(names.join(" "), due, "{}", case.name());
+        if case.filter == "jump_flood" {
+            due.insert(10, "dilated");
+        }
+        assert_eq!(names, due, "{}", case.name());
     }
 }
 
@@ -118,10 +108,8 @@ fn the_page_of_a_check_ranks_as_the_terminal_does() {
                 shown
             })
             .collect();
-        let [first, second] = cells[..] else {
-            panic!("two scenes have {} scores", cells.len())
-        };
-        assert!((ranked.mean - (first + second) / 2.0).abs() < 1e-12);
+        assert_eq!(cells.len(), 2, "two scenes");
+        assert!((ranked.mean - (cells[0] + cells[1]) / 2.0).abs() < 1e-12);
         let ([low, high], mean) = (ranked.interval.unwrap(), ranked.mean);
         let on_page = format!("{mean:.3}</td><td class=\"note\">{low:.3} to {high:.3}</td>");
         assert_contains(table, &[&on_page]);
@@ -133,10 +121,8 @@ fn the_page_of_a_check_ranks_as_the_terminal_does() {
     // Both name the same best filters, and the same ties.
     let best = between(&page, "<ul class=\"winners\">", "</ul>")[0];
     for group in judge::rank_for_summary(&run.cases) {
-        let name = format!(
-            "shutter: <strong><a href=\"#filter:{0}\">{0}</a>",
-            group[0].name
-        );
+        let first = &group[0].name;
+        let name = format!("shutter: <strong><a href=\"#filter:{first}\">{first}</a>");
         assert!(best.contains(&name), "{name}: {best}");
         for tie in group[1..].iter().filter(|own| own.ranks[0] == 1) {
             assert!(best.contains(&format!(">{}</a> (", tie.name)), "{best}");
@@ -195,30 +181,19 @@ fn costs_come_from_the_bench_beside_the_run() {
     let page = make_page(&sandbox);
     let timed: suite::Bench = sandbox.read_json("out/bench.json");
     let mut costs = timed.cases.iter();
-    let seconds = costs
-        .find(|cost| cost.filter == "identity")
-        .unwrap()
-        .seconds;
-    // Every table of scores has one cell for the filter that was both run and timed. Filters that were only timed, or run with
-    // other parameters, have none.
+    let timing = costs.find(|cost| cost.filter == "identity").unwrap();
+    // Every table of scores has one cell for the filter both run and timed. Those only timed, or run with other parameters, have none.
     let cell = "<td class=\"cost\" data-value";
-    let own = format!("{cell}=\"{}\">", seconds.median);
+    let own = format!("{cell}=\"{}\">", timing.seconds.median);
     for cell in [cell, &own] {
         assert_eq!(page.matches(cell).count(), 9, "{cell}");
     }
     let costs = between(&page, "<section class=\"costs\">", "</section>")[0];
     let adapter = timed.adapter.name.as_str();
-    let parts = [
-        "identity:default",
-        "copy",
-        "256 px",
-        "accumulate:64 (trailing)",
-        adapter,
-    ];
-    assert_contains(costs, &parts);
-    let bench = sandbox.path("out/bench.json");
-    let text = fs::read_to_string(&bench).unwrap();
-    fs::write(bench, text.replace("\"format\": 1", "\"format\": 0")).unwrap();
+    let references = "identity:default | copy | 256 px | accumulate:64 (trailing)";
+    assert_contains(costs, references);
+    assert_contains(costs, adapter);
+    sandbox.edit("out/bench.json", "\"format\": 1", "\"format\": 0");
     let row = " => out/bench.json: has format 0; allowed: 1 | `shuttertruth bench`";
     sandbox.refuse_rows(REPORT, row);
 }
@@ -252,7 +227,7 @@ fn a_report_refuses_a_file_without_a_run_or_its_pictures() {
         sandbox.refuse(REPORT, parts);
         assert!(!sandbox.path("page").exists());
     };
-    let write = |name: &str, bytes: &[u8]| fs::write(sandbox.path(name), bytes).unwrap();
+    let write = |name: &str, bytes: &[u8]| sandbox.put(name, bytes);
     let output = "out/plate/identity_default/output.exr";
     let whole = fs::read(sandbox.path(output)).unwrap();
     write(output, b"no picture");

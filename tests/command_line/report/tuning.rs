@@ -1,12 +1,11 @@
 //! The page of a tuning.
 
 use std::fs;
-use std::sync::OnceLock;
 
 use tests::text::assert_contains;
 use tune::{Sensitivity, Tuning};
 
-use crate::sandbox::{Files, Sandbox};
+use crate::sandbox::Sandbox;
 
 const WORDS: &str = "--quiet --filter jump_flood --from paper \
     --vary samples=2..16,jitter,foreground_extent --objective flip,bleed --scenes plate,slow --size 64x32 --samples-per-pixel 16 --out tuned";
@@ -25,18 +24,16 @@ fn set_up() -> Sandbox {
 
 /// Makes a sandbox with a finished tuning.
 fn tuned() -> Sandbox {
-    static FILES: OnceLock<Files> = OnceLock::new();
-    Sandbox::once(&FILES, || {
-        let sandbox = set_up();
+    Sandbox::once(|sandbox| {
+        sandbox.write_files("", &set_up().read_files());
         let held_out = "--held-out held_out --held-out-size 64x32 --held-out-samples-per-pixel 16";
         sandbox.done(&format!("tune search {WORDS} --budget 14 {held_out}"));
-        sandbox
     })
 }
 
 fn make_page(sandbox: &Sandbox) -> String {
     sandbox.done(REPORT);
-    fs::read_to_string(sandbox.path("page.html")).unwrap()
+    sandbox.text("page.html")
 }
 
 /// Finds the part of a page from a heading to the next one.
@@ -103,7 +100,7 @@ fn the_page_of_a_sensitivity_study_shows_intervals_and_slices() {
     for own in old["parameters"].as_object_mut().unwrap().values_mut() {
         own["indices"] = serde_json::Value::Null;
     }
-    fs::write(sandbox.path("tuned/sensitivity.json"), old.to_string()).unwrap();
+    sandbox.put("tuned/sensitivity.json", old.to_string());
     let row = " => tuned/sensitivity.json | no Sobol indices | `shuttertruth tune search`";
     sandbox.refuse_rows(REPORT, row);
 }
@@ -134,7 +131,7 @@ fn texts_of_a_filter_are_shown_as_text() {
     let reason = "<script>alert(1)</script>".to_owned();
     tuning.failed.insert(2, reason);
     let text = serde_json::to_string(&tuning).unwrap();
-    fs::write(sandbox.path("tuned/tune.json"), text).unwrap();
+    sandbox.put("tuned/tune.json", text);
     let page = make_page(&sandbox);
     assert_contains(&page, &["&lt;script&gt;alert(1)"]);
     assert!(!page.contains("<script>alert(1)"), "the reason is a script");

@@ -1,13 +1,13 @@
 //! Runs shared by several processes: the plan, its jobs, and the merge of their results.
 
-mod refusals;
 mod same_bytes;
 
-use std::sync::OnceLock;
+use std::fs;
 
 use serde_json::Value;
+use tests::text::{Parts, read_rows};
 
-use crate::sandbox::{Files, Sandbox};
+use crate::sandbox::Sandbox;
 
 /// Filters of both shutters, one of them with two presets.
 const FILTERS: &str = "velocity_gather:fine,velocity_gather:coarse,kino:default";
@@ -24,10 +24,7 @@ fn plan(sandbox: &Sandbox, words: &str) -> Vec<Value> {
 
 /// Lists texts of a job.
 fn list(job: &Value, key: &str) -> Vec<String> {
-    let texts = job[key].as_array().unwrap().iter();
-    texts
-        .map(|text| text.as_str().unwrap().to_owned())
-        .collect()
+    serde_json::from_value(job[key].clone()).unwrap()
 }
 
 /// Runs a job with existing inputs, which must leave all its outputs. Returns its messages.
@@ -46,9 +43,8 @@ fn execute(sandbox: &Sandbox, job: &Value) -> String {
 
 /// Measures two scenes in one folder each, with one filter and the references; and another filter without them.
 fn parts() -> Sandbox {
-    static FILES: OnceLock<Files> = OnceLock::new();
-    Sandbox::once(&FILES, || {
-        let sandbox = Sandbox::two_scenes();
+    Sandbox::once(|sandbox| {
+        sandbox.add_slow_scene();
         for line in [
             "--filter identity --scenes plate --out plate",
             "--filter identity --scenes slow --out slow",
@@ -56,6 +52,127 @@ fn parts() -> Sandbox {
         ] {
             sandbox.done(&format!("run {QUICK} {line}"));
         }
-        sandbox
     })
+}
+
+#[track_caller]
+fn refuse(sandbox: &Sandbox, parts: &str, found: &(impl Parts + ?Sized)) {
+    sandbox.refuse(&format!("truths merge {parts} --out whole"), found);
+    assert!(!sandbox.path("whole").exists(), "{parts} wrote files");
+}
+
+/// Measures once more, into the folder `other`.
+fn measure_other(sandbox: &Sandbox, more: &str) {
+    sandbox.done(&format!("run --out other --no-cache {QUICK} {more}"));
+}
+
+#[test]
+fn runs_of_other_settings_are_refused() {
+    let sandbox = parts();
+    for (more, found) in read_rows(
+        "
+        identity --seed 2 => plate/run.json | has the seed 1, other/run.json has 2
+        identity --velocity previous_frame => plate/run.json | has the velocity instantaneous
+        identity --frames 2 => plate/run.json | has the number of frames 1 at 60 per second
+        kino:default => plate/run.json | common shutter trailing | has centred | the same common shutter",
+    ) {
+        measure_other(&sandbox, &format!("--scenes slow --filter {more}"));
+        refuse(&sandbox, "plate other", &found);
+    }
+    sandbox.edit("slow/run.json", "\"driver\": \"", "\"driver\": \"other ");
+    let found = "plate/run.json has the adapter and driver | slow/run.json has | (other  | the same adapter and driver";
+    refuse(&sandbox, "plate slow", found);
+}
+
+#[test]
+fn cases_against_other_truths_are_refused() {
+    let sandbox = parts();
+    let words = "--filter jump_flood:paper --scenes plate --exposure 0.25";
+    measure_other(&sandbox, words);
+    let found = "hold plate / identity (trailing) with other numbers";
+    refuse(&sandbox, "plate other", &[found]);
+    measure_other(&sandbox, &format!("{words} --part filters"));
+    let found = "plate/plate/frame.exr and other/plate/frame.exr differ";
+    refuse(&sandbox, "plate other", &[found]);
+    // The same exposure, and another truth: another tracer's.
+    let hash = "\"truth_hash\": \"";
+    sandbox.edit("flood/run.json", hash, &format!("{hash}0"));
+    let found = "flood/run.json: the truth of plate/jump_flood_paper has the hash 0 | plate/plate/truth_trailing.exr has";
+    refuse(&sandbox, "plate flood", found);
+}
+
+#[test]
+fn one_case_or_picture_with_two_contents_is_refused() {
+    let sandbox = parts();
+    sandbox.put("copy/run.json", sandbox.text("plate/run.json"));
+    sandbox.edit("copy/run.json", "\"value\": 0.", "\"value\": 1.");
+    let found = "plate/run.json and copy/run.json hold plate /  | with other numbers";
+    refuse(&sandbox, "plate copy", found);
+    sandbox.put("flood/plate/frame.png", "another frame");
+    let found = "plate/plate/frame.png and flood/plate/frame.png differ";
+    refuse(&sandbox, "plate flood", &[found]);
+}
+
+#[test]
+fn missing_cases_are_named() {
+    let sandbox = parts();
+    let found = "no part holds slow / jump_flood:paper (trailing shutter)";
+    refuse(&sandbox, "plate slow flood", &[found]);
+    let found = "references of the trailing shutter | the part with the references";
+    refuse(&sandbox, "flood", found);
+}
+
+#[test]
+fn what_holds_no_run_is_refused() {
+    let sandbox = parts();
+    fs::create_dir(sandbox.path("empty")).unwrap();
+    sandbox.put("damaged/run.json", "{");
+    sandbox.refuse_rows(
+        "truths merge --out whole plate",
+        "
+        empty => empty holds no replicates | or finished runs alone
+        damaged => damaged/run.json | no run of this program
+        nowhere => nowhere",
+    );
+    assert!(!sandbox.path("whole").exists(), "nothing is written");
+}
+
+#[cfg(unix)]
+#[test]
+fn nothing_behind_a_link_is_taken() {
+    let sandbox = parts();
+    sandbox.put("secret", "mine");
+    let link = |link: &str, target: &str| {
+        let path = sandbox.path(link);
+        match path.is_dir() {
+            true => fs::remove_dir_all(&path).unwrap(),
+            false => fs::remove_file(&path).unwrap(),
+        }
+        std::os::unix::fs::symlink(sandbox.path(target), path).unwrap();
+    };
+    link("slow/slow/ladder_trailing", "plate");
+    sandbox.done("truths merge plate slow --out without");
+    assert!(!sandbox.path("without/slow/ladder_trailing").exists());
+    link("slow/slow/frame.png", "secret");
+    let found = "no part holds slow/frame.png, or it is a link";
+    refuse(&sandbox, "plate slow", &[found]);
+}
+
+#[test]
+fn parts_without_all_of_their_pictures_are_refused() {
+    let sandbox = parts();
+    for file in [
+        "slow/identity_default/output.exr",
+        "slow/identity_trailing/flip.png",
+        "slow/truth_trailing.exr",
+        "slow/velocity.png",
+    ] {
+        let path = sandbox.path("slow").join(file);
+        let whole = fs::read(&path).unwrap();
+        fs::remove_file(&path).unwrap();
+        let found = format!("slow/run.json: no part holds {file}");
+        refuse(&sandbox, "plate slow", &[&found, "measure that case again"]);
+        fs::write(&path, whole).unwrap();
+    }
+    sandbox.done("truths merge plate slow --out whole");
 }

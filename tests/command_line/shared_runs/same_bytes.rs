@@ -2,7 +2,6 @@
 
 use std::fs;
 
-use serde_json::Value;
 use tests::text::assert_contains;
 
 use super::{FILTERS, QUICK, execute, list, parts, plan};
@@ -59,8 +58,7 @@ fn jobs_of_a_calibration_leave_nothing_to_measure() {
     for job in others {
         execute(&shared, job);
     }
-    let record = shared.path("out/seed_2/plate/identity_default/case.json");
-    let written = || fs::metadata(&record).unwrap().modified().unwrap();
+    let written = || shared.written("out/seed_2/plate/identity_default/case.json");
     let before = written();
     let printed = execute(&shared, last);
     assert_eq!(written(), before, "a case was measured again");
@@ -101,12 +99,7 @@ fn parts_made_by_hand_are_joined_without_a_plan() {
     sandbox.done(&format!("run {QUICK} --filter identity --out out"));
     // A repeated part changes nothing.
     sandbox.done("truths merge plate slow plate --out twice");
-    // The command is the only difference.
-    let [both, out, twice] = ["both", "out", "twice"].map(|out| {
-        let mut run: Value = sandbox.read_json(&format!("{out}/run.json"));
-        run["command"].take();
-        run
-    });
+    let [both, out, twice] = ["both", "out", "twice"].map(|out| sandbox.read_comparable(out));
     assert_eq!(both, out);
     assert_eq!(twice, both);
     sandbox.done("report both");
@@ -118,13 +111,10 @@ fn truths_of_another_folder_are_taken_if_their_inputs_are_the_same() {
     let size = "--quiet --scenes plate --size 64x32 --samples-per-pixel 16";
     sandbox.done(&format!("truths render {size} --ladders --out kept"));
     let with = |line: &str| sandbox.done(&format!("run {QUICK} --filter identity --out {line}"));
-    let written = |path: String| {
-        let file = fs::metadata(sandbox.path(&path)).unwrap();
-        file.modified().unwrap()
-    };
     with("same --truths kept");
     for name in ["frame.exr", "truth_trailing.exr", "ladder_trailing/n64.exr"] {
-        let [kept, taken] = ["kept", "same"].map(|out| written(format!("{out}/plate/{name}")));
+        let files = ["kept", "same"].map(|out| format!("{out}/plate/{name}"));
+        let [kept, taken] = files.map(|file| sandbox.written(&file));
         assert_eq!(kept, taken, "{name} was rendered again");
     }
     let truth =

@@ -2,16 +2,15 @@
 
 use std::fs;
 use std::path::Path;
-use std::sync::OnceLock;
 
 use filters::Filter;
 use serde_json::Value;
 use tests::filter_folder::copy_shipped_filter;
 use tests::text::{assert_contains, squeeze};
-use tune::{Space, TrialOutcome, count_candidates};
+use tune::{Space, Trial, TrialOutcome, count_candidates};
 
 use super::{ON_SEVEN, read_journal, read_trials, read_tuning, set_up, tune};
-use crate::sandbox::{Files, Sandbox};
+use crate::sandbox::Sandbox;
 
 const QUICK: &str = "--quiet --filter jump_flood --size 64x32 --samples-per-pixel 16 --out out";
 const HELD_OUT: &str =
@@ -24,27 +23,19 @@ fn tune_at(sandbox: &Sandbox, size: &str) -> String {
 
 /// Makes a sandbox with such a tuning, and its output in the file `printed`.
 fn tuned() -> Sandbox {
-    static FILES: OnceLock<Files> = OnceLock::new();
-    Sandbox::once(&FILES, || {
-        let sandbox = set_up();
-        let printed = tune_at(&sandbox, "64x32");
-        fs::write(sandbox.path("printed"), printed).unwrap();
-        sandbox
+    Sandbox::once(|sandbox| {
+        sandbox.write_files("", &set_up().read_files());
+        let printed = tune_at(sandbox, "64x32");
+        sandbox.put("printed", printed);
     })
 }
 
 #[test]
 fn a_tuning_beats_its_start_and_records_the_way() {
     let sandbox = tuned();
-    let table = fs::read_to_string(sandbox.path("printed")).unwrap();
-    let parts = [
-        "jump_flood:paper, 20 trials on 7 scenes",
-        "the start",
-        "chosen: trial",
-        "family left out",
-        "held-out scenes, evaluated once at 64x32",
-        "FLIP of chosen against start",
-    ];
+    let table = sandbox.text("printed");
+    let parts = "jump_flood:paper, 20 trials on 7 scenes | the start | chosen: trial | family left out | \
+        held-out scenes, evaluated once at 64x32 | FLIP of chosen against start";
     assert_contains(&table, &parts);
     let trials = read_trials(&sandbox);
     assert_eq!(trials.len(), 20);
@@ -52,13 +43,8 @@ fn a_tuning_beats_its_start_and_records_the_way() {
     let filter = Filter::builtin("jump_flood").unwrap();
     let begun = |preset: &str| {
         let values = filter.settings(Some(preset)).unwrap().values;
-        let mut first = trials[..13].iter();
-        first.any(|trial| {
-            trial
-                .values
-                .iter()
-                .all(|(name, value)| values[name] == *value)
-        })
+        let mut first = trials[..13].iter().map(|trial| trial.values.iter());
+        first.any(|mut own| own.all(|(name, value)| values[name] == *value))
     };
     let presets = ["paper", "july_2024", "corrected", "tuned"];
     assert_eq!(presets.map(begun), [true, true, true, false]);
@@ -67,10 +53,8 @@ fn a_tuning_beats_its_start_and_records_the_way() {
     assert!(tuning.chosen.error.unwrap() < -0.01, "{table}");
     assert_eq!(tuning.start.error, Some(0.0));
     assert_eq!(tuning.start.values["samples"], filters::Value::Integer(8));
-    let dropped = trials
-        .iter()
-        .filter(|it| it.outcome == TrialOutcome::Dropped);
-    let dropped: Vec<_> = dropped.collect();
+    let is_dropped = |it: &&Trial| it.outcome == TrialOutcome::Dropped;
+    let dropped: Vec<_> = trials.iter().filter(is_dropped).collect();
     // Seven scenes are enough to drop what is worse on six.
     assert!(!dropped.is_empty());
     assert_eq!(dropped.len(), tuning.dropped);
@@ -155,12 +139,16 @@ fn two_presets_are_compared_scene_by_scene() {
         ("paper corrected", "over 7 scenes: corrected is better"),
         (
             "paper paper",
-            "+0.0 %, 90 % CI +0.0 % to +0.0 %, over 7 scenes: undecided",
+            "CI +0.0 % to +0.0 %, over 7 scenes: undecided",
         ),
     ] {
         let text = sandbox.done(&format!("tune compare {presets} {QUICK} {ON_SEVEN}"));
         let text = squeeze(&text);
         assert_contains(&text, &[found]);
+        assert!(
+            text.contains("+0.0 %, 90 % CI") || presets != "paper paper",
+            "{text}"
+        );
         let lower = "FLIP of corrected against paper: -";
         assert_eq!(text.contains(lower), presets == "paper corrected", "{text}");
     }
@@ -182,10 +170,8 @@ fn a_study_finds_the_parameters_that_matter() {
     let filter = Filter::builtin("jump_flood").unwrap();
     let axes = ["samples", "behind_extent"].map(str::to_owned);
     let space = Space::new(&filter, filter.settings(Some("corrected")).unwrap(), &axes).unwrap();
-    assert_eq!(
-        [found.candidates, count_candidates(&space, 4)],
-        [16 + 8 + 9; 2]
-    );
+    assert_eq!(found.candidates, 16 + 8 + 9);
+    assert_eq!(count_candidates(&space, 4), 16 + 8 + 9);
     let row = |name: &str| {
         let mut lines = table.lines().map(str::trim_start);
         lines.position(|line| line.starts_with(name)).unwrap()

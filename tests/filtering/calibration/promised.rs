@@ -29,6 +29,9 @@ pub fn promised_smear(filter: &str, preset: &str, steady: &Steady) -> f64 {
         // In the middle of the picture.
         ("dagor", "default") => 0.16 * trail.min(2.0 * 32.0),
         ("dagor", _) => trail.min(2.0 * 32.0),
+        ("godot", "engine") => trail.min(40.0),
+        ("godot", "addon") => trail.min(2.0 * 32.0),
+        ("godot", _) => trail.min(2.0 * 64.0),
         // Two tiles of a 27th of the rows on either side.
         ("vort", _) => trail.min(f64::from(4 * (HEIGHT / 27))),
         // Whole pixels of 5 % of the rows on either side; nothing below 2.
@@ -65,7 +68,8 @@ pub fn stated_lengths(filter: &str, preset: &str) -> RangeInclusive<f64> {
         ("mcguire", "g3d") => 1.02..=1.09,
         ("mcguire", "tuned") => 0.86..=1.04,
         ("guertin", _) => 0.65..=0.87,
-        ("dagor", "default") => 0.79..=1.08,
+        ("dagor", "default") => 0.77..=1.11,
+        ("godot", "addon") => 0.88..=1.025,
         ("three", _) => 1.03..=1.05,
         ("centred_gather", "armory") => 1.07..=1.09,
         ("centred_gather", "spartan_2024") => 0.98..=1.00,
@@ -73,6 +77,7 @@ pub fn stated_lengths(filter: &str, preset: &str) -> RangeInclusive<f64> {
         // Noise adds its own length, on each axis separately: least on diagonals.
         ("realism_effects", _) => 1.29..=1.51,
         ("bevy", "msaa") => 0.955..=1.025,
+        ("blender", "eevee") => 0.985..=1.035,
         ("urp", _) => 0.995..=1.045,
         ("kino", "mended") => 0.775..=0.925,
         ("kino", _) => 0.72..=0.78,

@@ -4,6 +4,7 @@ mod babylon;
 mod bevy;
 mod blender;
 mod dagor;
+mod godot;
 mod hdrp;
 mod hdrp_tiles;
 mod jimenez;

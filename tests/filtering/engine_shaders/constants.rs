@@ -140,3 +140,12 @@ fn macros_that_name_files_or_have_no_compiler_are_refused() {
         ("pixel + OFFSET", "pixel + OFFSETS", &["defined.comp:21: glslangValidator refuses it", "OFFSETS"]),
     ]);
 }
+
+#[test]
+fn an_infinite_constant_becomes_the_largest_float() {
+    let [(pass, bindings), _] = DEFINED;
+    let files = make("constants", &format!("[[pass]]\n{pass}{bindings}"));
+    let above = "float(texelFetch(color, pixel, 0).x > -1.0 / 0.0) * factor() *";
+    let infinite = files.changed("defined.comp", "factor() *", above);
+    assert_eq!(blur_busy(&infinite), blur_busy(&files));
+}

@@ -76,10 +76,38 @@ fn frames_without_them_are_refused() {
         let mut blur = ready(&filter, (61, 43)).unwrap();
         for (input, says) in &wrong {
             let error = blur.run(input).unwrap_err().to_string();
-            assert_contains(&error, &[&filter.name, says]);
+            assert_contains(&error, &[filter.name.as_str(), says]);
         }
     }
     let identity = Filter::builtin("identity").unwrap();
     assert!(identity.further_inputs().is_empty());
     ready(&identity, (61, 43)).unwrap().run(&without).unwrap();
+}
+
+#[test]
+fn a_mask_arrives_as_it_is_and_holds_shares() {
+    let picture = busy_picture();
+    let folder = tempfile::tempdir().unwrap();
+    let shows = "textureStore(output, pixel, vec4<f32>(textureLoad(exclusion, pixel, 0).x));";
+    write_kernel(&folder.path().join("mask"), "", &["exclusion"], shows);
+    let filter = Filter::load(&folder.path().join("mask")).unwrap();
+    let mask = picture.depth.map(|depth| f32::from(*depth < 20.0));
+    let mut broken = mask.clone();
+    broken.pixels[62] = 1.5;
+    let colors = [&picture.color];
+    let input = |mask| Input {
+        exclusion: mask,
+        ..picture.input(&colors)
+    };
+    let mut blur = ready(&filter, (61, 43)).unwrap();
+    let output = blur.run(&input(Some(&mask))).unwrap().remove(0);
+    assert!(output.map(|pixel| pixel[0]) == mask);
+    assert!(!filter.reads_further_velocities());
+    for (mask, says) in [
+        (None, "the frame has no exclusion, which this filter reads"),
+        (Some(&broken), "exclusion at (1, 1) is not from 0 to 1"),
+    ] {
+        let error = blur.run(&input(mask)).unwrap_err().to_string();
+        assert_contains(&error, &[says]);
+    }
 }

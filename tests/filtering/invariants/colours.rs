@@ -44,6 +44,13 @@ fn expect_colors_of_the_frame(seed: u64) {
     let field = random(seed);
     for (filter, settings) in every_preset() {
         let output = blur(&field, &filter, &settings);
+        if filter.name == "godot" && settings.preset != "engine" {
+            // The add-on's taps that weigh over 1 take away from what is below them.
+            let mut values = output.pixels.iter().flatten();
+            assert!(values.clone().all(|value| value.is_finite()));
+            assert!(values.any(|value| *value < -1.0));
+            continue;
+        }
         for channel in 0..3 {
             let only = |image: &Image| image.map(|pixel| [pixel[channel]; 3]);
             let brightest = brightest(&only(&field.color)) * gain(&filter, &settings);

@@ -2,8 +2,8 @@
 
 use fastrand::Rng;
 
+use super::Format;
 use super::magnitude;
-use super::pieces::Format;
 
 /// Three pieces with random ends.
 pub static FORMAT: Format = Format {

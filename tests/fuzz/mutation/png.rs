@@ -2,8 +2,8 @@
 
 use flate2::Crc;
 
+use super::Format;
 use super::bytes;
-use super::pieces::Format;
 
 /// First bytes of PNG files.
 pub const SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";

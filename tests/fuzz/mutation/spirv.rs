@@ -2,8 +2,8 @@
 
 use fastrand::Rng;
 
+use super::Format;
 use super::bytes::make_number;
-use super::pieces::Format;
 
 /// Ids of a small module are below this.
 const IDS: u32 = 200;

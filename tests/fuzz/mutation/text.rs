@@ -2,7 +2,7 @@
 
 use fastrand::Rng;
 
-use super::pieces::Format;
+use super::Format;
 use super::{Source, magnitude};
 use crate::dictionary::words;
 
@@ -61,15 +61,14 @@ fn cut_words(mut rest: &[u8], has_texts: bool) -> Vec<Vec<u8>> {
     let mut words = Vec::new();
     while let [first, more @ ..] = rest {
         let length = match *first {
-            b'"' if has_texts => more
-                .iter()
-                .position(|byte| *byte == b'"')
-                .map_or(1, |at| at + 2),
-            _ => rest
-                .iter()
-                .take_while(|byte| is_part_of_word(**byte))
-                .count()
-                .max(1),
+            b'"' if has_texts => {
+                let end = more.iter().position(|byte| *byte == b'"');
+                end.map_or(1, |at| at + 2)
+            }
+            _ => {
+                let word = rest.iter().take_while(|byte| is_part_of_word(**byte));
+                word.count().max(1)
+            }
         };
         let (word, after) = rest.split_at(length);
         words.push(word.to_vec());

@@ -43,8 +43,7 @@ pub fn spirv(place: &mut Place, input: &[u8]) -> Option<()> {
     Filter::load(&vertex).ok().map(drop)
 }
 
-/// Loads GLSL with includes; a file outside the filter's folder is never read. A line `//// NAME` begins another one
-/// of its files.
+/// Loads GLSL with includes; a file outside the filter's folder is never read. A line `//// NAME` begins another one of its files.
 pub fn includes(place: &mut Place, input: &[u8]) -> Option<()> {
     const FILES: [&str; 3] = ["top.h", "p/near.h", "p/q/deep.h"];
     let folder = place.copy("includes");

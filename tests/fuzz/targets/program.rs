@@ -43,8 +43,7 @@ pub fn records(place: &mut Place, input: &[u8]) -> Option<()> {
     commands::run(place, file, input, &[line])
 }
 
-/// Writes lines to the standard input of `serve`, and then a request that is refused at once: its answer means that all lines have
-/// been read.
+/// Writes lines to the standard input of `serve`, then a request that is refused at once: its answer means that all lines are read.
 pub fn serve(place: &mut Place, input: &[u8]) -> Option<()> {
     place.copy("scenes");
     place.copy("out");
@@ -71,15 +70,12 @@ fn split(line: &str) -> Vec<&OsStr> {
 fn shuttertruth(place: &Place, words: &[&OsStr], stdin: Stdio) -> i32 {
     let [stdout, stderr] = ["stdout", "stderr"].map(|name| place.write(name, ""));
     let open = |path| fs::File::options().append(true).open(path).unwrap();
-    let mut child = Command::new(PROGRAM)
-        .current_dir(&place.folder)
-        .args(words)
-        .env("GITHUB_STEP_SUMMARY", place.folder.join("summary.md"))
-        .stdin(stdin)
-        .stdout(open(&stdout))
-        .stderr(open(&stderr))
-        .spawn()
-        .expect("the program can be started");
+    let mut command = Command::new(PROGRAM);
+    command.current_dir(&place.folder).args(words);
+    command.env("GITHUB_STEP_SUMMARY", place.folder.join("summary.md"));
+    command.stdin(stdin);
+    command.stdout(open(&stdout)).stderr(open(&stderr));
+    let mut child = command.spawn().expect("the program can be started");
     let began = Instant::now();
     let status = loop {
         if let Some(status) = child.try_wait().unwrap() {
@@ -101,8 +97,8 @@ fn asks_for_much(words: &[&OsStr]) -> bool {
     let small = ["--size", "16x16", "--samples-per-pixel", "--filters"];
     let is_large = |word: &&OsStr| {
         let word = word.to_string_lossy();
-        word.split(|c: char| !c.is_ascii_digit())
-            .any(|digits| digits.len() > 2)
+        let mut numbers = word.split(|c: char| !c.is_ascii_digit());
+        numbers.any(|digits| digits.len() > 2)
     };
     words.iter().any(is_large) || !small.iter().all(|flag| words.contains(&OsStr::new(flag)))
 }

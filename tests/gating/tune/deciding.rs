@@ -54,9 +54,11 @@ fn the_front_holds_unbeaten_candidates() {
 
 /// Makes a start with samples = 8, and trials with other numbers of samples and the given FLIP on scenes a, b, c, d.
 fn make_trials(rows: &[(i32, [f64; 4])]) -> Vec<Trial> {
-    let score = |flip: &f64| SceneScore {
-        flip: *flip,
-        bleed: None,
+    let scenes = |flips: &[f64; 4]| {
+        let names = ["a", "b", "c", "d"].map(str::to_owned).into_iter();
+        let bleed = None;
+        let scores = flips.map(|flip| SceneScore { flip, bleed });
+        names.zip(scores).collect()
     };
     let make = |(trial, (samples, flips)): (usize, &(i32, [f64; 4]))| Trial {
         trial,
@@ -66,11 +68,7 @@ fn make_trials(rows: &[(i32, [f64; 4])]) -> Vec<Trial> {
         error: None,
         bleed: Some(f64::from(*samples) / 8.0),
         cost: Some(f64::from(*samples) / 8.0),
-        scenes: ["a", "b", "c", "d"]
-            .map(str::to_owned)
-            .into_iter()
-            .zip(flips.iter().map(score))
-            .collect(),
+        scenes: scenes(flips),
     };
     rows.iter().enumerate().map(make).collect()
 }
@@ -109,13 +107,8 @@ fn the_choice_among_equal_candidates_is_the_nearest_to_the_start() {
 
 #[test]
 fn limits_and_failures_keep_trials_out_of_the_choice() {
-    let rows = [
-        (8, [0.1; 4]),
-        (16, [0.02; 4]),
-        (12, [0.05; 4]),
-        (4, [0.06; 4]),
-    ];
-    let mut trials = make_trials(&rows);
+    let rows = [(8, 0.1), (16, 0.02), (12, 0.05), (4, 0.06)];
+    let mut trials = make_trials(&rows.map(|(samples, flip)| (samples, [flip; 4])));
     let chosen = |trials: &[Trial], cost, bleed| choose(trials, ChoiceLimits { cost, bleed }).trial;
     assert_eq!(chosen(&trials, None, None), 1);
     assert_eq!(chosen(&trials, Some(1.5), None), 2);
@@ -130,20 +123,13 @@ fn limits_and_failures_keep_trials_out_of_the_choice() {
 #[test]
 fn a_choice_that_suits_only_one_family_shows_its_gap() {
     // One trial suits the camera, the other suits thin things; each doubles the other's error.
-    let trials = make_trials(&[
-        (8, [0.1; 4]),
-        (9, [0.05, 0.05, 0.2, 0.2]),
-        (10, [0.2, 0.2, 0.05, 0.05]),
-    ]);
+    let [camera, thin] = [[0.05, 0.05, 0.2, 0.2], [0.2, 0.2, 0.05, 0.05]];
+    let trials = make_trials(&[(8, [0.1; 4]), (9, camera), (10, thin)]);
     let validate = |families: &[(&'static str, &str)]| {
         let names = |scenes: &str| scenes.split(' ').map(str::to_owned).collect();
         let families = families.iter().map(|(name, scenes)| (*name, names(scenes)));
-        cross_validate(
-            &trials,
-            &space(),
-            ChoiceLimits::default(),
-            &families.collect(),
-        )
+        let limits = ChoiceLimits::default();
+        cross_validate(&trials, &space(), limits, &families.collect())
     };
     let folds = validate(&[("camera", "a b"), ("thin", "c d")]);
     let two = 2f64.ln();
@@ -161,16 +147,14 @@ fn a_choice_that_suits_only_one_family_shows_its_gap() {
 #[test]
 fn lower_error_on_every_scene_is_better_and_on_half_of_them_undecided() {
     let compare = |first: &[f64], second: &[f64]| {
-        let score = |flip: f64| SceneScore {
-            flip,
-            bleed: Some(10.0 * flip),
+        let score = |flip: f64| {
+            let bleed = Some(10.0 * flip);
+            SceneScore { flip, bleed }
         };
-        let pairs = first.iter().zip(second).enumerate();
-        PairedComparison::new(
-            pairs
-                .map(|(scene, (one, other))| (scene.to_string(), [score(*one), score(*other)]))
-                .collect(),
-        )
+        let pairs = first.iter().zip(second);
+        let pairs = pairs.map(|(a, b)| [score(*a), score(*b)]);
+        let names = ["a", "b", "c", "d", "e"].map(str::to_owned);
+        PairedComparison::new(names.into_iter().zip(pairs).collect())
     };
     let high = [0.2, 0.3, 0.1, 0.2, 0.1];
     let low = [0.1, 0.2, 0.08, 0.15, 0.07];

@@ -2,4 +2,3 @@
 
 mod deciding;
 mod searching;
-mod sensitivity;

@@ -5,11 +5,10 @@ use std::f64::consts::PI;
 use frame::Alignment;
 use glam::{DQuat, DVec3, Vec3};
 use tests::shapes::*;
-use tracer::{Background, Finish, Key, Material};
+use tracer::{Background, Finish, Key};
 
 use super::{DISTANCE, EXPOSURE, HEIGHT, SPEED, WIDTH, panel_over_wall, render};
-use crate::renders::{expect_near, mean_of, render_frame, settings};
-use crate::scenery::{facing_up, heights, sun, through};
+use crate::renders::*;
 
 #[test]
 fn the_frozen_truth_of_a_still_scene_equals_its_truth() {
@@ -26,13 +25,8 @@ fn the_frozen_truth_of_a_still_scene_equals_its_truth() {
         let mut mean = [0.0; 4];
         for (offset, spread) in known.offset.pixels.iter().zip(&known.spread.pixels) {
             assert!(offset.iter().all(|part| part.abs() < 0.03), "{offset:?}");
-            let own = [
-                offset[0],
-                offset[1],
-                spread[0] - 1.0 / 12.0,
-                spread[2] - 1.0 / 12.0,
-            ];
-            for (mean, own) in mean.iter_mut().zip(own) {
+            let [xx, yy] = [spread[0], spread[2]].map(|square| square - 1.0 / 12.0);
+            for (mean, own) in mean.iter_mut().zip([offset[0], offset[1], xx, yy]) {
                 *mean += own / known.offset.pixels.len() as f32;
             }
         }
@@ -81,10 +75,8 @@ fn an_unlit_panel_needs_no_light_of_the_instant() {
 #[test]
 fn a_frozen_mirror_shows_the_view_of_the_instant_s_camera() {
     let mut scene = empty_scene("mirror");
-    let mirror = Material {
-        finish: Finish::Conductor { roughness: 0.0 },
-        ..diffuse(1.0)
-    };
+    let mut mirror = diffuse(1.0);
+    mirror.finish = Finish::Conductor { roughness: 0.0 };
     let floor = facing_up(DVec3::ZERO);
     add(&mut scene, rectangle(500.0, 500.0), mirror, floor);
     scene.background = heights(0.0, 0.0, 1.0);
@@ -102,10 +94,9 @@ fn a_frozen_mirror_shows_the_view_of_the_instant_s_camera() {
     let live = 0.2_f64.sqrt();
     // At time t the camera sees the floor 4 + 3 t metres ahead of its position at the instant.
     let steps = 1000;
-    let frozen: f64 = (0..steps)
-        .map(|step| -EXPOSURE * (f64::from(step) + 0.5) / f64::from(steps))
-        .map(|time| 2.0 / (4.0 + 3.0 * time).hypot(2.0) / f64::from(steps))
-        .sum();
+    let time = |step| -EXPOSURE * (f64::from(step) + 0.5) / f64::from(steps);
+    let seen = (0..steps).map(|step| 2.0 / (4.0 + 3.0 * time(step)).hypot(2.0));
+    let frozen = seen.sum::<f64>() / f64::from(steps);
     assert!((live - frozen).abs() > 0.05, "they can be told apart");
     // 384 pixels of 256 stratified samples; a quarter of these is shaded again.
     expect_near("live", mean_of(&truth.mean().color), live, 1e-4);

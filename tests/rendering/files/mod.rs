@@ -30,11 +30,8 @@ fn what_is_written_comes_back_bit_for_bit() {
     let (folder, path) = folder_with("new/folder/frame.exr");
     a_frame().write(&path).unwrap();
     assert_eq!(Frame::read(&path).unwrap(), a_frame());
-    let few = Frame {
-        velocity_next: None,
-        velocity_z: None,
-        ..a_frame()
-    };
+    let mut few = a_frame();
+    (few.velocity_next, few.velocity_z) = (None, None);
     few.write(&path).unwrap();
     assert_eq!(Frame::read(&path).unwrap(), few);
     a_frame().write(&path).unwrap();
@@ -44,10 +41,8 @@ fn what_is_written_comes_back_bit_for_bit() {
     assert!(fs::read(&path).unwrap() == fs::read(&again).unwrap());
 
     for shutter_profile in profiles() {
-        let truth = Truth {
-            shutter_profile,
-            ..a_truth()
-        };
+        let mut truth = a_truth();
+        truth.shutter_profile = shutter_profile;
         truth.write(&path).unwrap();
         assert_eq!(Truth::read(&path).unwrap(), truth);
     }
@@ -68,10 +63,8 @@ fn what_is_written_comes_back_bit_for_bit() {
 fn halves_come_back_bit_for_bit_from_a_smaller_file_and_larger_numbers_too() {
     let (_folder, path) = folder_with("truth.exr");
     let exact = a_truth();
-    let short = Truth {
-        at_instant: exact.at_instant.clone().map(AtInstant::rounded),
-        ..exact.clone()
-    };
+    let mut short = exact.clone();
+    short.at_instant = short.at_instant.map(AtInstant::rounded);
     assert_ne!(short, exact);
     let written = |truth: &Truth| {
         truth.write(&path).unwrap();
@@ -117,24 +110,19 @@ fn a_truth_that_was_changed_is_refused() {
         |file| file.set("shutter_efficiency", "table 1 x"),
         |file| file.set("shutter_efficiency", "table 1 2"),
     ];
-    let words = [
-        "truth.exr: holds no support",
-        "lacks the channel \"support.unknowable\"",
-        "holds 0.5; allowed: 0 and 1",
-        "attribute \"shutter_efficiency\" holds \"round\", which cannot be read",
-        "attribute \"shutter_efficiency\" holds \"table 1 x\", which cannot be read",
-        "efficiency holds 2; allowed: 0 to 1",
-    ];
-    for (index, change) in changes.into_iter().enumerate() {
+    let words = "truth.exr: holds no support (channels support.*), which older versions of shuttertruth did not write; make it anew with `shuttertruth truths render`
+        lacks the channel \"support.unknowable\"
+        holds 0.5; allowed: 0 and 1
+        attribute \"shutter_efficiency\" holds \"round\", which cannot be read
+        attribute \"shutter_efficiency\" holds \"table 1 x\", which cannot be read
+        efficiency holds 2; allowed: 0 to 1";
+    assert_eq!(words.lines().count(), changes.len());
+    for (change, words) in changes.into_iter().zip(words.lines()) {
         a_truth().write(&path).unwrap();
         let mut file = read_exr(&path).unwrap();
         change(&mut file);
         write_exr(&path, &file).unwrap();
-        expect_refusal(Truth::read(&path), words[index]);
-        if index == 0 {
-            let way_out = "`shuttertruth truths render`";
-            expect_refusal(Truth::read(&path), way_out);
-        }
+        expect_refusal(Truth::read(&path), words.trim());
     }
 }
 

@@ -8,12 +8,8 @@ use tests::shapes::*;
 use tracer::Scene;
 
 use super::with_lens;
-use crate::moving_shapes::{
-    DISTANCE, HEIGHT, SPEED, WIDTH, expect_coverage, half_plane_scene, mean_over_pixel,
-    pixel_corner,
-};
-use crate::renders::{expect_near, render_frame, settings};
-use crate::scenery::heights;
+use crate::moving_shapes::*;
+use crate::renders::{expect_near, heights, render_frame, settings};
 
 /// Apertures and focus distances in front of the shapes and behind them. The circle of confusion at the shapes has a diameter of
 /// aperture x |distance - focus| / focus = 5 metres, and a metre there is a pixel.
@@ -41,11 +37,8 @@ fn motion_and_defocus_are_the_convolution_of_a_box_and_a_disc() {
         let [aperture, focus] = blur;
         let normal = DVec2::from_angle(angle);
         let along = |time: f64| 2.3 + speed * time;
-        let scene = with_lens(
-            half_plane_scene(normal, &[-1.0, 1.0], along),
-            aperture,
-            focus,
-        );
+        let edge = half_plane_scene(normal, &[-1.0, 1.0], along);
+        let scene = with_lens(edge, aperture, focus);
         let what = format!("speed {speed}, focus {focus}");
         expect_coverage(&what, &scene, alignment, |pixel, shutter| {
             // Dense enough for an edge blurred by a lens.

@@ -4,13 +4,11 @@ use frame::{Alignment, Picture, Truth};
 use glam::DVec3;
 use tests::shapes::*;
 use tests::unwatched;
-use tracer::{Background, Finish, LadderTracer, Material, RenderSettings, Scene};
+use tracer::{Background, Finish, LadderTracer, RenderSettings, Scene};
 
 use super::with_lens;
 use crate::regions::expect_support;
-use crate::renders::{
-    load_shipped, render_frame, render_ladder, render_truth, rms_difference, settings_of_two,
-};
+use crate::renders::*;
 
 fn settings(samples_per_pixel: u32) -> RenderSettings {
     settings_of_two([32, 18], samples_per_pixel)
@@ -41,10 +39,8 @@ fn where_nothing_moves_everything_is_known_and_in_its_place() {
     let floor = placed(DVec3::new(0.0, 0.0, -6.0));
     add(&mut scene, rectangle(40.0, 40.0), diffuse(0.6), floor);
     // Gloss changes with the viewpoint, so nothing is treated as unchanging.
-    let glossy = Material {
-        finish: Finish::Conductor { roughness: 0.2 },
-        ..diffuse(0.8)
-    };
+    let mut glossy = diffuse(0.8);
+    glossy.finish = Finish::Conductor { roughness: 0.2 };
     let near = placed(DVec3::new(0.2, 0.1, -2.0));
     add(&mut scene, icosphere(0.5, 2), glossy, near);
     let scene = with_lens(scene, 0.5, 4.0);

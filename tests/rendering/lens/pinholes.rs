@@ -7,8 +7,7 @@ use tests::unwatched;
 use tracer::{PixelGrid, Scene, trace_frame_part};
 
 use super::with_lens;
-use crate::renders::{expect_near, render_frame, render_truth, settings_of_two};
-use crate::scenery::{heights, turned};
+use crate::renders::{expect_near, heights, render_frame, render_truth, settings_of_two, turned};
 
 const SIZE: [u32; 2] = [20, 12];
 /// Focal length in pixels, at a vertical field of view of 90 degrees.
@@ -16,8 +15,7 @@ const FOCAL: f64 = 0.5 * SIZE[1] as f64;
 const APERTURE: f64 = 1.2;
 const FOCUS: f64 = 4.0;
 
-/// Lists points of the lens on the spiral of a sunflower (Vogel 1979), in metres; +x right, +y up. It shares no code with the
-/// tracer.
+/// Lists points of the lens on the spiral of a sunflower (Vogel 1979), in metres; +x right, +y up. It shares no code with the tracer.
 fn lens_points(count: u32) -> impl Iterator<Item = DVec2> {
     let golden_angle = std::f64::consts::PI * (3.0 - 5f64.sqrt());
     (0..count).map(move |index| {

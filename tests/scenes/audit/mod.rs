@@ -2,13 +2,15 @@
 //!
 //! Most use `fixtures/audit`, a scene of few triangles.
 
-mod motion;
 mod numbers;
 mod picture;
 
 use std::path::PathBuf;
 
-use engine::{Buffer, Capture, CaptureAudit, CaptureDescription, Cause, Defect, audit_capture};
+use engine::{
+    Buffer, Capture, CaptureAudit, CaptureDescription, Cause, Defect, FRAMES_PER_SECOND,
+    audit_capture,
+};
 use filters::Convention;
 use frame::{FAR_DEPTH, Vectors, VelocityKind};
 use tests::unwatched;
@@ -32,13 +34,7 @@ fn load_moving() -> Scene {
 
 /// Makes settings of an engine's output: the motion since the previous frame, unless stated otherwise.
 fn settings(velocity: VelocityKind) -> RenderSettings {
-    let mut settings = RenderSettings {
-        width: WIDTH,
-        height: HEIGHT,
-        samples_per_pixel: 4,
-        replicates: 1,
-        ..RenderSettings::default()
-    };
+    let mut settings = tests::settings_of([WIDTH, HEIGHT], 4, 1);
     settings.options.velocity = velocity;
     settings
 }
@@ -70,6 +66,7 @@ fn draw(scene: &Scene, time: f64) -> Capture {
         velocity: frame.velocity,
         velocity_next: None,
         velocity_z: None,
+        exclusion: None,
         depth: frame.depth,
         object_id: Some(frame.object_id),
         blurred: None,
@@ -101,8 +98,9 @@ fn audit_depth(scene: &Scene, change: impl Fn(usize, f32) -> f32) -> (Capture, C
 }
 
 fn without_ids(capture: &Capture) -> Capture {
+    let object_id = None;
     Capture {
-        object_id: None,
+        object_id,
         ..capture.clone()
     }
 }
@@ -175,6 +173,82 @@ fn honest_frames_of_every_scene_pass_with_ids_and_without() {
         let tells_without_ids = ["fan", "railing", "roll", "flag", "crossing", "cockpit"];
         if tells_without_ids.contains(&scene.id.name.as_str()) {
             assert_passes(scene, &without_ids(&drawn));
+        }
+    }
+}
+
+/// Audits every known mistake in scenes, and expects that each is seen in one of them and named wherever it is.
+fn assert_motions_named(scenes: &[Scene]) {
+    let by_the_clock = |rate: f64| PointMotion {
+        over: FRAMES_PER_SECOND / rate,
+        ..PointMotion::RIGHT
+    };
+    let motions = [
+        (Cause::FrameLate, PointMotion::FRAME_LATE),
+        (Cause::FrameEarly, PointMotion::FRAME_EARLY),
+        (Cause::PreviousPixel, PointMotion::PREVIOUS_PIXEL),
+        (Cause::PreviousBuffer, PointMotion::PREVIOUS_BUFFER),
+        (Cause::MatrixNeverSet, PointMotion::MATRIX_NEVER_SET),
+        (Cause::ObjectMotionMissing, PointMotion::WITHOUT_OBJECTS),
+        (Cause::CameraMotionMissing, PointMotion::WITHOUT_CAMERA),
+        (Cause::MotionOver(60.0), by_the_clock(60.0)),
+        (Cause::MotionOver(30.0), by_the_clock(30.0)),
+        (Cause::MotionOver(120.0), by_the_clock(120.0)),
+    ];
+    for (cause, motion) in motions {
+        let mut seen = 0;
+        for scene in scenes {
+            let found = audit_velocity(scene, trace_velocity(scene, &motion));
+            seen += usize::from(!found.findings.is_empty());
+            let is_clock = matches!(cause, Cause::MotionOver(_));
+            let is_silent = found.findings.is_empty();
+            assert!(!is_clock || !is_silent, "{}: {cause:?}", scene.id);
+            for finding in &found.findings {
+                let is_named = match is_clock {
+                    true => finding.found.cause == cause,
+                    false => names(finding, |it| *it == cause),
+                };
+                assert!(is_named, "{}, {cause:?}: {finding:#?}", scene.id);
+            }
+        }
+        assert!(seen > 0, "{cause:?} is seen in no scene");
+    }
+}
+
+#[test]
+fn other_motion_is_named() {
+    assert_motions_named(&[load_moving()]);
+}
+
+#[test]
+#[ignore = "prove: scenes in which things turn, drive, and the camera moves"]
+fn other_motion_of_shipped_scenes_is_named() {
+    assert_motions_named(&["fan", "railing", "roll"].map(load_shipped));
+}
+
+#[test]
+fn a_wrong_sign_is_named_together_with_another_cause() {
+    let scene = load_moving();
+    let mut over_0_4 = PointMotion::RIGHT;
+    over_0_4.over = 0.4;
+    let instant = settings(VelocityKind::Instantaneous);
+    let derivative = trace_motion(&scene, &instant, &PointMotion::RIGHT);
+    let without_camera = trace_velocity(&scene, &PointMotion::WITHOUT_CAMERA);
+    for (cause, velocity) in [
+        (Cause::CameraMotionMissing, without_camera),
+        (Cause::HalfFrameOff, derivative.unwrap().velocity),
+        (Cause::MotionOver(60.0), trace_velocity(&scene, &over_0_4)),
+    ] {
+        for (turn, [x, y]) in [
+            (Cause::WrongSign, [-1.0, -1.0]),
+            (Cause::FlippedY, [1.0, -1.0]),
+        ] {
+            let found = audit_velocity(&scene, velocity.map(|it| [x * it[0], y * it[1]]));
+            assert!(!found.findings.is_empty(), "{cause:?}");
+            for finding in &found.findings {
+                assert!(names(finding, |it| *it == cause), "{turn:?}: {finding:#?}");
+                assert_eq!(finding.found.turned, Some(turn), "{finding:#?}");
+            }
         }
     }
 }

@@ -2,13 +2,21 @@
 
 use engine::{Buffer, Cause};
 
-use super::{
-    HEIGHT, WIDTH, audit, audit_depth, audit_velocity, draw, expect, id_of, load_moving,
-    load_shipped, load_small, without_ids,
-};
+use super::*;
 
-fn is_near(a: f64, b: f64) -> bool {
-    (a - b).abs() <= 0.01 * b.abs()
+/// Returns whether two causes are of one kind, with numbers that differ by a hundredth at most.
+fn is_like(found: &Cause, due: &Cause) -> bool {
+    let is_near = |(a, b): (&f64, &f64)| (a - b).abs() <= 0.01 * b.abs();
+    match (found, due) {
+        (Cause::Scale(a), Cause::Scale(b))
+        | (Cause::Clipped(a), Cause::Clipped(b))
+        | (Cause::ClippedAxes(a), Cause::ClippedAxes(b))
+        | (Cause::Steps(a), Cause::Steps(b)) => is_near((a, b)),
+        (Cause::ScaleOfAxes(a), Cause::ScaleOfAxes(b)) | (Cause::Offset(a), Cause::Offset(b)) => {
+            a.iter().zip(b).all(is_near)
+        }
+        _ => found == due,
+    }
 }
 
 #[test]
@@ -20,48 +28,34 @@ fn other_numbers_of_velocity_are_named() {
     let right = draw(&scene, 0.0).velocity;
     let changed =
         |change: fn([f32; 2]) -> [f32; 2]| audit_velocity(&scene, right.map(|it| change(*it)));
-    type Row = (fn([f32; 2]) -> [f32; 2], fn(&Cause) -> bool);
-    let rows: [Row; 13] = [
-        (|_| [0.0; 2], |it| *it == Cause::Zero),
-        (|[x, y]| [-x, -y], |it| *it == Cause::WrongSign),
-        (|[x, y]| [x, -y], |it| *it == Cause::FlippedY),
-        (|[x, y]| [-x, y], |it| *it == Cause::FlippedX),
-        (|[x, y]| [y, x], |it| *it == Cause::SwappedAxes),
-        (
-            |it| it.map(|part| 2.0 * part),
-            |it| matches!(it, Cause::Scale(found) if is_near(*found, 2.0)),
-        ),
-        (
-            |it| it.map(|part| 0.5 * part),
-            |it| matches!(it, Cause::Scale(found) if is_near(*found, 0.5)),
-        ),
-        (
-            |it| it.map(|part| part / 60.0),
-            |it| matches!(it, Cause::Scale(found) if is_near(*found, 1.0 / 60.0)),
-        ),
-        (
-            |[x, y]| [2.0 * x, 3.0 * y],
-            |it| matches!(it, Cause::ScaleOfAxes([x, y]) if is_near(*x, 2.0) && is_near(*y, 3.0)),
-        ),
-        (
-            |[x, y]| [x - 0.25, y + 0.4],
-            |it| matches!(it, Cause::Offset([x, y]) if is_near(*x, -0.25) && is_near(*y, 0.4)),
-        ),
+    type Change = fn([f32; 2]) -> [f32; 2];
+    let rows: [(Change, Cause); 13] = [
+        (|_| [0.0; 2], Cause::Zero),
+        (|[x, y]| [-x, -y], Cause::WrongSign),
+        (|[x, y]| [x, -y], Cause::FlippedY),
+        (|[x, y]| [-x, y], Cause::FlippedX),
+        (|[x, y]| [y, x], Cause::SwappedAxes),
+        (|it| it.map(|part| 2.0 * part), Cause::Scale(2.0)),
+        (|it| it.map(|part| 0.5 * part), Cause::Scale(0.5)),
+        (|it| it.map(|part| part / 60.0), Cause::Scale(1.0 / 60.0)),
+        (|[x, y]| [2.0 * x, 3.0 * y], Cause::ScaleOfAxes([2.0, 3.0])),
+        (|[x, y]| [x - 0.25, y + 0.4], Cause::Offset([-0.25, 0.4])),
         (
             |[x, y]| [x, y].map(|part| part * (LIMIT / x.hypot(y)).min(1.0)),
-            |it| matches!(it, Cause::Clipped(found) if is_near(*found, LIMIT.into())),
+            Cause::Clipped(LIMIT.into()),
         ),
         (
             |it| it.map(|part| part.clamp(-LIMIT, LIMIT)),
-            |it| matches!(it, Cause::ClippedAxes(found) if is_near(*found, LIMIT.into())),
+            Cause::ClippedAxes(LIMIT.into()),
         ),
         (
             |it| it.map(|part| (part / STEP).round() * STEP),
-            |it| matches!(it, Cause::Steps(found) if is_near(*found, STEP.into())),
+            Cause::Steps(STEP.into()),
         ),
     ];
-    for (change, is_cause) in rows {
-        expect(&changed(change), Buffer::Velocity, None, is_cause);
+    for (change, due) in rows {
+        let found = changed(change);
+        expect(&found, Buffer::Velocity, None, |it| is_like(it, &due));
     }
     let nonsense = changed(|[x, y]| [x.sin() * 9.0, (y * x).cos() * 9.0]);
     assert_eq!(nonsense.findings.len(), nonsense.velocity.len());
@@ -79,15 +73,11 @@ fn the_one_object_whose_velocity_is_wrong_is_named() {
     let scene = load_moving();
     let car = id_of(&scene, "car");
     let drawn = draw(&scene, 0.0);
-    let velocity = drawn
-        .velocity
-        .zip(drawn.object_id.as_ref().unwrap(), |own, id| {
-            if *id == car { [0.0; 2] } else { *own }
-        });
-    let found = audit_velocity(&scene, velocity);
-    let finding = expect(&found, Buffer::Velocity, Some("car"), |it| {
-        *it == Cause::Zero
-    });
+    let ids = drawn.object_id.unwrap();
+    let still = |own: &[f32; 2], id: &u32| if *id == car { [0.0; 2] } else { *own };
+    let found = audit_velocity(&scene, drawn.velocity.zip(&ids, still));
+    let is_zero = |it: &Cause| *it == Cause::Zero;
+    let finding = expect(&found, Buffer::Velocity, Some("car"), is_zero);
     let text = &finding.text;
     assert!(text.starts_with("velocity of `car` is zero"), "{text}");
     for object in &found.velocity {
@@ -103,29 +93,20 @@ fn the_one_object_whose_velocity_is_wrong_is_named() {
 fn other_numbers_of_depth_are_named() {
     let scene = load_small(None);
     let (_, scaled) = audit_depth(&scene, |_, depth| 100.0 * depth);
-    expect(
-        &scaled,
-        Buffer::Depth,
-        None,
-        |it| matches!(it, Cause::DepthScale(scale) if (scale - 100.0).abs() < 0.01),
-    );
+    let is_100 = |it: &Cause| matches!(it, Cause::DepthScale(by) if (by - 100.0).abs() < 0.01);
+    expect(&scaled, Buffer::Depth, None, is_100);
     let view = scene.camera.view(0.0, WIDTH, HEIGHT);
     let (_, along_ray) = audit_depth(&scene, |at, depth| {
         let [x, y] = [at as u32 % WIDTH, at as u32 / WIDTH].map(|place| f64::from(place) + 0.5);
         let ray = view.ray(x, y);
         depth * (ray.direction.length() / view.depth(ray.at(1.0))) as f32
     });
-    expect(&along_ray, Buffer::Depth, None, |it| {
-        *it == Cause::DepthAlongRay
-    });
+    let is_along = |it: &Cause| *it == Cause::DepthAlongRay;
+    expect(&along_ray, Buffer::Depth, None, is_along);
     let mut capture = draw(&scene, 0.0);
     capture.depth = capture.depth.map(|depth| depth.min(1000.0));
-    expect(
-        &audit(&scene, &capture),
-        Buffer::Depth,
-        None,
-        |it| matches!(it, Cause::DepthOfBackground(metres) if (metres - 1000.0).abs() < 0.1),
-    );
+    let is_km = |it: &Cause| matches!(it, Cause::DepthOfBackground(m) if (m - 1000.0).abs() < 0.1);
+    expect(&audit(&scene, &capture), Buffer::Depth, None, is_km);
 }
 
 #[test]
@@ -139,12 +120,8 @@ fn the_object_whose_depth_is_wrong_is_named() {
     });
     for capture in [without_ids(&scaled), scaled] {
         let found = audit(&scene, &capture);
-        let finding = expect(
-            &found,
-            Buffer::Depth,
-            Some("disc"),
-            |it| matches!(it, Cause::DepthScale(scale) if (scale - 1.1).abs() < 0.001),
-        );
+        let is_due = |it: &Cause| matches!(it, Cause::DepthScale(by) if (by - 1.1).abs() < 0.001);
+        let finding = expect(&found, Buffer::Depth, Some("disc"), is_due);
         assert!(found.shows_scene);
         assert!(!finding.text.contains("near plane"), "{}", finding.text);
         let asks = finding.text.contains("object.exr would show");
@@ -161,10 +138,6 @@ fn linear_depth_has_no_near_plane_to_blame() {
     assert!(finding.text.starts_with(words), "{}", finding.text);
     capture.convention.depth = filters::DepthKind::Reversed;
     capture.convention.near = Some(0.1);
-    expect(
-        &audit(&scene, &capture),
-        Buffer::Depth,
-        None,
-        |it| matches!(it, Cause::DepthPlanes(factor) if (factor - 2.0).abs() < 0.01),
-    );
+    let is_twice = |it: &Cause| matches!(it, Cause::DepthPlanes(by) if (by - 2.0).abs() < 0.01);
+    expect(&audit(&scene, &capture), Buffer::Depth, None, is_twice);
 }

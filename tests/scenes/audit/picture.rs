@@ -4,9 +4,7 @@ use engine::{Buffer, Capture, Cause};
 use frame::Raster;
 use tracer::Scene;
 
-use super::{
-    audit, draw, expect, id_of, load_moving, load_shipped, load_small, names, without_ids,
-};
+use super::*;
 
 /// A mistake in a capture.
 type Change = fn(&mut Capture);
@@ -66,10 +64,8 @@ fn colour_tells_the_time_where_nothing_else_does() {
     expect(&late, Buffer::Picture, None, is(Cause::DrawnLate(1)));
     // Only the colour, if all else shows another time.
     let scene = load_moving();
-    let mixed = Capture {
-        color: draw(&scene, -1.0).color,
-        ..draw(&scene, 0.0)
-    };
+    let mut mixed = draw(&scene, 0.0);
+    mixed.color = draw(&scene, -1.0).color;
     let found = audit(&scene, &mixed);
     assert!(found.shows_scene);
     expect(&found, Buffer::Color, None, is(Cause::DrawnLate(1)));
@@ -84,15 +80,12 @@ fn rows_upside_down_are_named() {
         changes.iter().for_each(|change| change(&mut capture));
         capture
     };
+    let ids: Change = |it| flip(it.object_id.as_mut().unwrap());
     let rows: [(Change, Buffer, bool); 4] = [
         (|it| flip(&mut it.color), Buffer::Color, true),
         (|it| flip(&mut it.depth), Buffer::Depth, true),
         (|it| flip(&mut it.velocity), Buffer::Velocity, true),
-        (
-            |it| flip(it.object_id.as_mut().unwrap()),
-            Buffer::ObjectId,
-            false,
-        ),
+        (ids, Buffer::ObjectId, false),
     ];
     let all = changed(&rows.map(|(change, ..)| change));
     let alone = rows.map(|(change, buffer, shows)| (changed(&[change]), buffer, shows));

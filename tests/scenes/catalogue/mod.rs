@@ -1,5 +1,4 @@
-//! Proofs that each scene of the catalogue exposes its cause: a filter that fails is clearly worse there than in the variant without
-//! the cause.
+//! Proofs that each scene of the catalogue exposes its cause: a filter that fails is clearly worse there than in the variant without it.
 //!
 //! Renders are small, so speeds in pixels are a quarter of those in the scenes' files.
 

@@ -13,13 +13,7 @@ use crate::load_shipped;
 
 /// Settings of a small frame and its truths. A truth's two replicates together have as many samples as the frame.
 pub fn small_settings() -> RenderSettings {
-    RenderSettings {
-        width: 160,
-        height: 90,
-        samples_per_pixel: 32,
-        replicates: 2,
-        ..RenderSettings::default()
-    }
+    tests::settings_of([160, 90], 32, 2)
 }
 
 /// Frame of a scene, and truths that are rendered when needed.
@@ -121,8 +115,7 @@ impl RenderedScene {
         number.unwrap_or_else(|| panic!("{metric} of {object}: {score:?}"))
     }
 
-    /// Returns the mean squared error of a filter's radiance over the pixels that count. It is unbiased, since the
-    /// truth's halves are independent.
+    /// Returns the mean squared error of a filter's radiance over the pixels that count, unbiased since the truth's halves are independent.
     pub fn squared_error(&self, filter: &str, counts: impl Fn(u32, u32) -> bool) -> f64 {
         let output = self.blur(filter).color;
         let [a, b] = &self.truth(find_preset(filter).0.alignment).halves;
@@ -142,9 +135,8 @@ impl RenderedScene {
 pub fn value(scores: &Scores, metric: &str) -> f64 {
     let parsed: Metric = metric.parse().unwrap();
     let found = scores.get(parsed);
-    found
-        .value()
-        .unwrap_or_else(|| panic!("{metric} does not apply: {found:?}"))
+    let value = found.value();
+    value.unwrap_or_else(|| panic!("{metric} does not apply: {found:?}"))
 }
 
 /// Finds a built-in filter, and returns it with the preset's name.

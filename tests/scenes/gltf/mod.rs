@@ -89,9 +89,8 @@ fn a_texture_of_holes_is_joined_with_that_of_the_color() {
     let texture = material.diffuse_texture.unwrap();
     material.opacity_texture = Some(texture);
     let name = material.name.clone();
-    let original = image::open(&scene.textures[texture].path)
-        .unwrap()
-        .to_rgb8();
+    let original = image::open(&scene.textures[texture].path);
+    let original = original.unwrap().to_rgb8();
     scene.textures[texture].texels[0][3] = 0.25;
     let folder = export(&scene).unwrap();
     let joined = format!("textures/{texture}_with_opacity_{texture}.png");
@@ -149,11 +148,8 @@ fn a_colored_emissive_texture_is_one_texture_without_a_factor() {
     let scene = load_shipped("fence@unlit");
     let folder = export(&scene).unwrap();
     let document = read_document(&folder);
-    let own = scene
-        .materials
-        .iter()
-        .find(|own| own.name == "red")
-        .unwrap();
+    let own = scene.materials.iter().find(|own| own.name == "red");
+    let own = own.unwrap();
     let mut materials = document["materials"].as_array().unwrap().iter();
     let red = materials.find(|own| own["name"] == "red").unwrap();
     assert_eq!(red["emissiveFactor"], serde_json::json!([1.0, 1.0, 1.0]));

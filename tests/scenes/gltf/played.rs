@@ -44,10 +44,7 @@ impl Played {
 
     /// Returns the node with a number.
     pub fn node(&self, index: usize) -> Node<'_> {
-        self.document
-            .nodes()
-            .nth(index)
-            .expect("a node of this number")
+        self.document.nodes().nth(index).expect("a node")
     }
 
     /// Returns whether a material cuts its texture's transparent parts out.
@@ -115,13 +112,10 @@ impl Played {
     }
 
     fn keys(&self, node: usize, property: Property) -> Option<Keys> {
-        let channel = self
-            .document
-            .animations()
-            .flat_map(|own| own.channels())
-            .find(|channel| {
-                channel.target().node().index() == node && channel.target().property() == property
-            })?;
+        let mut channels = (self.document.animations()).flat_map(|own| own.channels());
+        let channel = channels.find(|channel| {
+            channel.target().node().index() == node && channel.target().property() == property
+        })?;
         let sampler = channel.sampler();
         Some(Keys {
             times: self.floats(&sampler.input()),
@@ -145,11 +139,8 @@ impl Keys {
     fn at(&self, seconds: f64, parts: usize, is_rotation: bool) -> Vec<f64> {
         let last = self.times.len() - 1;
         let seconds = seconds.clamp(self.times[0], self.times[last]);
-        let after = self
-            .times
-            .partition_point(|time| *time <= seconds)
-            .clamp(1, last.max(1))
-            .min(last);
+        let after = self.times.partition_point(|time| *time <= seconds);
+        let after = after.clamp(1, last.max(1)).min(last);
         let before = after.saturating_sub(1);
         let duration = self.times[after] - self.times[before];
         let part = match duration > 0.0 {
@@ -172,16 +163,15 @@ impl Keys {
             }
             Interpolation::CubicSpline => {
                 let (squared, cubed) = (part * part, part * part * part);
-                (0..parts)
-                    .map(|at| {
-                        let [from, to] = [before, after].map(|key| vector(key, 1, 3)[at]);
-                        let [out, into] = [vector(before, 2, 3)[at], vector(after, 0, 3)[at]];
-                        (2.0 * cubed - 3.0 * squared + 1.0) * from
-                            + duration * (cubed - 2.0 * squared + part) * out
-                            + (-2.0 * cubed + 3.0 * squared) * to
-                            + duration * (cubed - squared) * into
-                    })
-                    .collect()
+                let curve = |at: usize| {
+                    let [from, to] = [before, after].map(|key| vector(key, 1, 3)[at]);
+                    let [out, into] = [vector(before, 2, 3)[at], vector(after, 0, 3)[at]];
+                    (2.0 * cubed - 3.0 * squared + 1.0) * from
+                        + duration * (cubed - 2.0 * squared + part) * out
+                        + (-2.0 * cubed + 3.0 * squared) * to
+                        + duration * (cubed - squared) * into
+                };
+                (0..parts).map(curve).collect()
             }
         }
     }

@@ -3,7 +3,7 @@
 use glam::Vec3;
 use tracer::{Material, Translucency};
 
-use crate::scene_folder::{Folder, SCENE};
+use crate::{Folder, SCENE};
 
 #[test]
 fn a_material_can_change_for_one_object_only() {
@@ -23,10 +23,11 @@ fn a_material_can_change_for_one_object_only() {
 fn faces_without_a_material_are_grey() {
     let folder = Folder::new();
     folder.write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
-    let text = SCENE
-        .replace("group = \"left\"\n", "")
-        .replace("material.paint", "material.default");
-    folder.write("scene.toml", text);
+    let text = SCENE.replace("group = \"left\"\n", "");
+    folder.write(
+        "scene.toml",
+        text.replace("material.paint", "material.default"),
+    );
     let scene = folder.load().unwrap();
     assert_eq!(scene.meshes[0].normals, []);
     assert_eq!(scene.materials[0].name, "default");
@@ -111,12 +112,13 @@ fn blended_opacity_lets_light_pass_and_other_objects_keep_their_holes() {
     };
     let (clear, amber) = (Some(film([1.0; 3])), Some(film([0.5, 1.0, 0.25])));
     let glass = |index| {
-        amber.map(|amber| Translucency {
-            glass: Some(index),
-            ..amber
-        })
+        let glass = Some(index);
+        amber.map(|amber| Translucency { glass, ..amber })
     };
-    let pane = "d 0\nTf 0.5 1 0.25\nillum 4";
+    let (pane, clear_glass) = (
+        "d 0\nTf 0.5 1 0.25\nillum 4",
+        "opacity = 0\nthin_glass = true",
+    );
     for (statements, keys, expected) in [
         // Opaque everywhere.
         ("", "", None),
@@ -131,11 +133,7 @@ fn blended_opacity_lets_light_pass_and_other_objects_keep_their_holes() {
         // Glass of index 1 reflects nothing.
         ("d 0\nTf 0.5 1 0.25\nillum 4\nNi 1", "", amber),
         ("", "opacity = 0.5\nfilter = [0.5, 1, 0.25]", amber),
-        (
-            "Tf 0.5 1 0.25",
-            "opacity = 0\nthin_glass = true",
-            glass(1.5),
-        ),
+        ("Tf 0.5 1 0.25", clear_glass, glass(1.5)),
         (pane, "index_of_refraction = 1.8", glass(1.8)),
         (pane, "thin_glass = false", amber),
     ] {

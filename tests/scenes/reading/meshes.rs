@@ -3,7 +3,7 @@
 use glam::{Vec2, Vec3};
 use tracer::load_scene;
 
-use crate::scene_folder::{Folder, MTL, OBJ};
+use crate::{Folder, MTL, OBJ};
 
 #[test]
 fn a_group_is_a_mesh_of_its_own_and_faces_keep_their_materials() {
@@ -12,17 +12,10 @@ fn a_group_is_a_mesh_of_its_own_and_faces_keep_their_materials() {
     assert_eq!((whole.triangles.len(), left.triangles.len()), (5, 3));
     assert_eq!(whole.slots, [0, 0, 1, 1, 0]);
     assert_eq!(left.slots, [0, 0, 1]);
-    for (object, names) in scene
-        .objects
-        .iter()
-        .zip([["paint", "glow"], ["glow", "paint"]])
-    {
-        let materials = object.materials.iter();
-        assert!(
-            materials
-                .map(|index| &scene.materials[*index].name)
-                .eq(&names)
-        );
+    for (at, due) in [(0, ["paint", "glow"]), (1, ["glow", "paint"])] {
+        let materials = scene.objects[at].materials.iter();
+        let names = materials.map(|index| &scene.materials[*index].name);
+        assert!(names.eq(&due));
     }
     // Normals have unit length.
     assert_eq!(whole.normals, vec![Vec3::Z; whole.positions.len()]);
@@ -48,14 +41,19 @@ fn other_spellings_of_a_mesh_load_the_same() {
     };
     let folder = Folder::new();
     folder.write("my mesh.mtl", spaced(MTL).replace('\n', "\r\n"));
-    let written_otherwise = spaced(OBJ)
-        .replace("f 1/1/1 2/2/1 3/3/1", "f -6/-3/-1 -5/-2/-1 -4/-1/-1")
-        .replace("usemtl old", "  usemtl \t old")
-        .replace("v 1 1 0", "v 2 2 0 2")
-        .replace("v 0 1 0", "v 0 1 0 0.5 0.5 0.5")
-        .replace("g left", "l 1 2 3\n\n# faces on the left\n o left")
-        .replace('\n', "\r\n");
-    folder.write("mesh.obj", written_otherwise);
+    let written_otherwise = [
+        ("f 1/1/1 2/2/1 3/3/1", "f -6/-3/-1 -5/-2/-1 -4/-1/-1"),
+        ("usemtl old", "  usemtl \t old"),
+        ("v 1 1 0", "v 2 2 0 2"),
+        ("v 0 1 0", "v 0 1 0 0.5 0.5 0.5"),
+        ("g left", "l 1 2 3\n\n# faces on the left\n o left"),
+        ("\n", "\r\n"),
+    ];
+    let replace = |text: String, (from, to): (&str, &str)| text.replace(from, to);
+    folder.write(
+        "mesh.obj",
+        written_otherwise.into_iter().fold(spaced(OBJ), replace),
+    );
     let renamed = "material.\"old  red paint\"";
     folder.edit("scene.toml", "material.paint", renamed);
     let other = folder.load().unwrap_or_else(|error| panic!("{error}"));

@@ -8,7 +8,7 @@ use frame::{Efficiency, ShutterProfile};
 use glam::DVec3;
 use tracer::{Background, Family, Interpolation, Parent, load_scene};
 
-use crate::scene_folder::{Folder, OBJ};
+use crate::{Folder, OBJ};
 
 #[test]
 fn the_documented_example_loads() {

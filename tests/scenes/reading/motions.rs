@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use glam::DVec3;
 use tracer::{Interpolation, load_scene};
 
-use crate::scene_folder::Folder;
+use crate::Folder;
 
 /// Loads the scene with other keys for its body.
 fn load_with_keys(keys: &str) -> tracer::Scene {
@@ -27,12 +27,8 @@ fn an_axis_and_degrees_turn_more_than_once() {
          { time = 4, rotation = { axis = [0, 0, 1], degrees = 810 } },",
     );
     // Two turns in four frames: half a turn per frame, from +Y.
-    for (time, expected) in [
-        (0.0, DVec3::Y),
-        (1.0, -DVec3::Y),
-        (1.5, DVec3::X),
-        (5.0, -DVec3::Y),
-    ] {
+    let expected = [DVec3::Y, -DVec3::Y, DVec3::X, -DVec3::Y];
+    for (time, expected) in [0.0, 1.0, 1.5, 5.0].into_iter().zip(expected) {
         // 1e-12: rounding of sines in 64 bits.
         assert!(body_x(&scene, time).distance(expected) < 1e-12, "at {time}");
     }
@@ -64,11 +60,8 @@ fn cubic_keys_are_joined_smoothly() {
     let folder = Folder::new();
     let old = "    { time = -1 },\n    { time = 1, translation = [1, 0, 0] },\n]\n";
     let text = "    { time = -1, translation = [1, 0, 0] },\n    { time = 0 },\n    { time = 1, translation = [1, 0, 0] },\n]\n";
-    folder.edit(
-        "scene.toml",
-        &format!("{old}\n[object.part]"),
-        &format!("{text}interpolation = \"cubic\"\n[object.part]"),
-    );
+    let text = format!("{text}interpolation = \"cubic\"\n[object.part]");
+    folder.edit("scene.toml", &format!("{old}\n[object.part]"), &text);
     let scene = folder.load().unwrap_or_else(|error| panic!("{error}"));
     // The parabola through the keys.
     assert_eq!(scene.object_to_world(0, 0.5).translation.x, 0.25);
@@ -76,11 +69,8 @@ fn cubic_keys_are_joined_smoothly() {
     let fast = load_scene(&folder.path, Some("fast")).unwrap();
     assert_eq!(fast.objects[0].motion.interpolation, Interpolation::Cubic);
     // A variant's still pose removes both.
-    folder.edit(
-        "scene.toml",
-        "keys = [\n    { time = -1 },\n    { time = 1, translation = [2, 0, 0] },\n]",
-        "scale = 3",
-    );
+    let keys = "keys = [\n    { time = -1 },\n    { time = 1, translation = [2, 0, 0] },\n]";
+    folder.edit("scene.toml", keys, "scale = 3");
     let fast = load_scene(&folder.path, Some("fast")).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(fast.objects[0].motion.keys.len(), 1);
 }

@@ -6,7 +6,7 @@ use image::{ImageBuffer, Rgb32FImage};
 use tracer::{SceneError, list_scenes, load_scene};
 
 use crate::appearance::{counting_image, folder_with_background};
-use crate::scene_folder::{Folder, OBJ, SCENE};
+use crate::{Folder, OBJ, SCENE};
 
 /// A mistake in a file of a scene.
 struct Slip<'a> {
@@ -22,9 +22,7 @@ fn read_slips(text: &str) -> Vec<Slip<'_>> {
     let read = |block| {
         let lines = |mark: char| -> Vec<&str> {
             let lines = str::lines(block).filter_map(|line| line.strip_prefix(mark));
-            lines
-                .map(|line| line.strip_prefix(' ').unwrap_or(line))
-                .collect()
+            (lines.map(|line| line.strip_prefix(' ').unwrap_or(line))).collect()
         };
         let ([name], [message]) = (&*lines('#'), &*lines('=')) else {
             panic!("a slip has one name and one message: {block}");
@@ -73,24 +71,16 @@ fn relative_message(folder: &Folder, error: &SceneError) -> String {
 }
 
 #[test]
-fn slips_in_a_scene_toml_are_refused() {
-    let slips = include_str!("slips/scene.txt");
-    check_slips(slips, 134, &["scene.toml"], |_| {});
-}
-
-#[test]
-fn slips_in_materials_are_refused() {
-    let slips = include_str!("slips/materials.txt");
-    check_slips(slips, 30, &["mesh.mtl"], |_| {});
-}
-
-#[test]
-fn slips_in_meshes_are_refused() {
+fn slips_in_each_file_are_refused() {
+    check_slips(
+        include_str!("slips/scene.txt"),
+        134,
+        &["scene.toml"],
+        |_| {},
+    );
+    let materials = include_str!("slips/materials.txt");
+    check_slips(materials, 30, &["mesh.mtl"], |_| {});
     check_slips(include_str!("slips/meshes.txt"), 34, &["mesh.obj"], |_| {});
-}
-
-#[test]
-fn slips_in_key_shapes_are_refused() {
     let slips = include_str!("slips/shapes.txt");
     check_slips(slips, 12, &["scene.toml", "bent.obj"], |folder| {
         let shapes =
@@ -103,34 +93,24 @@ fn slips_in_key_shapes_are_refused() {
 
 #[test]
 fn whole_files_that_say_nothing_are_refused() {
-    for (file, text, message) in [
-        (
-            "scene.toml",
-            SCENE.split("[object.body]").next().unwrap().as_bytes(),
-            "scene.toml: no objects; a scene needs at least one [object.name] with a mesh",
-        ),
-        (
-            "mesh.obj",
-            // Lines and points are not surfaces.
-            b"v 0 0 0\nv 1 0 0\nv 1 1 0\nl 1 2 3\np 1\n",
-            "mesh.obj: holds no faces; a mesh needs at least one f statement with 3 corners",
-        ),
-        (
-            "mesh.obj",
-            b"v 0 0 0\nv 1 1 1\nv 2 2 2\nv 3 3 3\nf 1 2 3 4\n",
-            "mesh.obj: all 2 triangles have no area; a mesh needs at least one with area",
-        ),
-        (
-            "mesh.obj",
-            b"# caf\xe9\n",
-            "scene.toml:19: mesh mesh.obj cannot be read: it is not UTF-8 text",
-        ),
-    ] {
+    let refuse = |file: &str, text: &[u8], message: &str| {
         let folder = Folder::new();
         folder.edit("scene.toml", "group = \"left\"\n", "");
         folder.write(file, text);
         assert_refused(&folder, file, message);
-    }
+    };
+    let empty = SCENE.split("[object.body]").next().unwrap();
+    let says = "scene.toml: no objects; a scene needs at least one [object.name] with a mesh";
+    refuse("scene.toml", empty.as_bytes(), says);
+    // Lines and points are not surfaces.
+    let lines = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nl 1 2 3\np 1\n";
+    let says = "mesh.obj: holds no faces; a mesh needs at least one f statement with 3 corners";
+    refuse("mesh.obj", lines, says);
+    let flat = b"v 0 0 0\nv 1 1 1\nv 2 2 2\nv 3 3 3\nf 1 2 3 4\n";
+    let says = "mesh.obj: all 2 triangles have no area; a mesh needs at least one with area";
+    refuse("mesh.obj", flat, says);
+    let says = "scene.toml:19: mesh mesh.obj cannot be read: it is not UTF-8 text";
+    refuse("mesh.obj", b"# caf\xe9\n", says);
     let folder = Folder::new();
     std::fs::remove_file(folder.path.join("scene.toml")).unwrap();
     let message = "scene.toml: cannot be read: {gone}; a scene is a folder with a scene.toml";
@@ -138,17 +118,13 @@ fn whole_files_that_say_nothing_are_refused() {
 }
 
 #[test]
-fn a_folder_without_scenes_is_refused() {
+fn a_folder_without_scenes_and_an_unknown_variant_are_refused() {
     let folder = Folder::new();
     let error = list_scenes(&folder.path).unwrap_err();
     assert_eq!(error.path, folder.path);
     let due = "holds no scene; a scene is a folder with a scene.toml";
     assert_eq!(error.reason, due);
-}
-
-#[test]
-fn an_unknown_variant_is_refused() {
-    let folder = Folder::new();
+    // Nor has it a variant of any name.
     let error = load_scene(&folder.path, Some("slow")).unwrap_err();
     let expected = "scene.toml: variant \"slow\" is unknown; variants: fast";
     assert_eq!(relative_message(&folder, &error), expected);
@@ -170,22 +146,14 @@ fn glass_that_no_light_passes_may_have_any_index_and_other_glass_not() {
 fn environments_of_other_shapes_and_numbers_are_refused() {
     let mut holed: Rgb32FImage = ImageBuffer::from_pixel(4, 2, image::Rgb([1.0, 1.0, 0.0]));
     holed.put_pixel(2, 1, image::Rgb([1.0, f32::NAN, 0.0]));
-    for (keys, image, message) in [
-        (
-            "",
-            ImageBuffer::new(3, 2),
-            "12: the background's image sky.exr is 3 x 2; allowed: a map in longitude and latitude, twice as wide as high",
-        ),
-        (
-            "",
-            holed,
-            "12: the background's image sky.exr holds [1.0, NaN, 0.0] at (2, 1); allowed: 0 to 1e12",
-        ),
-        (
-            "\nstrength = 0",
-            counting_image(),
-            "13: strength is 0; allowed: above 0",
-        ),
+    let shape = "12: the background's image sky.exr is 3 x 2; allowed: a map in longitude and latitude, twice as wide as high";
+    let number =
+        "12: the background's image sky.exr holds [1.0, NaN, 0.0] at (2, 1); allowed: 0 to 1e12";
+    let dark = ("\nstrength = 0", counting_image());
+    for ((keys, image), message) in [
+        (("", ImageBuffer::new(3, 2)), shape),
+        (("", holed), number),
+        (dark, "13: strength is 0; allowed: above 0"),
     ] {
         let folder = folder_with_background(&format!("image = \"sky.exr\"{keys}"));
         image.save(folder.path.join("sky.exr")).unwrap();

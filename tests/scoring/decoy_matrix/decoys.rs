@@ -1,9 +1,11 @@
-//! Blurs with one mistake each, and some correct ones.
+//! Synthetic scenes, and blurs of them: with one mistake each, and some correct ones.
+
+use std::f64::consts::FRAC_PI_2;
 
 use frame::{Frame, Picture, Plane, Raster};
-use tests::synthetic::{Blur, EXPOSURE, Sampling, Scene, constant};
+use tests::synthetic::{Blur, EXPOSURE, Object, Sampling, Scene, Shape, constant};
 
-use crate::{dilated, mix, shifted, smear};
+use crate::{bar, dilated, mix, shifted, smear};
 
 /// Samples of a render with other noise than the truth's.
 pub const APART: Sampling = Sampling {
@@ -15,6 +17,8 @@ pub const APART: Sampling = Sampling {
 pub fn decoys(scene: &Scene, frame: &Frame) -> Vec<(&'static str, Picture)> {
     let blurred = |blur: Blur| scene.render(&blur, APART);
     let instant = frame.picture();
+    let wide = blurred(dilated(6.0));
+    let rescaled = rescale(&blurred(Blur::TRUE), &wide, &instant);
     vec![
         ("identity", instant.clone()),
         ("constant", constant(&blurred(Blur::TRUE))),
@@ -26,10 +30,7 @@ pub fn decoys(scene: &Scene, frame: &Frame) -> Vec<(&'static str, Picture)> {
         ("dilation 2 px", blurred(dilated(2.0))),
         ("dilation 6 px", blurred(dilated(6.0))),
         ("isotropic", blur_isotropically(&instant, 7.0)),
-        (
-            "fat, rescaled",
-            rescale(&blurred(Blur::TRUE), &blurred(dilated(6.0)), &instant),
-        ),
+        ("fat, rescaled", rescaled),
         ("own velocity", gather(frame)),
         ("sharp core", sharpen(&blurred(Blur::TRUE), &instant, scene)),
         ("banding", blurred(Blur::accumulation(3))),
@@ -39,20 +40,14 @@ pub fn decoys(scene: &Scene, frame: &Frame) -> Vec<(&'static str, Picture)> {
 /// Thins the dilated picture until every object has its true mass; the instant fills the gaps.
 fn rescale(right: &Picture, wide: &Picture, instant: &Picture) -> Picture {
     let mass = |picture: &Picture| -> f64 {
-        let mattes = picture.coverage[1..].iter();
-        mattes
-            .flat_map(|matte| &matte.pixels)
-            .map(|a| f64::from(*a))
-            .sum()
+        let pixels = picture.coverage[1..].iter().flat_map(|it| &it.pixels);
+        pixels.map(|a| f64::from(*a)).sum()
     };
     let part = (mass(right) / mass(wide)) as f32;
-    let mattes = wide.coverage.iter().enumerate();
-    let gaps = Picture {
-        color: instant.color.clone(),
-        coverage: mattes
-            .map(|(index, matte)| matte.map(|_| f32::from(index == 0)))
-            .collect(),
-    };
+    let mut gaps = instant.clone();
+    for (index, matte) in gaps.coverage.iter_mut().enumerate() {
+        matte.pixels.fill(f32::from(index == 0));
+    }
     mix(&gaps, wide, part)
 }
 
@@ -63,18 +58,12 @@ fn sharpen(right: &Picture, instant: &Picture, scene: &Scene) -> Picture {
     let nothing: Plane = instant.coverage[0].map(|_| 0.0);
     let core = movers.fold(nothing, |sum, (_, matte)| sum.zip(matte, |sum, a| sum + a));
     let over = |(a, b): (f32, f32), core: f32| core * a + (1.0 - core) * b;
-    let color = instant
-        .color
-        .zip(&right.color, |a, b| [0, 1, 2].map(|c| (a[c], b[c])));
+    let color = (instant.color).zip(&right.color, |a, b| [0, 1, 2].map(|c| (a[c], b[c])));
     let mattes = instant.coverage.iter().zip(&right.coverage);
+    let mattes = mattes.map(|(a, b)| a.zip(b, |a, b| (*a, *b)));
     Picture {
         color: color.zip(&core, |pairs, core| pairs.map(|pair| over(pair, *core))),
-        coverage: mattes
-            .map(|(a, b)| {
-                a.zip(b, |a, b| (*a, *b))
-                    .zip(&core, |pair, core| over(*pair, *core))
-            })
-            .collect(),
+        coverage: (mattes.map(|pairs| pairs.zip(&core, |pair, core| over(*pair, *core)))).collect(),
     }
 }
 
@@ -97,9 +86,8 @@ fn gather(frame: &Frame) -> Picture {
         (0..64).map(move |step| {
             let part = (f64::from(step) + 0.5) / 64.0 * EXPOSURE;
             let place = |at: u32, axis: usize, size: u32| {
-                (f64::from(at) + 0.5 + part * velocity[axis])
-                    .floor()
-                    .clamp(0.0, f64::from(size - 1))
+                let place = f64::from(at) + 0.5 + part * velocity[axis];
+                place.floor().clamp(0.0, f64::from(size - 1))
             };
             (place(x, 0, width) as u32, place(y, 1, height) as u32)
         })
@@ -136,4 +124,34 @@ fn across(plane: &Plane, sigma: f64, step: [i64; 2]) -> Plane {
         }
         (sum / total) as f32
     })
+}
+
+fn scene(objects: Vec<Object>) -> Scene {
+    crate::scene([112, 84], objects)
+}
+
+/// Makes scenes by name: a translation, a rotation, two crossing paths, thin objects, and a mover between still objects.
+pub fn scenes() -> Vec<(&'static str, Scene)> {
+    let still = [0.0, 0.0];
+    let mut turning = Object::sliding(bar([28.0, 5.0], 0.4), [56.3, 42.2], still);
+    turning.turn = 1.2;
+    let wires = [34.3, 50.3, 66.3]
+        .map(|x| Object::sliding(bar([24.0, 1.2], FRAC_PI_2), [x + 9.0, 42.2], [18.0, 0.0]));
+    let disc = Object::sliding(Shape::Disc(12.0), [68.3, 44.2], [28.0, 5.0]);
+    let crossing = [
+        Object::sliding(Shape::Disc(8.0), [76.3, 30.2], [30.0, 0.0]),
+        Object::sliding(bar([9.0, 6.0], 0.3), [48.3, 62.2], [4.0, 24.0]),
+    ];
+    let overlap = [
+        Object::sliding(bar([2.5, 34.0], 0.0), [46.0, 42.0], still),
+        Object::sliding(Shape::Disc(12.0), [68.3, 42.2], [28.0, 0.0]),
+        Object::sliding(bar([14.0, 14.0], 0.0), [84.0, 42.0], still),
+    ];
+    vec![
+        ("disc", scene(vec![disc])),
+        ("turning bar", scene(vec![turning])),
+        ("crossing", scene(crossing.to_vec())),
+        ("wires", scene(wires.to_vec())),
+        ("overlap", scene(overlap.to_vec())),
+    ]
 }

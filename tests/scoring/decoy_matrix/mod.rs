@@ -1,24 +1,21 @@
 //! Wrong blurs against the bounds for all filters. On every scene each wrong blur breaks a bound, and the right ones break none.
 
 pub mod decoys;
-mod scenes;
 
 use std::collections::BTreeMap;
 
-use decoys::{APART, decoys};
+use decoys::{APART, decoys, scenes};
 use frame::Picture;
 use judge::{Bounds, Outcome, judge_scores, read_bounds_file};
 use metrics::{Measured, Metric, Reference, Scores};
-use scenes::scenes;
 use tests::synthetic::{Blur, Scene, VIEWING};
 
 use crate::noisy;
 
 /// Reads the bounds of every filter on every scene, required or not.
 fn shared_bounds() -> Bounds {
-    read_bounds_file(tests::scenes().join("bounds.toml"))
-        .unwrap()
-        .default
+    let bounds = read_bounds_file(tests::scenes().join("bounds.toml"));
+    bounds.unwrap().default
 }
 
 /// Scores every decoy, and the right blurs, on one scene.
@@ -27,15 +24,14 @@ fn score_decoys(scene: &Scene) -> Vec<(&'static str, Scores)> {
     let truth = scene.truth([noisy(1024, 1), noisy(1024, 2)]);
     let reference = Reference::new(&frame, &truth, None, &VIEWING).unwrap();
     let score = |picture: &Picture| reference.measure(picture).unwrap().scores;
-    let mut rows: Vec<_> = (decoys(scene, &frame).iter())
-        .map(|(name, picture)| (*name, score(picture)))
-        .collect();
-    rows.push(("oracle", score(&scene.render(&Blur::TRUE, APART))));
-    rows.push((
-        "accumulate:64",
-        score(&scene.render(&Blur::accumulation(64), APART)),
-    ));
-    rows
+    let mut pictures = decoys(scene, &frame);
+    pictures.push(("oracle", scene.render(&Blur::TRUE, APART)));
+    let many = Blur::accumulation(64);
+    pictures.push(("accumulate:64", scene.render(&many, APART)));
+    let rows = pictures
+        .iter()
+        .map(|(name, picture)| (*name, score(picture)));
+    rows.collect()
 }
 
 /// Scores that should detect each decoy: the first one that applies to a scene must.
@@ -59,13 +55,12 @@ const SEEN_BY: [(&str, &[&str]); 14] = [
 /// Returns the names of the broken bounds.
 fn broken_bounds(scores: &Scores, bounds: &Bounds) -> Vec<String> {
     let judged = judge_scores(scores, None, bounds).into_iter();
-    judged
-        .filter_map(|judged| match judged.outcome {
-            Outcome::Broken => Some(judged.metric.name()),
-            Outcome::Kept | Outcome::NotApplicable => None,
-            other => panic!("{}: {other:?}", judged.metric),
-        })
-        .collect()
+    let broken = judged.filter_map(|judged| match judged.outcome {
+        Outcome::Broken => Some(judged.metric.name()),
+        Outcome::Kept | Outcome::NotApplicable => None,
+        other => panic!("{}: {other:?}", judged.metric),
+    });
+    broken.collect()
 }
 
 /// A scene, and for each decoy the bounds that it breaks there.
@@ -92,11 +87,8 @@ fn format_table(columns: &[Column]) -> String {
                 false => somewhere.push(format!("{bound} ({count})")),
             }
         }
-        text += &format!(
-            "| {decoy} | {} | {} |\n",
-            cell(&everywhere),
-            cell(&somewhere)
-        );
+        let (all, some) = (cell(&everywhere), cell(&somewhere));
+        text += &format!("| {decoy} | {all} | {some} |\n");
     }
     text
 }

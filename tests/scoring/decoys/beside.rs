@@ -64,8 +64,7 @@ fn a_sharp_mover_over_its_own_smear_makes_rows_heavier_and_does_not_grow() {
         // Each lateral silhouette is as long as the disc is wide, to the 2 % of its gradients.
         let what = format!("gain at {degrees} degrees");
         assert_near(&what, gain + growth, expected, 0.02 * expected);
-        // Pixels at the rim reach at an angle into rows that the disc hardly touches: measured 2 % at 30 degrees, 0 at
-        // 0.
+        // Pixels at the rim reach at an angle into rows that the disc hardly touches: measured 2 % at 30 degrees, 0 at 0.
         assert_near(&what, gain, expected, 0.04 * expected);
         assert_near("loss", loss, 0.0, ROWS);
     }
@@ -106,12 +105,7 @@ fn an_isotropic_blur_bleeds_to_all_sides_though_its_extent_looks_right() {
         let blurred = blur_isotropically(&instant, 9.0);
         let [scores] = &disc.score_pictures([blurred]);
         assert_scores("isotropic", scores, &[("extent", 1.0, 0.1)]);
-        let large = [
-            "bleed_lateral",
-            "bleed_leading",
-            "lateral_growth",
-            "row_loss",
-        ];
-        assert_large(&format!("isotropic at {degrees} degrees"), scores, &large);
+        let large = "bleed_lateral bleed_leading lateral_growth row_loss";
+        assert_large(&format!("isotropic at {degrees} degrees"), scores, large);
     }
 }

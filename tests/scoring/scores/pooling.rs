@@ -1,7 +1,7 @@
 //! Regions and maps for pooling scores.
 
 use frame::Raster;
-use metrics::{Measured, Metric, ObjectMetric, Viewing, measure, regions};
+use metrics::{Measured, Metric, ObjectMetric, measure, regions};
 use tests::synthetic::{Blur, Object, Shape, VIEWING};
 
 use super::{BESIDE, small_scene};
@@ -42,10 +42,8 @@ fn errors_of_colour_use_the_viewing_exposure() {
     let (frame, truth) = (scene.frame(), clean_truth(&scene));
     let mut output = truth.mean();
     output.color = output.color.map(|pixel| pixel.map(|value| value + 0.125));
-    let bright = Viewing {
-        stops: 2.0,
-        ..VIEWING
-    };
+    let mut bright = VIEWING;
+    bright.stops = 2.0;
     let scores = measure(&output, &frame, &truth, None, &bright);
     let scores = scores.expect("they agree").scores;
     // An offset of 1/8, two stops up: 1/2, squared 1/4, which is 6.02 dB below 1. Rounding of 32-bit sums.

@@ -1,28 +1,21 @@
-//! Scenes where a score means nothing, and its reason.
+//! Scenes where a score means nothing, with its reason, and pictures that do not belong together.
 
-use frame::Raster;
-use metrics::{Measured, ObjectMetric};
-use tests::synthetic::{Blur, Object, Scene, Shape};
+use frame::{Frame, Picture, Raster, Truth};
+use metrics::{Measured, ObjectMetric, Viewing, measure};
+use tests::synthetic::{Blur, Object, Scene, Shape, VIEWING};
 
 use super::{BEFORE, BESIDE, small_scene};
 use crate::{bar, clean_truth, find_reason, find_value, measure_blur, measure_scores, smear};
 
 /// Scores that need rows along a translation.
-const ROW_SCORES: [&str; 6] = [
-    "lateral_growth",
-    "row_gain",
-    "row_loss",
-    "misplacement",
-    "centroid",
-    "extent",
-];
+const ROW_SCORES: &str = "lateral_growth row_gain row_loss misplacement centroid extent";
 
 #[test]
 fn an_object_cut_off_by_the_border_has_no_row_scores_but_bleeds() {
     let mut scene = small_scene(BESIDE);
     scene.objects[1].center = [75.0, 30.0];
     let scores = measure_blur(&scene, Blur::IDENTITY).scores;
-    for metric in ROW_SCORES.iter().chain(&["energy"]) {
+    for metric in ROW_SCORES.split(' ').chain(["energy"]) {
         assert!(find_reason(&scores, metric).contains("border"), "{metric}");
     }
     assert_eq!(find_value(&scores, "bleed_trailing"), 0.0);
@@ -43,7 +36,7 @@ fn a_rotation_has_no_row_scores_but_bleeds() {
     // In place, and while it travels: the mean velocity is zero, and not zero.
     for travel in [0.0, 4.0] {
         let scores = measure_blur(&turning_arm(0.8, travel), Blur::IDENTITY).scores;
-        for metric in ROW_SCORES {
+        for metric in ROW_SCORES.split(' ') {
             let reason = find_reason(&scores, metric);
             assert!(reason.contains("does not translate"), "{metric}: {reason}");
         }
@@ -121,4 +114,41 @@ fn a_hole_needs_a_pixel_that_is_covered_throughout() {
     scene.objects[1].displacement = [30.0, 0.0];
     let scores = measure_blur(&scene, Blur::IDENTITY).scores;
     assert!(find_reason(&scores, "hole").contains("covers no pixel throughout"));
+}
+
+/// A mistake in the input.
+type Change = fn(&mut Given);
+
+/// Input of a measurement: the output, the frame, the truth and the viewing conditions.
+type Given = (Picture, Frame, Truth, Viewing);
+
+#[test]
+fn invalid_and_mismatched_pictures_are_refused_by_name() {
+    let scene = small_scene(BESIDE);
+    let truth = clean_truth(&scene);
+    let right: Given = (truth.mean(), scene.frame(), truth, VIEWING);
+    let changes: [Change; 7] = [
+        |(output, ..)| output.color.pixels[3 * 80 + 7][1] = f32::NAN,
+        |(output, ..)| output.coverage[2].pixels[0] = f32::INFINITY,
+        |(output, ..)| output.coverage.truncate(2),
+        |(output, ..)| output.color = Raster::filled(81, 60, [0.0; 3]),
+        |(_, frame, ..)| frame.exposure = 1.0,
+        |(.., truth, _)| truth.motion = Raster::filled(7680, 4320, 0.0),
+        |(.., viewing)| viewing.flip_count = 1,
+    ];
+    let due = "the colour of the output holds NaN at pixel (7, 3)
+        the matte of object2 in the output holds inf
+        the output has 2 mattes, the truth has 3 objects
+        the output is 81x60, the truth is 80x60
+        the frame's exposure has 1.0, the truth has 0.5
+        7680x4320; at most 28000000 pixels
+        in 1 steps; allowed";
+    assert_eq!(due.lines().count(), changes.len());
+    for (change, words) in changes.into_iter().zip(due.lines()) {
+        let mut given = right.clone();
+        change(&mut given);
+        let (output, frame, truth, viewing) = &given;
+        let error = measure(output, frame, truth, None, viewing).expect_err(words);
+        assert!(error.to_string().contains(words.trim()), "{error}");
+    }
 }

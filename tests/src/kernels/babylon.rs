@@ -1,6 +1,6 @@
 //! Both modes of Babylon.js's motion blur.
 
-use super::{Steady, Tap, nearest, own};
+use super::{Steady, Tap, nearest, own, tap};
 use crate::vector::{direction, length, scaled};
 
 /// Most taps.
@@ -28,18 +28,15 @@ pub fn by_camera(steady: &Steady) -> Vec<Tap> {
     with_nearest(parts.map(|part| scaled(trail, part)))
 }
 
-/// Returns a vector of one pixel, and the number of taps. Its direction is the motion's in parts of width and
-/// height.
+/// Returns a vector of one pixel, and the number of taps. Its direction is the motion's in parts of width and height.
 fn steps(steady: &Steady) -> ([f64; 2], f64) {
     let [width, height] = steady.size();
     let [x, y] = steady.velocity;
     let stored = [x / width, y / height].map(packed);
     let motion = scaled(stored, steady.exposure);
     let pixels = length([motion[0] * width, motion[1] * height]);
-    (
-        direction(motion, [1.0, 0.0]),
-        pixels.clamp(1.0, SAMPLES).floor(),
-    )
+    let count = pixels.clamp(1.0, SAMPLES).floor();
+    (direction(motion, [1.0, 0.0]), count)
 }
 
 /// Rounds a part of width or height to 8 bits of its cube root, as stored.
@@ -55,10 +52,7 @@ fn with_nearest(offsets: impl Iterator<Item = [f64; 2]>) -> Vec<Tap> {
         let [columns, rows] = [nearest_two(x), nearest_two(y)];
         columns.map(|x| rows.map(|y| [x, y])).concat()
     });
-    let taps = taps.map(|offset| Tap {
-        offset,
-        weight: 0.25,
-    });
+    let taps = taps.map(|offset| tap(offset, 0.25));
     [own(1.0)].into_iter().chain(taps).collect()
 }
 

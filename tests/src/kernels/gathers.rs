@@ -1,6 +1,6 @@
 //! Filters that average along a pixel's own motion, or along motion from a nearby pixel.
 
-use super::{Steady, Tap, bilinear, nearest, on_trail, own};
+use super::{Steady, Tap, at_pixels, bilinear, on_trail, own};
 use crate::vector::{length, scaled};
 
 /// Places the taps at i/N of the trail: Ctrl-Alt-Test 2011, and the blur by the camera's motion.
@@ -27,10 +27,8 @@ pub fn centred(preset: &str, steady: &Steady) -> Vec<Tap> {
         _ => panic!("say here where the taps of {preset} are"),
     };
     let taps = (0..64).map(|i| first + f64::from(i));
-    let parts = taps
-        .take_while(|tap| *tap <= last)
-        .map(|tap| tap / count - 0.5);
-    let mut taps = on_trail(steady.trail(), parts);
+    let taps = taps.take_while(|tap| *tap <= last);
+    let mut taps = on_trail(steady.trail(), taps.map(|tap| tap / count - 0.5));
     taps.extend(has_own.then(|| own(1.0)));
     taps
 }
@@ -82,18 +80,12 @@ pub fn bevy(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     }
     let parts = (-samples..samples).map(|i| 0.5 * (f64::from(i) + noise) / f64::from(samples));
     match preset {
-        "msaa" => parts
-            .map(|part| Tap {
-                offset: scaled(steady.trail(), part).map(nearest),
-                weight: 1.0,
-            })
-            .collect(),
+        "msaa" => at_pixels(steady.trail(), parts),
         _ => on_trail(steady.trail(), parts),
     }
 }
 
-/// Places the taps of Blender: from the pixel to both ends of the trail, in even steps. Those along the longest motion nearby are the
-/// same.
+/// Places the taps of Blender: from the pixel to both ends of the trail, in even steps. Those along the longest motion nearby are the same.
 pub fn blender(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     let half = scaled(steady.trail(), 0.5);
     if length(half) < 0.5 {
@@ -108,18 +100,12 @@ pub fn blender(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
         [part, -part]
     });
     match samples {
-        8 => parts
-            .map(|part| Tap {
-                offset: scaled(half, part).map(nearest),
-                weight: 1.0,
-            })
-            .collect(),
+        8 => at_pixels(half, parts),
         _ => on_trail(half, parts),
     }
 }
 
-/// Places the taps of three.js: the pixel itself, and sixteen from one fifteenth after the trail's end to one beyond its
-/// other end.
+/// Places the taps of three.js: the pixel itself, and sixteen from one fifteenth after the trail's end to one beyond its other end.
 pub fn three(preset: &str, steady: &Steady) -> Vec<Tap> {
     let parts = (1..=16).map(|i| f64::from(i) / 15.0 - 0.5);
     let mut taps = on_trail(three_trail(preset, steady), parts);
@@ -166,12 +152,7 @@ pub fn urp(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     let strength = if preset == "mended" { 1.0 } else { 2.0 };
     let trail = scaled(steady.trail(), strength);
     let parts = (1 - pairs..=pairs).map(|i| (f64::from(i) - noise) / f64::from(2 * pairs));
-    parts
-        .map(|part| Tap {
-            offset: scaled(trail, part).map(nearest),
-            weight: 1.0,
-        })
-        .collect()
+    at_pixels(trail, parts)
 }
 
 /// Places the taps of vort: an odd number on either side, each half behind the pixel and half in front of it. A few pixels of motion leave

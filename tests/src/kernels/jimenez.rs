@@ -2,7 +2,7 @@
 //!
 //! If everything moves alike at one depth, weights are 1, except those of kajiya, which compare in pixels.
 
-use super::{Steady, Tap, bilinear, on_trail, own};
+use super::{Steady, Tap, at_pixels, bilinear, nearest_tap, on_trail, own, tap};
 use crate::vector::{length, scaled};
 
 /// Returns the taps of a preset.
@@ -51,9 +51,7 @@ fn hdrp(steady: &Steady, noise: f64) -> Vec<Tap> {
         let middle = f64::from(i) + 0.5;
         [-1.0, 1.0].map(|sign| sign * (middle + sign * (noise - 0.5)))
     });
-    sides
-        .map(|offset| nearest(scaled(direction, offset / f64::from(samples))))
-        .collect()
+    at_pixels(direction, sides.map(|side| side / f64::from(samples)))
 }
 
 /// Places the taps of MotionBlur.azsl of O3DE at quality High, with offsets cut to whole pixels.
@@ -66,24 +64,16 @@ fn o3de(steady: &Steady, strength: f64, noise: f64) -> Vec<Tap> {
     let step = scaled(motion, 1.0 / 24.0);
     let offsets = (0..24).map(|i| scaled(step, f64::from(i) + dither).map(f64::trunc));
     let sides = offsets.flat_map(|offset| [offset, scaled(offset, -1.0)]);
-    sides
-        .map(|offset| Tap {
-            offset,
-            weight: 1.0,
-        })
-        .collect()
+    sides.map(|offset| tap(offset, 1.0)).collect()
 }
 
 /// Places the taps of motionblurCS.hlsl of Wicked Engine: 16 from end to end of a trail scaled by noise.
 fn wicked(half: [f64; 2], noise: f64) -> Vec<Tap> {
     let steps = (0..16).map(|i| f64::from(i) - 7.5);
-    steps
-        .map(|step| nearest(scaled(half, noise * step / 7.5)))
-        .collect()
+    at_pixels(half, steps.map(|step| noise * step / 7.5))
 }
 
-/// Places the taps of motion_blur.rs of kajiya: the pixel and three steps on each side, of an eighth of half the
-/// motion, shifted together.
+/// Places the taps of motion_blur.rs of kajiya: the pixel and three steps on each side, of an eighth of half the motion, shifted together.
 fn kajiya(steady: &Steady, scale: f64, noise: f64) -> Vec<Tap> {
     // Its map of motion points back.
     let half = scaled(steady.trail(), -0.5 * scale);
@@ -99,18 +89,6 @@ fn kajiya(steady: &Steady, scale: f64, noise: f64) -> Vec<Tap> {
         taps.extend(bilinear(along(i + shift), weight));
         taps.extend(bilinear(along(-i + shift), weight));
     }
-    let rest = Tap {
-        weight: 1.0 - covered,
-        ..nearest(along(shift))
-    };
-    taps.push(rest);
+    taps.push(tap(nearest_tap(along(shift)).offset, 1.0 - covered));
     taps
-}
-
-/// Makes a tap that reads the nearest pixel.
-fn nearest(offset: [f64; 2]) -> Tap {
-    Tap {
-        offset: offset.map(|part| (part + 0.5).floor()),
-        weight: 1.0,
-    }
 }

@@ -2,24 +2,17 @@
 //!
 //! If everything moves alike at one depth, every tap is both in front and behind: two cones and two cylinders.
 
-use super::{Steady, Tap, bilinear, nearest, own};
+use super::{Steady, Tap, bilinear, nearest, own, tap};
 use crate::vector::{length, scaled};
 
 /// Places the taps of McGuire et al. 2012, and of two implementations.
 pub fn mcguire(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     let half = scaled(steady.trail(), 0.5);
-    let along = |i: i32, jitter: f64, count: i32| {
-        2.0 * (f64::from(i) + jitter + 1.0) / f64::from(count + 1) - 1.0
-    };
     match preset {
-        // The tuned preset reaches 1.2 times as far and clamps at the ends. The pixel's own direction equals all
-        // others.
+        // The tuned preset reaches 1.2 times as far and clamps at the ends. The pixel's own direction equals all others.
         "paper" | "tuned" => {
-            let (count, spread) = if preset == "paper" {
-                (15, 1.0)
-            } else {
-                (13, 1.2)
-            };
+            let is_paper = preset == "paper";
+            let (count, spread) = if is_paper { (15, 1.0) } else { (13, 1.2) };
             let half = half_velocity(half, 20.0);
             let radius = length(half);
             let mut taps = vec![own(1.0 / radius)];
@@ -27,10 +20,8 @@ pub fn mcguire(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
                 let place: f64 = spread * along(i, noise - 0.5, count);
                 let offset = scaled(half, place.clamp(-1.0, 1.0)).map(nearest);
                 let distance = length(offset);
-                Tap {
-                    offset,
-                    weight: 2.0 * cone(distance, radius) + 2.0 * cylinder(distance, radius).powi(2),
-                }
+                let edge = cylinder(distance, radius).powi(2);
+                tap(offset, 2.0 * cone(distance, radius) + 2.0 * edge)
             }));
             taps
         }
@@ -49,15 +40,18 @@ pub fn mcguire(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
             let mut taps = vec![own(27.0 / 40.0 / radius)];
             taps.extend((0..27).filter(|i| *i != 13).map(|i| {
                 let place = (1.2 * along(i, noise - 0.5, 27)).clamp(-1.0, 1.0);
-                Tap {
-                    offset: scaled(half, place).map(nearest),
-                    weight: 2.0 * cone(place.abs() * radius, radius) + 2.0,
-                }
+                let weight = 2.0 * cone(place.abs() * radius, radius) + 2.0;
+                tap(scaled(half, place).map(nearest), weight)
             }));
             taps
         }
         _ => panic!("say here what {preset} averages"),
     }
+}
+
+/// Returns the place of a tap between the ends, at -1 and 1.
+fn along(i: i32, jitter: f64, count: i32) -> f64 {
+    2.0 * (f64::from(i) + jitter + 1.0) / f64::from(count + 1) - 1.0
 }
 
 /// Places the taps of Guertin, McGuire and Nowrouzezahrai 2014.
@@ -70,12 +64,10 @@ pub fn guertin(steady: &Steady, noise: f64) -> Vec<Tap> {
     let aligned = trust / length([trust, 1.0 - trust]);
     let mut taps = vec![own(35.0 / 40.0 / radius)];
     taps.extend((0..35).map(|i| {
-        let place = 2.0 * (f64::from(i) + jitter + 1.0) / 36.0 - 1.0;
+        let place = along(i, jitter, 35);
         let distance = place.abs() * radius;
-        Tap {
-            offset: scaled(half, place).map(f64::trunc),
-            weight: (1.0 + aligned) * cone(distance, radius) + 2.0 * cylinder(distance, radius),
-        }
+        let weight = (1.0 + aligned) * cone(distance, radius) + 2.0 * cylinder(distance, radius);
+        tap(scaled(half, place).map(f64::trunc), weight)
     }));
     taps
 }

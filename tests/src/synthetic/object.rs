@@ -126,8 +126,7 @@ impl Posed {
         dot(distance, distance) <= self.reach * self.reach
     }
 
-    /// Converts a point to the object's own coordinates, its centre at (0, 0), at `time` displacements from the
-    /// instant.
+    /// Converts a point to the object's own coordinates, its centre at (0, 0), at `time` displacements from the instant.
     pub(crate) fn local(&self, point: [f64; 2], time: f64) -> [f64; 2] {
         // Plain statements: a picture has millions of samples, and this crate is not much optimised.
         let (object, shift) = (&self.object, self.blur.shift);

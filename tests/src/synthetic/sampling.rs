@@ -7,8 +7,7 @@ use crate::random::hash;
 pub struct Sampling {
     /// Samples per pixel.
     pub samples: u32,
-    /// Seed of the per-pixel offsets. Without a seed every pixel has the same offset, and renders do not differ in
-    /// noise.
+    /// Seed of the per-pixel offsets. Without a seed every pixel has the same offset, and renders do not differ in noise.
     pub seed: Option<u64>,
 }
 

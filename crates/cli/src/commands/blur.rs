@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use filters::{Convention, FilterError, Gpu, Input};
+use filters::{Convention, EXCLUSION, FilterError, Gpu, Input};
 use frame::{
     Camera, ExrFile, Image, Plane, Reprojection, Vectors, read_exr, read_frame_rate, write_exr,
 };
@@ -31,9 +31,8 @@ pub struct BlurArgs {
     /// picture's].
     #[arg(long)]
     pub as_written: bool,
-    /// OpenEXR file with the channels R G B, Z, velocity.X, velocity.Y, and velocity_next.X, velocity_next.Y, velocity_z for filters
-    /// that read them. With --frames the first frame's file, as `run` and `truths render`
-    /// write it, or a folder of 0000.exr, 0001.exr and so on.
+    /// OpenEXR file with the channels R G B, Z, velocity.X, velocity.Y, and velocity_next.X, velocity_next.Y, velocity_z and exclusion for
+    /// filters that read them. With --frames the first frame's file, as `run` and `truths render` write it, or a folder of 0000.exr, 0001.exr and so on.
     #[arg(long, value_name = "FILE|DIR")]
     pub frame: PathBuf,
     /// TOML file with a table [convention] that says which velocity, depth and colour the frame has and the picture gets
@@ -194,6 +193,7 @@ struct Buffers {
     velocity: Vectors,
     velocity_next: Option<Vectors>,
     velocity_z: Option<Plane>,
+    exclusion: Option<Plane>,
     depth: Plane,
     reprojection: Option<Reprojection>,
     camera: Option<Camera>,
@@ -233,6 +233,7 @@ impl Buffers {
             velocity: convention.restore_velocity(&velocity, exposure),
             velocity_next: next.map(|next| convention.restore_velocity(&next, exposure)),
             velocity_z: file.optional("velocity_z", || file.plane("velocity_z"))?,
+            exclusion: file.optional(EXCLUSION, || file.plane(EXCLUSION))?,
             depth: convention.restore_depth(&file.plane("Z")?),
             reprojection,
             camera: Camera::from_exr(&file)?,
@@ -250,6 +251,7 @@ impl Buffers {
             velocity: &self.velocity,
             velocity_next: self.velocity_next.as_ref(),
             velocity_z: self.velocity_z.as_ref(),
+            exclusion: self.exclusion.as_ref(),
             depth: &self.depth,
             reprojection: self.reprojection,
             camera: self.camera,

@@ -45,7 +45,7 @@ pub struct RenderArgs {
     /// Render the ladder of sub-frames of each truth too, which `run` measures with.
     #[arg(help_heading = "Truths", long)]
     pub ladders: bool,
-    /// Write velocity_next and velocity_z to frame.exr too, for `engine blur` with filters that read them.
+    /// Write velocity_next, velocity_z and exclusion to frame.exr too, for `engine blur` with filters that read them.
     #[arg(help_heading = "Truths", long)]
     pub further_velocities: bool,
     /// Upper limit on replicates for --noise.
@@ -133,7 +133,7 @@ fn scene_settings(args: &RenderArgs, scene: &Scene) -> Result<RenderSettings, Er
 /// Renders a scene's frame, with the velocities that are asked for.
 fn render_frame(args: &RenderArgs, rendering: Rendering) -> Result<(), Error> {
     match args.further_velocities {
-        true => rendering.write_further_velocities(),
+        true => rendering.write_further_inputs(),
         false => rendering.frame().map(drop),
     }
 }

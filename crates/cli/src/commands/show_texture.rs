@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use filters::{Filter, Format};
+use filters::{EXCLUSION, Filter, Format};
 use frame::{ExrFile, Raster, write_exr, write_png};
 use store::printable_path;
 use suite::{Error, Runner};
@@ -47,7 +47,7 @@ pub fn show_texture(
     let declared = filter.textures.iter().find(|texture| texture.name == name);
     let format = declared.map_or(Format::Rgba32Float, |texture| texture.format);
     let components = match name {
-        "depth" | "velocity_z" => 1,
+        "depth" | "velocity_z" | EXCLUSION => 1,
         "velocity" | "velocity_next" => 2,
         "color" | "output" => 3,
         _ => format.components(),

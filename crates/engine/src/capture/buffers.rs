@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use filters::{Convention, DepthKind};
+use filters::{Convention, DepthKind, EXCLUSION};
 use frame::{
     ExrFile, FAR_DEPTH, Image, Plane, Raster, Samples, Vectors, read_exr, read_png, scene_linear,
 };
@@ -128,6 +128,17 @@ pub fn read_velocity_z(path: &Path, description: &CaptureDescription) -> Result<
     let name = find_channel(&file, &["velocity_z", "Z", "R"])?;
     check_finite(&file, &[name])?;
     Ok(file.plane(name)?)
+}
+
+/// Reads the mask of what a blur leaves alone.
+pub fn read_exclusion(path: &Path, description: &CaptureDescription) -> Result<Plane, Error> {
+    let file = open(path, description, EXCLUSION)?;
+    let name = find_channel(&file, &[EXCLUSION, "R"])?;
+    let mask = file.plane(name)?;
+    let is_share = |share: &f32| (0.0..=1.0).contains(share);
+    let allowed = "allowed: 0 to 1; 1 where the blur must not change the picture";
+    check_values(&file, name, &mask, is_share, allowed)?;
+    Ok(mask)
 }
 
 /// Reads depth as the engine stores it; infinite linear depth becomes the background's.

@@ -3,14 +3,14 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use filters::{Convention, DepthKind, VelocityTime};
+use filters::{Convention, DepthKind, EXCLUSION, VelocityTime};
 use frame::{Alignment, FileError, Image, Plane, Raster, Vectors};
 use store::read_text;
 use suite::Error;
 
 use crate::capture::buffers::{
     COLOR_ENDINGS, check_size, find_buffer, find_picture, is_png, read_color, read_depth,
-    read_objects, read_objects_beside_color, read_velocity, read_velocity_z,
+    read_exclusion, read_objects, read_objects_beside_color, read_velocity, read_velocity_z,
 };
 use crate::capture::description::{CAPTURE_FILE, CaptureDescription};
 use crate::capture::half_floats::{are_halves, rounding_of};
@@ -38,6 +38,8 @@ pub struct Capture {
     pub velocity_next: Option<Vectors>,
     /// Change of depth over the interval of `velocity`, in metres per frame; above 0 moves away. None where the capture has none.
     pub velocity_z: Option<Plane>,
+    /// 1 where the blur must not change the picture, 0 elsewhere; none if the capture has no mask.
+    pub exclusion: Option<Plane>,
     /// Distance along the view axis in metres; [`frame::FAR_DEPTH`] where nothing is visible.
     pub depth: Plane,
     /// Object at each pixel's centre, numbered as in an exported manifest; 0 is the background. None if the capture has no ids.
@@ -99,6 +101,7 @@ impl Capture {
         Ok(Self {
             subframes: list_subframes(folder, &color_path)?,
             velocity_z: read_optional(folder, ["velocity_z"; 2], &color, read_z)?,
+            exclusion: read_mask(folder, &description, &color)?,
             object_id: read_optional(folder, ["object"; 2], &color, read_ids)?,
             folder: folder.to_owned(),
             description,
@@ -190,6 +193,16 @@ fn require(folder: &Path, [stem, channel]: [&str; 2], holds: &str) -> Result<Pat
         Some(path) => Ok(path),
         None => refuse_missing(&folder.join(format!("{stem}.exr")), holds),
     }
+}
+
+/// Reads the mask of what a blur leaves alone; none if the capture has none.
+fn read_mask(
+    folder: &Path,
+    description: &CaptureDescription,
+    color: &Image,
+) -> Result<Option<Plane>, Error> {
+    let read = |path: &Path| read_exclusion(path, description);
+    read_optional(folder, [EXCLUSION; 2], color, read)
 }
 
 /// Reads a picture that a capture need not have, of the colour's size.

@@ -2,14 +2,15 @@
 
 use std::path::Path;
 
+use filters::EXCLUSION;
 use frame::{
     Display, ExrFile, FAR_DEPTH, Frame, FrameOptions, Image, Provenance, Raster, Reprojection,
     Truth, VelocityKind, display_srgb, write_exr, write_png,
 };
 use store::{RenderFile, Sharing, ladder_folder, lock_folder, refuse_long_names, refuse_scene};
 use suite::{
-    BLURRED, EngineScene, Error, INGESTED_FILE, INGESTED_FORMAT, PROGRAM, engine_name,
-    name_in_one_word, velocity_wheel,
+    BLURRED, EXCLUSION_FILE, EngineScene, Error, INGESTED_FILE, INGESTED_FORMAT, PROGRAM,
+    engine_name, name_in_one_word, velocity_wheel,
 };
 use tracer::{SceneId, Watch};
 
@@ -103,6 +104,11 @@ fn write_files(
         write_picture(&out.join(BLURRED), picture, scene, &frame.provenance)?;
         show("blurred.png", picture)?;
     }
+    if let Some(mask) = &capture.exclusion {
+        let mut file = ExrFile::new(mask.width, mask.height);
+        file.push_plane(EXCLUSION, mask);
+        write_exr(&out.join(EXCLUSION_FILE), &file)?;
+    }
     let mut written = None;
     if let Some(EngineTruth { truth, ladder, .. }) = averaged {
         let alignment = truth.alignment;
@@ -158,6 +164,7 @@ fn describe_scene(capture: &Capture, out: &Path) -> Result<EngineScene, Error> {
         further_inputs: [
             ("velocity_next", capture.velocity_next.is_some()),
             ("velocity_z", capture.velocity_z.is_some()),
+            (EXCLUSION, capture.exclusion.is_some()),
         ]
         .into_iter()
         .filter(|(_, is_there)| *is_there)
@@ -250,9 +257,10 @@ fn hash_capture(capture: &Capture) -> Result<String, Error> {
     let ids = capture.object_id.iter().flat_map(|ids| &ids.pixels);
     let next = capture.velocity_next.iter().flat_map(|next| &next.pixels);
     let z = capture.velocity_z.iter().flat_map(|z| &z.pixels);
+    let mask = capture.exclusion.iter().flat_map(|mask| &mask.pixels);
     let values = colors(&capture.color)
         .chain(capture.velocity.pixels.iter().flatten().copied())
-        .chain(next.flatten().chain(z).copied())
+        .chain(next.flatten().chain(z).chain(mask).copied())
         .chain(capture.depth.pixels.iter().copied())
         .chain(ids.map(|id| *id as f32))
         .chain(capture.blurred.iter().flat_map(colors));

@@ -224,7 +224,7 @@ impl Convention {
         match name.strip_suffix("_before").unwrap_or(name) {
             "color" => self.color_format.unwrap_or(Format::Rgba32Float),
             "velocity" | "velocity_next" => self.velocity_format.unwrap_or(Format::Rg32Float),
-            "velocity_z" => Format::R32Float,
+            "velocity_z" | "exclusion" => Format::R32Float,
             "output" => self.output_format.unwrap_or(Format::Rgba32Float),
             _ => self.depth_format.unwrap_or(Format::R32Float),
         }

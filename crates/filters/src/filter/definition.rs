@@ -17,8 +17,11 @@ use crate::shader::{EntryPoint, Shader};
 /// Textures that every filter may read.
 pub(crate) const INPUTS: [&str; 3] = ["color", "velocity", "depth"];
 
+/// The input that marks what a blur leaves alone.
+pub const EXCLUSION: &str = "exclusion";
+
 /// Textures that a filter gets if one of its shaders reads them: few frames have them.
-pub(crate) const FURTHER_INPUTS: [&str; 2] = ["velocity_next", "velocity_z"];
+pub(crate) const FURTHER_INPUTS: [&str; 3] = ["velocity_next", "velocity_z", EXCLUSION];
 
 /// Seconds that one run of a program, or one dispatch of a pass, may take if filter.toml does not say.
 pub(crate) const DEFAULT_TIME_LIMIT: f64 = 60.0;
@@ -121,7 +124,7 @@ impl Filter {
         [own].into_iter().chain(corners).collect()
     }
 
-    /// Lists the inputs that its shaders read and few frames have: `velocity_next` and `velocity_z`.
+    /// Lists the inputs that its shaders read and few frames have: `velocity_next`, `velocity_z` and `exclusion`.
     pub fn further_inputs(&self) -> Vec<&'static str> {
         let stages = || self.passes.iter().flat_map(|pass| self.stages(pass));
         let is_read = |name: &&str| stages().any(|(_, entry)| entry.reads.contains(*name));
@@ -135,6 +138,11 @@ impl Filter {
             names.any(|name| name == texture)
         });
         if is_exchanged { 2 } else { 1 }
+    }
+
+    /// Tells whether its shaders read one of the velocities that few frames have.
+    pub fn reads_further_velocities(&self) -> bool {
+        self.further_inputs().iter().any(|name| *name != EXCLUSION)
     }
 
     /// Finds a declared texture.

@@ -18,8 +18,8 @@ pub use command::Command;
 pub use convention::{
     Convention, DepthKind, VelocitySign, VelocityTime, VelocityUnit, VerticalDirection,
 };
-pub use definition::Filter;
 pub(crate) use definition::{DEFAULT_TIME_LIMIT, FURTHER_INPUTS, INPUTS, Lines};
+pub use definition::{EXCLUSION, Filter};
 pub use history::History;
 pub use parameter::{Kind, Parameter, Scale, Unit, Value};
 pub(crate) use pass::{Count, Pass, Rounding};

@@ -12,7 +12,7 @@ use super::kernels::{Kernels, Specialised};
 use super::place::Place;
 use super::transfer::{row_bytes, velocity_texels};
 use super::uniforms::FrameValues;
-use crate::filter::History;
+use crate::filter::{EXCLUSION, History};
 use crate::input::find_broken;
 use crate::{Filter, FilterError, Format, Input, Settings};
 
@@ -225,6 +225,7 @@ impl<'g> Blur<'g> {
                 "velocity" => velocity(input.velocity),
                 "velocity_next" => velocity(input.velocity_next.expect(is_there)),
                 "velocity_z" => input.velocity_z.expect(is_there).pixels.clone(),
+                EXCLUSION => input.exclusion.expect(is_there).pixels.clone(),
                 _ => convention.convert_depth(input.depth).pixels,
             }
         };

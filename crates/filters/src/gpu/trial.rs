@@ -29,11 +29,13 @@ pub fn try_out(gpu: &Gpu, filter: &Filter) -> Result<(), FilterError> {
     let kernels = Kernels::compile(gpu, filter)?;
     let (color, velocity, depth) = make_frame();
     let velocity_z = velocity.map(|[right, _]| 0.01 * right);
+    let exclusion = depth.map(|depth| f32::from(*depth < 3.0));
     let input = Input {
         color: &[&color],
         velocity: &velocity,
         velocity_next: Some(&velocity),
         velocity_z: Some(&velocity_z),
+        exclusion: Some(&exclusion),
         depth: &depth,
         reprojection: Some(Reprojection::STILL),
         camera: Some(Camera::still(CameraPose::at_origin(f64::from(SIDE)))),

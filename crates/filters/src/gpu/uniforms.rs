@@ -124,6 +124,7 @@ mod tests {
             velocity: &Raster::from_fn(40, 30, |_, _| [0.0, 0.0]),
             velocity_next: None,
             velocity_z: None,
+            exclusion: None,
             depth: &Raster::from_fn(40, 30, |_, _| 1.0),
             reprojection: Some(reprojection),
             camera: None,

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde_json::{Value, json};
 
-use crate::filter::INPUTS;
+use crate::filter::{EXCLUSION, INPUTS};
 use crate::{Convention, DepthKind, Filter, Input};
 
 /// Lists the textures that the frame fills; those of the frame before show the first frame of a sequence itself. Each has one expression per
@@ -21,7 +21,7 @@ pub(super) fn list_inputs(filter: &Filter) -> Vec<Value> {
                 _ if *convention == Convention::default() => Value::Null,
                 "color" => json!([scaled("frame.color"), scaled("frame.color"), scaled("frame.color")]),
                 "depth" => convert_depth(convention),
-                "velocity_z" => Value::Null,
+                "velocity_z" | EXCLUSION => Value::Null,
                 _ => json!([scaled("frame.velocity[0]"), scaled("frame.velocity[1]")]),
             };
             json!({ "name": name, "from": from, "format": convention.format_of(name), "convert": convert })

@@ -34,12 +34,13 @@ pub const MAX_DISPATCHES: u32 = 4095;
 pub const MAX_MIPS: u32 = 15;
 
 /// Variables of kernels that every filter has, or may have.
-const BUILTIN_VARIABLES: [&str; 11] = [
+const BUILTIN_VARIABLES: [&str; 12] = [
     "color",
     "velocity",
     "depth",
     "velocity_next",
     "velocity_z",
+    "exclusion",
     "color_before",
     "velocity_before",
     "depth_before",

@@ -113,6 +113,15 @@ fn size_workgroups(words: &mut Words, values: &BTreeMap<u32, Value>) {
     }
 }
 
+/// Replaces the bits of an infinite float, which naga refuses, by those of the largest with its sign.
+fn make_finite(bits: u32) -> u32 {
+    let number = f32::from_bits(bits);
+    match number.is_infinite() {
+        true => f32::MAX.copysign(number).to_bits(),
+        false => bits,
+    }
+}
+
 impl Constants<'_> {
     /// Remembers a constant, and returns what a specialisation constant is replaced by.
     fn replace(&mut self, instruction: &Instruction) -> Result<Option<Instruction>, String> {
@@ -153,6 +162,9 @@ impl Constants<'_> {
             }
             (Value::Scalar(_), Some(Scalar::Bool)) => {
                 Instruction::new(Op::ConstantTrue, [*ty, *id])
+            }
+            (Value::Scalar(bits), Some(Scalar::Float)) => {
+                Instruction::new(Op::Constant, [*ty, *id, make_finite(*bits)])
             }
             (Value::Scalar(bits), _) => Instruction::new(Op::Constant, [*ty, *id, *bits]),
             (Value::Composite(parts), _) => {

@@ -260,7 +260,7 @@
       const texture = copy(one.resource, one.role === "write");
       if (one.role === "write") return view(texture, written.get(one.resource));
       // A small texture has fewer levels: the pass gets its last.
-      return view(texture, one.level === null ? null : Math.min(levelOf(one.level), texture.mipLevelCount - 1));
+      return view(texture, (one.level ?? null) === null ? null : Math.min(levelOf(one.level), texture.mipLevelCount - 1));
     };
     const groups = stages.map(({ bindings, samplers, layout }) => {
       const entries = bindings.map((one) => ({ binding: one.binding, resource: resourceOf(one, samplers) }));

@@ -5,11 +5,10 @@ pub mod scene;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-use filters::{Filter, Input};
-use frame::Frame;
+use filters::{EXCLUSION, Filter, Input};
 use metrics::{Measured, Metric};
 use serde_json::json;
-use suite::{Case, Error, InputFormat, MEASURED_FILTERS, Run, filter_input};
+use suite::{Case, Error, FilterFrame, InputFormat, MEASURED_FILTERS, Run, filter_input};
 
 use crate::pixels::report_files::write_script;
 
@@ -44,7 +43,12 @@ impl<'a> LiveFiles<'a> {
     }
 
     /// Describes a case; `frame` is its scene's, with the guard band. Writes the file of a filter that no case had before.
-    pub fn describe(&mut self, case: &'a Case, scene: usize, frame: &Frame) -> Result<Live, Error> {
+    pub fn describe(
+        &mut self,
+        case: &'a Case,
+        scene: usize,
+        frame: &FilterFrame,
+    ) -> Result<Live, Error> {
         // An engine's own picture has no preset.
         if case.is_reference || case.preset.is_empty() {
             return Ok(None);
@@ -108,10 +112,16 @@ fn is_of(filter: &Filter, case: &Case) -> bool {
 /// Describes a case of a live filter.
 fn describe_case(
     case: &Case,
-    (scene, frame): (usize, &Frame),
+    (scene, frame): (usize, &FilterFrame),
     (number, filter): (usize, &Filter),
 ) -> Result<String, String> {
     let (width, height) = frame.size();
+    let is_missing = |name: &&str| match *name {
+        EXCLUSION => frame.exclusion.is_none(),
+        "velocity_z" => frame.velocity_z.is_none(),
+        _ => frame.velocity_next.is_none(),
+    };
+    let missing = filter.further_inputs().into_iter().find(is_missing);
     let refused = if width * height > MOST_PIXELS {
         format!("its frame has {width}x{height} pixels, and at most {MOST_PIXELS} are allowed")
     } else if case.input != InputFormat::default() {
@@ -119,8 +129,8 @@ fn describe_case(
         format!("its frame had another form ({change})")
     } else if case.scene.frame > 0 && !filter.history.is_empty() {
         "it needs the frame before".to_owned()
-    } else if frame.velocity_next.is_none() && !filter.further_inputs().is_empty() {
-        "the run's folder lacks the velocity to the next frame; measure it again".to_owned()
+    } else if let Some(name) = missing {
+        format!("the run's folder does not hold {name}, which the filter reads")
     } else {
         String::new()
     };

@@ -8,7 +8,7 @@ use frame::{
 };
 use metrics::{Side, object_sides};
 use store::RenderFile;
-use suite::{ACCUMULATE, Case, Error, ErrorMaps, Run, read_further_velocities};
+use suite::{ACCUMULATE, Case, Error, ErrorMaps, FilterFrame, Run, read_further_velocities};
 
 use super::layer::Layer;
 use super::planes::Planes;
@@ -22,7 +22,7 @@ pub struct SceneFiles {
     /// Without its guard band.
     pub frame: Frame,
     /// With it, and with all velocities that filters got, but without coverage.
-    pub whole: Frame,
+    pub whole: FilterFrame,
     /// Truths by alignment.
     pub truths: BTreeMap<Alignment, TruthFile>,
     /// The planes of all its cases.
@@ -103,7 +103,10 @@ impl SceneFiles {
             traced: find_traced(run, cases[0]).map(|case| folder.join(case.scene.folder())),
             folder: folder.to_owned(),
             frame,
-            whole,
+            whole: FilterFrame {
+                frame: whole,
+                exclusion: None,
+            },
             planes,
         })
     }

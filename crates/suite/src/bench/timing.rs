@@ -202,6 +202,7 @@ fn load<'b, 'g>(
         velocity: &panels.velocity,
         velocity_next: Some(&panels.velocity),
         velocity_z: Some(&panels.depth.map(|_| 0.0)),
+        exclusion: Some(&panels.depth.map(|_| 0.0)),
         depth: &panels.depth,
         reprojection: Some(panels.reprojection),
         camera: Some(panels.camera),

@@ -28,15 +28,17 @@ fn longest_smear(frame: &Frame) -> f64 {
     f64::from(speeds.fold(0.0, f32::max)) * frame.exposure
 }
 
+/// Repeats the outermost pixels of a raster on every side.
+pub(crate) fn wide<T: Clone>(raster: &Raster<T>, margin: u32) -> Raster<T> {
+    let inside = |place: u32, side: u32| place.saturating_sub(margin).min(side - 1);
+    let [width, height] = [raster.width, raster.height];
+    Raster::from_fn(width + 2 * margin, height + 2 * margin, |x, y| {
+        raster.at(inside(x, width), inside(y, height)).clone()
+    })
+}
+
 /// Repeats the outermost pixels of a frame on every side, as part of the guard band.
 pub(crate) fn repeat_border(frame: &Frame, margin: u32) -> Frame {
-    fn wide<T: Clone>(raster: &Raster<T>, margin: u32) -> Raster<T> {
-        let inside = |place: u32, side: u32| place.saturating_sub(margin).min(side - 1);
-        let [width, height] = [raster.width, raster.height];
-        Raster::from_fn(width + 2 * margin, height + 2 * margin, |x, y| {
-            raster.at(inside(x, width), inside(y, height)).clone()
-        })
-    }
     Frame {
         guard_band: frame.guard_band + margin,
         color: wide(&frame.color, margin),

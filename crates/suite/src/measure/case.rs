@@ -22,6 +22,7 @@ use crate::engine_scene::EngineScene;
 use crate::filter_choice::FilterChoice;
 use crate::inputs::depth_of_field::DepthOfField;
 use crate::inputs::input_format::InputFormat;
+use crate::render::exclusion::FilterFrame;
 use crate::run::case::{Case, Intervals};
 use crate::runner::Runner;
 use crate::stats::intervals::intervals;
@@ -200,7 +201,7 @@ impl CaseContext<'_> {
     fn measure_jitter(
         &self,
         runner: &mut Runner,
-        frame: &Frame,
+        frame: &FilterFrame,
         pass: Option<&Defocus>,
     ) -> Result<Option<Jitter>, Error> {
         if self.scene.plan.jitter_frames < 2 {

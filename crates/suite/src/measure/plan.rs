@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use filters::AdapterDescription;
+use filters::{AdapterDescription, EXCLUSION};
 use frame::Alignment;
 use tracer::{RenderSettings, Scene};
 
@@ -107,7 +107,13 @@ impl RunPlan {
     /// Tells whether a filter reads velocities that few filters read.
     pub(crate) fn reads_further_velocities(&self) -> bool {
         let mut filters = self.filters.iter();
-        filters.any(|choice| !choice.filter.further_inputs().is_empty())
+        filters.any(|choice| choice.filter.reads_further_velocities())
+    }
+
+    /// Tells whether a filter reads the mask of what a blur leaves alone.
+    pub(crate) fn reads_exclusion(&self) -> bool {
+        let mut filters = self.filters.iter();
+        filters.any(|choice| choice.filter.further_inputs().contains(&EXCLUSION))
     }
 
     /// Lists the scenes that are rendered, then those that engines drew.

@@ -1,10 +1,11 @@
 //! Runs of a filter on a frame: on its colour and, with the same weights, on probes with exact truths.
 
 use filters::{FilterError, Input};
-use frame::{Frame, Image, Picture, Plane, Raster};
+use frame::{Image, Picture, Plane, Raster};
 use metrics::Probes;
 
 use crate::inputs::render_scale::upscale_picture;
+use crate::render::exclusion::FilterFrame;
 use crate::runner::Runner;
 
 /// The output of a filter, without the frame's guard band.
@@ -27,8 +28,8 @@ pub(crate) struct FilterOutput {
 pub(crate) fn blur_with_probes(
     runner: &mut Runner,
     wide: Option<&mut Runner>,
-    frame: &Frame,
-    (before, frame_index): (&Frame, u32),
+    frame: &FilterFrame,
+    (before, frame_index): (&FilterFrame, u32),
     picture: [u32; 2],
 ) -> Result<FilterOutput, FilterError> {
     let mattes = pack_planes(&frame.coverage);
@@ -112,7 +113,7 @@ fn nonlinearity(mixture: &Image, blurred: &Image, expected: &Image) -> f64 {
 /// as in [`blur_with_probes`].
 pub(crate) fn blur_noise_frames(
     runner: &mut Runner,
-    frame: &Frame,
+    frame: &FilterFrame,
     frames: u32,
     picture: [u32; 2],
 ) -> Result<Option<Vec<Image>>, FilterError> {
@@ -141,12 +142,13 @@ fn crop_all(outputs: Vec<Image>, guard_band: u32) -> Vec<Image> {
 }
 
 /// Makes a filter's input from a frame, with colours in place of the frame's own.
-pub fn filter_input<'a>(frame: &'a Frame, color: &'a [&'a Image]) -> Input<'a> {
+pub fn filter_input<'a>(frame: &'a FilterFrame, color: &'a [&'a Image]) -> Input<'a> {
     Input {
         color,
         velocity: &frame.velocity,
         velocity_next: frame.velocity_next.as_ref(),
         velocity_z: frame.velocity_z.as_ref(),
+        exclusion: frame.exclusion.as_ref(),
         depth: &frame.depth,
         // Engines do not record how their camera moved.
         reprojection: (frame.provenance.engine.is_none())

@@ -7,14 +7,15 @@ use super::plan::RunPlan;
 use super::run_scene::RunScene;
 use crate::Error;
 use crate::inputs::input_format::InputFormat;
+use crate::render::exclusion::{FilterFrame, draw_exclusion};
 use crate::render::velocities::write_further_velocities;
 
 /// A frame in one of the forms that filters get.
 pub(crate) struct StoredFrame {
     pub format: InputFormat,
-    pub frame: Frame,
+    pub frame: FilterFrame,
     /// The previous frame; none for the first frame, and if no filter reads it.
-    pub before: Option<Frame>,
+    pub before: Option<FilterFrame>,
 }
 
 /// Stores a scene's frame in every form, and the previous frame for filters with history.
@@ -30,16 +31,22 @@ pub(super) fn store_frames(
     }
     let frame = whole.as_ref().unwrap_or(frame);
     let before = read_frame_before(plan, scene)?;
-    let store = |format: &InputFormat, frame: &Frame, scene: Option<&Scene>| {
-        format.apply(frame, scene, plan.monitor)
+    let store = |format: &InputFormat, frame: &Frame, own: RunScene| {
+        let frame = format.apply(frame, own.traced(), plan.monitor)?;
+        let mask = plan.reads_exclusion().then(|| match own {
+            RunScene::Traced(scene) => Ok(Some(draw_exclusion(&frame, scene))),
+            RunScene::Drawn(scene) => scene.read_exclusion(&frame),
+        });
+        let exclusion = mask.transpose()?.flatten();
+        Ok::<_, Error>(FilterFrame { frame, exclusion })
     };
     (formats.iter())
         .map(|format| {
             let before = before.as_ref();
-            let before = before.map(|(scene, frame)| store(format, frame, Some(scene)));
+            let before = before.map(|(scene, frame)| store(format, frame, RunScene::Traced(scene)));
             Ok(StoredFrame {
                 format: *format,
-                frame: store(format, frame, scene.traced())?,
+                frame: store(format, frame, scene)?,
                 before: before.transpose()?,
             })
         })

@@ -1,5 +1,6 @@
 //! Frames, truths and ladders of scenes, each rendered once and then read back from its file.
 
+pub mod exclusion;
 pub mod files;
 pub mod ladders;
 pub mod memory;

@@ -2,10 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use frame::{Alignment, Frame};
+use filters::{EXCLUSION, Filter};
+use frame::{Alignment, Frame, write_exr};
 use store::{RenderFile, refuse_scene, scene_folder};
 use tracer::{PixelGrid, RenderSettings, Scene};
 
+use super::exclusion::{FilterFrame, draw_exclusion};
 use super::memory::check_memory;
 use super::settings::frame_settings;
 use super::velocities::add_further_velocities;
@@ -56,10 +58,23 @@ impl Rendering<'_> {
         add_further_velocities(self.frame()?, self.scene, &settings, &grid)
     }
 
-    /// Renders that frame and writes all of it to its file.
-    pub fn write_further_velocities(&self) -> Result<(), Error> {
+    /// Renders the frame with what a filter reads.
+    pub fn frame_for(&self, filter: &Filter) -> Result<FilterFrame, Error> {
+        let frame = match filter.reads_further_velocities() {
+            true => self.frame_with_further_velocities()?,
+            false => self.frame()?,
+        };
+        let reads = filter.further_inputs().contains(&EXCLUSION);
+        let exclusion = reads.then(|| draw_exclusion(&frame, self.scene));
+        Ok(FilterFrame { frame, exclusion })
+    }
+
+    /// Renders the frame with all that filters may read, and writes all of it to its file.
+    pub fn write_further_inputs(&self) -> Result<(), Error> {
         let frame = self.frame_with_further_velocities()?;
-        Ok(frame.write(&self.path(RenderFile::Frame))?)
+        let mut file = frame.to_exr();
+        file.push_plane(EXCLUSION, &draw_exclusion(&frame, self.scene));
+        Ok(write_exr(&self.path(RenderFile::Frame), &file)?)
     }
 
     /// Names a file of the scene.

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
+use filters::EXCLUSION;
 use frame::{
     Alignment, Frame, Provenance, Replicate, Shutter, Tile, Truth, read_attribute, read_exr,
 };
@@ -15,6 +16,7 @@ use tracer::{
 use super::difference::find_difference;
 use super::scene_renders::SceneRenders;
 use super::tiles::{Verification, Work};
+use crate::render::exclusion::draw_exclusion;
 use crate::render::memory::check_memory;
 use crate::render::settings::settings_of;
 use crate::{Error, Monitor};
@@ -102,7 +104,11 @@ fn verify_frame(work: &Work) -> Result<Vec<(PathBuf, Tile)>, Error> {
         let mut made = trace_frame_part(work.scene, &settings, &grid, Some(tile), watch)?;
         made.velocity_next = further.as_ref().map(|(next, _)| next.part(tile));
         made.velocity_z = further.as_ref().map(|(_, z)| z.part(tile));
-        Ok(made.to_exr())
+        let mut file = made.to_exr();
+        if has_further {
+            file.push_plane(EXCLUSION, &draw_exclusion(&made, work.scene));
+        }
+        Ok(file)
     })
 }
 

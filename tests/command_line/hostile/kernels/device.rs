@@ -42,43 +42,30 @@ fn check_lowest(changes: &[(&str, &str)]) -> Result<(), String> {
 #[test]
 fn the_lowest_common_limits_hold_if_no_adapter_is_there() {
     let written = |names: &[&str]| {
-        let (mut declared, mut stored, mut textures) =
-            (String::new(), String::new(), String::new());
+        let [mut declared, mut stored, mut textures] = [(); 3].map(|()| String::new());
         for (index, name) in names.iter().enumerate() {
-            let texture = "texture_storage_2d<rgba32float, write>";
-            declared += &format!(
-                "@group(0) @binding({}) var {name}_out: {texture};\n",
-                10 + index
-            );
+            let (at, texture) = (10 + index, "texture_storage_2d<rgba32float, write>");
+            declared += &format!("@group(0) @binding({at}) var {name}_out: {texture};\n");
             stored += &format!("textureStore({name}_out, pixel, value);\n");
             textures += &format!("[[texture]]\nname = \"{name}\"\nformat = \"rgba32float\"\n");
         }
-        let pass = textures + "\n[[pass]]";
-        check_lowest(&[
-            ("// declarations", &declared),
+        let code = [
+            ("// declarations", &declared[..]),
             ("// statements", &stored),
-            ("[[pass]]", &pass),
-        ])
+        ];
+        check_lowest(&[code[0], code[1], ("[[pass]]", &(textures + "\n[[pass]]"))])
     };
     written(&["a", "b", "c"]).unwrap();
-    let parts = [
-        "pass \"work\": 5 textures that it writes",
-        "allowed: at most 4",
-        "lowest common limits",
-        "divide the pass",
-    ];
-    assert_contains(&written(&["a", "b", "c", "d"]).unwrap_err(), &parts);
+    let parts = "pass \"work\": 5 textures that it writes | allowed: at most 4 | lowest common limits | divide the pass";
+    assert_contains(&written(&["a", "b", "c", "d"]).unwrap_err(), parts);
     check_lowest(&[("(8, 8)", "(16, 16)")]).unwrap();
-    for (from, to, parts) in [
-        ("(8, 8)", "(16, 17)", ["272", "allowed"]),
-        ("(8, 8)", "(1, 1, 65)", ["65", "allowed"]),
-        (
-            "@binding(3)",
-            "@binding(1000)",
-            ["1000 as a number of @binding", "at most 999"],
-        ),
+    let binding = ("@binding(3)", "@binding(1000)");
+    for (change, parts) in [
+        (("(8, 8)", "(16, 17)"), "272 | allowed"),
+        (("(8, 8)", "(1, 1, 65)"), "65 | allowed"),
+        (binding, "1000 as a number of @binding | at most 999"),
     ] {
-        assert_contains(&check_lowest(&[(from, to)]).unwrap_err(), &parts);
+        assert_contains(&check_lowest(&[change]).unwrap_err(), parts);
     }
 }
 
@@ -92,24 +79,14 @@ fn variables_and_calls_too_large_for_any_device_are_refused_on_load() {
         let twice = format!("f{before}_(a) + f{before}_(a + 1.0)");
         functions += &format!("fn f{level}_(a: f32) -> f32 {{ return {twice}; }}\n");
     }
+    let much = "mine.wgsl:10 | bytes of variables | allowed: at most 16384";
+    let calls = "mine.wgsl: | with every call inlined | at most 200000";
     for (declared, used, parts) in [
-        (
-            declared,
-            used,
-            [
-                "mine.wgsl:10",
-                "bytes of variables",
-                "allowed: at most 16384",
-            ],
-        ),
-        (
-            &functions,
-            "value.x = f60_(value.x);",
-            ["mine.wgsl:", "with every call inlined", "at most 200000"],
-        ),
+        (declared, used, much),
+        (&functions, "value.x = f60_(value.x);", calls),
     ] {
         let changes = [("// declarations", declared), ("// statements", used)];
-        assert_contains(&load(&write_mine(&changes)).unwrap_err(), &parts);
+        assert_contains(&load(&write_mine(&changes)).unwrap_err(), parts);
     }
 }
 

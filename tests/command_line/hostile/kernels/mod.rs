@@ -8,8 +8,7 @@ use std::process::Output;
 use filters::Filter;
 
 use crate::hostile::terminal::assert_tame;
-use crate::rows::{divide, rows};
-use crate::sandbox::{Sandbox, assert_refused};
+use crate::sandbox::{Sandbox, assert_refused, divide, rows};
 
 /// Makes a sandbox with the filter `mine`, after these replacements in its files.
 fn write_mine(changes: &[(&str, &str)]) -> Sandbox {
@@ -32,17 +31,16 @@ fn change(sandbox: &Sandbox, changes: &[(&str, &str)]) {
 /// Lists the filter after the changes of each row of a table, which must be refused. The message must be printable, and no line of it may
 /// be a log command. Returns the sandboxes.
 fn refuse_rows(table: &str) -> Vec<(Sandbox, Vec<&'static str>)> {
-    let refused = rows(include_str!("refusals.toml"), table)
-        .into_iter()
-        .map(|row| {
-            let (changes, parts) = divide(&row);
-            println!("{changes:?}");
-            let sandbox = write_mine(&changes);
-            let output = list(&sandbox);
-            assert_refused(&output, 2, &parts);
-            assert_tame(&output);
-            (sandbox, parts)
-        });
+    let rows = rows(include_str!("refusals.toml"), table).into_iter();
+    let refused = rows.map(|row| {
+        let (changes, parts) = divide(&row);
+        println!("{changes:?}");
+        let sandbox = write_mine(&changes);
+        let output = list(&sandbox);
+        assert_refused(&output, 2, &parts);
+        assert_tame(&output);
+        (sandbox, parts)
+    });
     refused.collect()
 }
 

@@ -4,16 +4,14 @@ use std::fs;
 use std::time::{Duration, Instant};
 
 use super::{list, load, refuse_rows, write_mine};
-use crate::rows::rows;
-use crate::sandbox::{Sandbox, assert_done, assert_refused, make_fifo, stderr};
+use crate::sandbox::{Sandbox, assert_done, assert_refused, make_fifo, rows, stderr};
 
 #[test]
 fn deep_kernels_load_or_are_refused_with_their_line() {
     let sum = |terms: usize| format!("value.x = here.x{};", " + here.x".repeat(terms - 1));
     let choices = |count: usize| {
-        let branches: String = (0..count)
-            .map(|index| format!(" else if here.x > {index}.5 {{ value.x = {index}.0; }}"))
-            .collect();
+        let branch = |at| format!(" else if here.x > {at}.5 {{ value.x = {at}.0; }}");
+        let branches: String = (0..count).map(branch).collect();
         format!("if here.x > 1e9 {{ }}{branches}")
     };
     let brackets =
@@ -23,18 +21,11 @@ fn deep_kernels_load_or_are_refused_with_their_line() {
     for statements in [sum(490), choices(300), brackets(150)] {
         assert_done(&listed(&statements));
     }
-    let parts = [
-        "mine.wgsl:18: more than 1000 operators",
-        "allowed: at most 1000",
-    ];
-    for statements in [
-        sum(2_000),
-        sum(20_000),
-        choices(2_000),
-        choices(3_000),
-        brackets(100_000),
-    ] {
-        assert_refused(&listed(&statements), 2, &parts);
+    let parts = "mine.wgsl:18: more than 1000 operators | allowed: at most 1000";
+    let sums = [2_000, 20_000].map(sum);
+    let choices = [2_000, 3_000].map(choices);
+    for statements in sums.iter().chain(&choices).chain([&brackets(100_000)]) {
+        assert_refused(&listed(statements), 2, &parts);
     }
     // Errors from Naga's own limits name their place too.
     assert_refused(&listed(&brackets(400)), 2, &["mine.wgsl"]);
@@ -52,7 +43,7 @@ fn irregular_and_large_files_are_refused() {
     use std::os::unix::fs::symlink;
 
     let sandbox = write_mine(&[]);
-    fs::write(sandbox.path("secret"), "the secret").unwrap();
+    sandbox.put("secret", "the secret");
     for (file, limit) in [("filter.toml", 1 << 20), ("mine.wgsl", 256 << 10)] {
         let path = sandbox.path("mine").join(file);
         let whole = fs::read(&path).unwrap();
@@ -93,9 +84,8 @@ fn thousands_of_presets_and_parameters_are_refused_quickly() {
         ("preset", preset, "8001 [[preset]]"),
         ("parameter", parameter, "8002 [[parameter]]"),
     ] {
-        let tables: String = (0..8_000)
-            .map(|index| format!("[[{table}]]\nname = \"p{index}\"\n{text}"))
-            .collect();
+        let made = |index| format!("[[{table}]]\nname = \"p{index}\"\n{text}");
+        let tables: String = (0..8_000).map(made).collect();
         let sandbox = write_mine(&[("[[pass]]", &format!("{tables}[[pass]]"))]);
         assert_refused(&list(&sandbox), 2, &[found, "at most 256"]);
     }

@@ -13,10 +13,7 @@ const RENDER: &str = "truths render --quiet --samples-per-pixel 16 --out out";
 fn two_runs_cannot_share_a_folder_at_the_same_time() {
     let sandbox = Sandbox::new();
     sandbox.write_bound(1.0);
-    let parts = [
-        "another shuttertruth is writing to out",
-        "another output folder",
-    ];
+    let parts = "another shuttertruth is writing to out | another output folder";
     // The lock file of another process.
     fs::create_dir(sandbox.path("out")).unwrap();
     let other = fs::File::create(sandbox.path("out/.shuttertruth.lock")).unwrap();
@@ -35,30 +32,24 @@ fn two_runs_cannot_share_a_folder_at_the_same_time() {
     // Renders share a folder with each other, but not with other commands.
     other.unlock().unwrap();
     other.try_lock_shared().unwrap();
-    sandbox.execute(&split(RENDER));
+    sandbox.done(RENDER);
     sandbox.refuse(RUN, &parts);
     // A process that ends releases its lock.
     drop(other);
-    sandbox.execute(&split(RUN));
-    sandbox.execute(&split(RUN));
+    sandbox.done(RUN);
+    sandbox.done(RUN);
 }
 
 #[test]
 fn the_next_run_removes_files_of_a_killed_process() {
     let sandbox = Sandbox::new();
-    let gone = [
-        "out/.shuttertruth-a.tmp",
-        "out/plate/.shuttertruth-b.tmp",
-        "out/plate/identity_default/.shuttertruth-c.tmp",
-        "out/plate/truth_trailing/.shuttertruth-d.tmp",
-    ];
+    let gone = split("out/ out/plate/ out/plate/identity_default/ out/plate/truth_trailing/");
     let kept = ["out/mine.tmp", "out/mine/.shuttertruth-e.tmp"];
-    for name in gone.iter().chain(&kept) {
-        let path = sandbox.path(name);
-        fs::create_dir_all(path.parent().unwrap()).unwrap();
-        fs::write(path, "half").unwrap();
+    let gone = gone.iter().map(|it| format!("{it}.shuttertruth-a.tmp"));
+    for name in gone.chain(kept.map(str::to_owned)) {
+        sandbox.put(&name, "half");
     }
-    sandbox.execute(&split(RUN));
+    sandbox.done(RUN);
     let mut left = files_below(&sandbox.path("out"));
     left.retain(|path| path.extension().is_some_and(|it| it == "tmp"));
     let mut kept = kept.map(|name| sandbox.path(name));

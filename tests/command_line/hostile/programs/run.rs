@@ -1,14 +1,11 @@
 //! Filters that are programs: permission, environment, end.
 
-use std::fs;
 use std::process::{Command, Output};
 
 use frame::{ExrFile, Raster, write_exr};
 use tests::text::assert_contains;
 
-use crate::sandbox::{
-    Sandbox, assert_done, assert_ends_at_ctrl_c, assert_refused, split, wait_until,
-};
+use crate::sandbox::*;
 
 /// Makes a sandbox with a frame of 16 x 16 pixels, which is quick to blur.
 fn set_up() -> Sandbox {
@@ -57,10 +54,10 @@ fn no_command_runs_a_program_without_permission() {
         sandbox.refuse(line, &parts);
         assert!(!sandbox.path("out").exists(), "{line}");
     }
-    let listed = sandbox.execute(&split("list --filter mine"));
+    let listed = sandbox.done("list --filter mine");
     assert_contains(&listed, &["runs: ./blur.sh {frame} {out}"]);
     assert!(!sandbox.path("mine/ran").exists(), "it ran");
-    sandbox.execute(&split(BLUR));
+    sandbox.done(BLUR);
     assert!(sandbox.path("mine/ran").exists());
 }
 
@@ -72,24 +69,16 @@ fn a_program_gets_no_secret_from_the_environment() {
     let mut command = command(&sandbox);
     let secrets = ["GITHUB_TOKEN", "ACTIONS_RUNTIME_TOKEN", "MY_SECRET"];
     command.envs(secrets.map(|name| (name, "hidden")));
-    command.envs([
-        ("CUDA_VISIBLE_DEVICES", "1"),
-        ("LC_ALL", "C"),
-        ("HOME", "/somewhere"),
-    ]);
+    command.envs([("LC_ALL", "C"), ("HOME", "/somewhere")]);
+    command.env("CUDA_VISIBLE_DEVICES", "1");
     assert_done(&command.output().unwrap());
-    let seen = fs::read_to_string(sandbox.path("mine/seen")).unwrap();
+    let seen = sandbox.text("mine/seen");
     for hidden in ["hidden", "TOKEN", "NOT_SET"] {
         assert!(!seen.contains(hidden), "{seen}");
     }
-    let lines = [
-        "CUDA_VISIBLE_DEVICES=1",
-        "LC_ALL=C",
-        "HOME=/somewhere",
-        "PATH=",
-    ];
+    let lines = "CUDA_VISIBLE_DEVICES=1 | LC_ALL=C | HOME=/somewhere | PATH=";
     assert_contains(&seen, &lines);
-    let listed = sandbox.execute(&split("list --filter mine"));
+    let listed = sandbox.done("list --filter mine");
     assert_contains(&listed, &["environment: CUDA_VISIBLE_DEVICES NOT_SET"]);
     for name in ["A=B", "", "1A"] {
         sandbox.write_program("mine", "", &format!("environment = [\"{name}\"]"));
@@ -98,7 +87,7 @@ fn a_program_gets_no_secret_from_the_environment() {
     }
     let kernels = "name = \"mine\"\nsummary = \"\"\nalignment = \"trailing\"\n\
                    environment = [\"A\"]\n[[pass]]\nentry = \"blur\"\n";
-    fs::write(sandbox.path("mine/filter.toml"), kernels).unwrap();
+    sandbox.put("mine/filter.toml", kernels);
     sandbox.refuse(BLUR, &["mine/filter.toml:4: environment: is for a program"]);
 }
 
@@ -149,7 +138,7 @@ fn an_output_that_is_not_a_regular_file_is_refused() {
     }
     // No other user may read the folder of the files.
     assert_done(&blur(&sandbox, "ls -ld $(dirname $2) > mode; cp $1 $2", ""));
-    let mode = fs::read_to_string(sandbox.path("mine/mode")).unwrap();
+    let mode = sandbox.text("mine/mode");
     assert!(mode.starts_with("drwx------"), "{mode}");
 }
 
@@ -158,10 +147,8 @@ fn the_output_of_a_program_is_limited() {
     let sandbox = set_up();
     // The limit is 16 x 16 pixels of 256 bytes, and 1 MiB.
     let parts = ["wrote an {out} of more than 1114112 bytes", "16x16 pixels"];
-    for lines in [
-        "head -c 20000000 /dev/zero > $2; sleep 300",
-        "truncate -s 1T $2",
-    ] {
+    let endless = "head -c 20000000 /dev/zero > $2; sleep 300";
+    for lines in [endless, "truncate -s 1T $2"] {
         assert_refused(&blur(&sandbox, lines, ""), 2, &parts);
     }
     // 300 MB on standard output, although no file may exceed 50 MB: the program keeps only the end, in memory.

@@ -13,8 +13,7 @@ use serde_json::{Value, json};
 use suite::{Error, Run, StoredRun};
 use tests::text::assert_contains;
 
-use crate::rows::rows;
-use crate::sandbox::{Sandbox, assert_refused, split};
+use crate::sandbox::{Sandbox, assert_refused, rows, split};
 
 /// Collects the JSON pointers of all values, but only of the first case and object: the others are alike.
 fn pointers(value: &Value, at: &str, all: &mut Vec<String>) {
@@ -56,10 +55,11 @@ fn read_everywhere(changed: &Path, whole: &StoredRun) -> Result<(), Error> {
         let _ = compare_table(&compared);
         let _ = compare_page(&compared, whole, &side);
     }
+    let (only, reason, forced) = (None, "it serves a test", true);
     let how = Acceptance {
-        only: None,
-        reason: "it serves a test",
-        forced: true,
+        only,
+        reason,
+        forced,
     };
     let _: Result<Baseline, Error> = accept_scores(&side.run, None, &how);
     let page = folder.join("page.html");
@@ -175,12 +175,12 @@ fn a_file_that_is_not_a_run_json_is_refused_with_its_name() {
 fn a_file_that_is_not_a_baseline_or_bench_is_refused_with_its_name() {
     let sandbox = Sandbox::measured();
     for row in rows(include_str!("refusals.toml"), "baseline") {
-        fs::write(sandbox.path("base.json"), row[0]).unwrap();
+        sandbox.put("base.json", row[0]);
         let output = sandbox.check(&["--filters", "identity", "--baseline", "base.json"]);
         assert_refused(&output, 2, &["base.json", row[1]]);
     }
     for text in ["[1]", "{\"format\": 1}", "null"] {
-        fs::write(sandbox.path("out/bench.json"), text).unwrap();
+        sandbox.put("out/bench.json", text);
         let parts = ["bench.json", "no bench of this program"];
         sandbox.refuse("report out --html page.html", &parts);
     }

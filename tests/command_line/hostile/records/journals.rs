@@ -4,8 +4,7 @@ use std::fs;
 
 use serde_json::Value;
 
-use crate::rows::rows;
-use crate::sandbox::{Sandbox, make_fifo, split};
+use crate::sandbox::{Sandbox, make_fifo, rows};
 
 const TUNE: &str = "tune search --quiet --filter jump_flood --vary samples --objective flip --size 64x32 \
                     --samples-per-pixel 16 --out tuned --budget 3";
@@ -15,7 +14,7 @@ const REPORT: &str = "report tuned --html page.html";
 #[test]
 fn a_journal_with_an_impossible_trial_is_refused_with_its_line_and_left_unchanged() {
     let sandbox = Sandbox::new();
-    sandbox.execute(&split(TUNE));
+    sandbox.done(TUNE);
     let path = sandbox.path("tuned/journal.jsonl");
     let whole = fs::read_to_string(&path).unwrap();
     let lines: Vec<&str> = whole.lines().collect();

@@ -5,7 +5,7 @@ use std::fs;
 use frame::{Raster, Replicate, read_exr, write_exr};
 
 use super::pictures::enlarge;
-use crate::sandbox::{Sandbox, make_fifo, split};
+use crate::sandbox::{Sandbox, make_fifo};
 
 const SECOND: &str = "b/plate/truth_trailing/replicate_001.exr";
 
@@ -14,7 +14,7 @@ fn parts() -> Sandbox {
     let sandbox = Sandbox::new();
     for (out, part) in [("a", "0..1"), ("b", "1..2")] {
         let words = "truths render --quiet --samples-per-pixel 16";
-        sandbox.execute(&split(&format!("{words} --replicates {part} --out {out}")));
+        sandbox.done(&format!("{words} --replicates {part} --out {out}"));
     }
     sandbox
 }
@@ -27,7 +27,7 @@ fn refuse(sandbox: &Sandbox, parts: &str, words: &[&str]) {
 }
 
 fn merge(sandbox: &Sandbox) {
-    sandbox.execute(&split("truths merge a b --out whole"));
+    sandbox.done("truths merge a b --out whole");
 }
 
 #[test]
@@ -53,10 +53,8 @@ fn replicates_of_different_truths_are_refused() {
     refused(&fewer, &["another list of objects than replicate 0"]);
 
     for index in [u32::MAX - 1, 4000, 0] {
-        let far = Replicate {
-            index,
-            ..whole.clone()
-        };
+        let mut far = whole.clone();
+        far.index = index;
         let held = format!("replicate_001.exr holds plate/truth_trailing/replicate_{index:03}.exr");
         refused(&far, &[&held, "leave folders and names"]);
     }
@@ -106,6 +104,6 @@ fn circular_links_and_pipes_are_not_read_as_parts() {
         make();
         refuse(&sandbox, "a b", &["b holds no replicates"]);
     }
-    fs::write(sandbox.path("file"), "").unwrap();
+    sandbox.put("file", "");
     refuse(&sandbox, "a file", &["file: cannot read"]);
 }

@@ -2,10 +2,10 @@
 
 use std::fs;
 
-use crate::hostile::claims::{Claim, claims, png};
-use crate::rows::rows;
-use crate::sandbox::{Sandbox, split};
 use frame::{ExrFile, Samples, read_exr, write_exr};
+
+use crate::hostile::claims::{Claim, claims, png};
+use crate::sandbox::{Sandbox, rows};
 
 const TRUTH: &str = "out/plate/truth_trailing.exr";
 const FRAME: &str = "out/plate/frame.exr";
@@ -25,9 +25,9 @@ fn refuse_score(sandbox: &Sandbox, image: &str, parts: &[&str]) {
 #[test]
 fn headers_with_huge_claims_are_refused_before_allocation() {
     let sandbox = Sandbox::measured();
-    let write = |name: &str, bytes: Vec<u8>| fs::write(sandbox.path(name), bytes).unwrap();
+    let write = |name: &str, bytes: Vec<u8>| sandbox.put(name, bytes);
     write("whole.exr", Claim::default().file());
-    sandbox.execute(&split(&format!("{SCORE} whole.exr")));
+    sandbox.done(&format!("{SCORE} whole.exr"));
     for claim in claims("scored") {
         write("claim.exr", claim.file());
         refuse_score(&sandbox, "claim.exr", &["claim.exr", &claim.found]);
@@ -65,13 +65,10 @@ fn refuse_altered(
 
 /// Writes a number to a pixel of the channels.
 fn fill(file: &mut ExrFile, is_due: impl Fn(&str) -> bool, pixel: usize, value: f32) {
-    for channel in file
-        .channels
-        .iter_mut()
-        .filter(|channel| is_due(&channel.name))
-    {
-        if let Samples::F32(samples) = &mut channel.samples {
-            samples[pixel] = value;
+    for channel in &mut file.channels {
+        match &mut channel.samples {
+            Samples::F32(samples) if is_due(&channel.name) => samples[pixel] = value,
+            _ => {}
         }
     }
 }
@@ -93,13 +90,8 @@ fn a_truth_or_frame_with_missing_or_invalid_numbers_is_refused() {
             let is_kept = |name: &str| !name.starts_with("coverage") && name != "A.G";
             file.channels.retain(|channel| is_kept(&channel.name));
         };
-        refuse_altered(
-            &sandbox,
-            path,
-            change,
-            &[&score],
-            &[path, "lacks the channel"],
-        );
+        let parts = [path, "lacks the channel"];
+        refuse_altered(&sandbox, path, change, &[&score], &parts);
     }
     for row in rows(include_str!("refusals.toml"), "attributes") {
         let path = format!("out/plate/{}", row[0]);
@@ -149,14 +141,11 @@ fn pictures_with_invalid_numbers_are_refused_or_shown() {
     // The square of this radiance overflows.
     let bright = |file: &mut ExrFile| fill(file, |name| name == "R", 2 * 64 + 9, 1e30);
     let score = format!("{SCORE} {OUTPUT}");
-    let parts = [
-        "the colour of the output holds 1",
-        "at pixel (9, 2)",
-        "at most",
-    ];
+    let place = "at pixel (9, 2)";
+    let parts = ["the colour of the output holds 1", place, "at most"];
     refuse_altered(&sandbox, OUTPUT, bright, &[&score], &parts);
     let mut errors = read_exr(&sandbox.path(ERRORS)).unwrap();
     nan(&mut errors);
     write_exr(&sandbox.path(ERRORS), &errors).unwrap();
-    sandbox.execute(&split(PAGE));
+    sandbox.done(PAGE);
 }

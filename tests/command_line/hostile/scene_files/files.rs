@@ -6,7 +6,7 @@ use std::path::Path;
 use tests::text::assert_contains;
 
 use super::{RENDER, with_sky, with_texture};
-use crate::sandbox::{SCENE, Sandbox, make_fifo, split};
+use crate::sandbox::{SCENE, Sandbox, make_fifo};
 
 #[cfg(unix)]
 #[test]
@@ -93,6 +93,6 @@ fn a_scene_may_use_files_outside_its_folder() {
     let absolute = sandbox.path("shared/plate.obj").display().to_string();
     for mesh in ["../../shared/plate.obj", &absolute] {
         sandbox.write("scene.toml", &SCENE.replace("plate.obj", mesh));
-        sandbox.execute(&split(RENDER));
+        sandbox.done(RENDER);
     }
 }

@@ -48,9 +48,8 @@ fn loading_time_grows_linearly_with_the_scene() {
     assert_eq!(load().objects.len(), 16_001);
 
     // Each of the variants changes another object.
-    let variants: String = (0..4_000)
-        .map(|variant| format!("[variant.v{variant}.object.o{variant}]\nscale = 2\n"))
-        .collect();
+    let variant = |at| format!("[variant.v{at}.object.o{at}]\nscale = 2\n");
+    let variants: String = (0..4_000).map(variant).collect();
     with_more(&sandbox, &(plain(4_000) + &variants));
     assert_eq!(load().objects.len(), 4_001);
     let listings = loads_soon(|| tracer::list_scenes(sandbox.path("scenes")).unwrap());
@@ -72,44 +71,26 @@ fn loading_time_grows_linearly_with_the_scene() {
 
 #[test]
 fn a_scene_beyond_the_limits_is_refused_with_its_line() {
-    let variants: String = (0..4_097)
-        .map(|variant| format!("[variant.v{variant}]\nexposure = 1\n"))
-        .collect();
-    let keys: String = (0..16_385)
-        .map(|key| format!("{{ time = {key} }},"))
-        .collect();
+    let variant = |variant| format!("[variant.v{variant}]\nexposure = 1\n");
+    let key = |key| format!("{{ time = {key} }},");
+    let keys: String = (0..16_385).map(key).collect();
     let sandbox = Sandbox::new();
-    for (more, place, found) in [
-        // Chains of parents must not be followed by recursion.
-        (
-            objects(10_000, chained(10_000)),
-            "scene.toml:791:",
-            "object \"o257\" has 257 parents above it; allowed: 256; attach it to one nearer to the world",
-        ),
-        (
-            objects(10_000, |at| format!("parent = \"o{}\"", (at + 1) % 10_000)),
-            "scene.toml:22:",
-            "the parents of objects form a cycle: o0 -> o1 -> o2 -> o3 -> o4 -> o5 -> o6 -> o7 -> ... -> o9993",
-        ),
-        (
-            plain(16_384),
-            "scene.toml:",
-            "the scene has 16385 objects; allowed: 16384",
-        ),
-        (
-            variants,
-            "scene.toml:",
-            "the scene has 4097 variants; allowed: 4096; move some to a folder of their own",
-        ),
-        (
-            objects(1, |_| format!("keys = [{keys}]")),
-            "scene.toml:22:",
-            "object \"o0\" has 16385 keys; allowed: 1 to 16384",
-        ),
-    ] {
-        with_more(&sandbox, &more);
-        sandbox.refuse(RENDER, &[place, found]);
-    }
+    let refuse = |more: &str, parts: &str| {
+        with_more(&sandbox, more);
+        sandbox.refuse(RENDER, parts);
+    };
+    // Chains of parents must not be followed by recursion.
+    let parts = "scene.toml:791: | object \"o257\" has 257 parents above it; allowed: 256; attach it to one nearer to the world";
+    refuse(&objects(10_000, chained(10_000)), parts);
+    let circle = |at| format!("parent = \"o{}\"", (at + 1) % 10_000);
+    let parts = "scene.toml:22: | the parents of objects form a cycle: o0 -> o1 -> o2 -> o3 -> o4 -> o5 -> o6 -> o7 -> ... -> o9993";
+    refuse(&objects(10_000, circle), parts);
+    let parts = "scene.toml: | the scene has 16385 objects; allowed: 16384";
+    refuse(&plain(16_384), parts);
+    let parts = "scene.toml: | the scene has 4097 variants; allowed: 4096; move some to a folder of their own";
+    refuse(&(0..4_097).map(variant).collect::<String>(), parts);
+    let parts = "scene.toml:22: | object \"o0\" has 16385 keys; allowed: 1 to 16384";
+    refuse(&objects(1, |_| format!("keys = [{keys}]")), parts);
     for text in [
         format!("a = {}", "[".repeat(200_000)),
         format!("a = {}", "{a=".repeat(200_000)),
