@@ -3,11 +3,12 @@
 use serde::{Deserialize, Serialize};
 
 /// One parameter of a filter.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Parameter {
     /// Name in `filter.toml`, in the WGSL struct `Parameters` and on the command line.
     pub name: String,
     /// The values that it allows.
+    #[serde(flatten)]
     pub kind: Kind,
     /// The value unless a preset names another.
     pub default: Value,
@@ -20,7 +21,8 @@ pub struct Parameter {
 }
 
 /// Allowed values of a parameter, both ends of a range included.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
 pub enum Kind {
     /// Whole numbers; `i32` in WGSL.
     Integer {

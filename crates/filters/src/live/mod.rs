@@ -10,7 +10,6 @@ use std::collections::BTreeMap;
 
 use serde_json::{Value, json};
 
-use crate::filter::Kind;
 use crate::gpu::{FrameValues, output_format};
 use crate::load::read_text;
 use crate::shader::{FRAME_PREFIX, Role};
@@ -50,7 +49,7 @@ impl Filter {
             "toml": toml,
             // What a new preset has to name, so that its values in pixels stay as they are.
             "reference_width": self.parameters.iter().any(in_pixels).then_some(width),
-            "parameters": self.parameters.iter().map(describe_parameter).collect::<Vec<_>>(),
+            "parameters": self.parameters,
             "presets": self.presets.iter().map(preset).collect::<Vec<_>>(),
             "features": list_features(self),
             "inputs": list_inputs(self),
@@ -103,29 +102,6 @@ impl Filter {
         levels.chain(divisors).try_for_each(add)?;
         Ok(known)
     }
-}
-
-fn describe_parameter(parameter: &Parameter) -> Value {
-    let Parameter {
-        name,
-        default,
-        unit,
-        doc,
-        ..
-    } = parameter;
-    let mut json = json!({ "name": name, "default": default, "unit": unit, "doc": doc });
-    let range = match &parameter.kind {
-        Kind::Integer { min, max, scale } => {
-            json!({ "kind": "integer", "min": min, "max": max, "scale": scale })
-        }
-        Kind::Real { min, max, scale } => {
-            json!({ "kind": "real", "min": min, "max": max, "scale": scale })
-        }
-        Kind::Choice { choices } => json!({ "kind": "choice", "choices": choices }),
-    };
-    let members = json.as_object_mut().zip(range.as_object().cloned());
-    members.map(|(own, more)| own.extend(more));
-    json
 }
 
 fn describe_texture(filter: &Filter, texture: &Texture) -> Value {

@@ -72,18 +72,17 @@ impl<'a> LiveFiles<'a> {
 
     /// Finds the filter that a case ran, as its run's folder or this program has it, and writes its file.
     fn find_filter(&mut self, case: &Case) -> Result<Result<(usize, Filter), String>, Error> {
-        if case.command.is_some() {
-            return Ok(Err(
-                "A browser cannot run this filter: it is a program.".into()
-            ));
-        }
         let own = self.folder.join(MEASURED_FILTERS).join(&case.filter);
         let found = match own.join("filter.toml").is_file() {
             true => Filter::load(&own),
             false => Filter::builtin(&case.filter),
         };
-        let Some(filter) = found.ok().filter(|filter| is_of(filter, case)) else {
-            let reason = "This page cannot run the filter: the run's folder does not hold it.";
+        let found = found.ok().filter(|filter| is_of(filter, case));
+        let Some(filter) = found.filter(|_| case.command.is_none()) else {
+            let reason = match case.command {
+                Some(_) => "A browser cannot run this filter: it is a program.",
+                None => "This page cannot run the filter: the run's folder does not hold it.",
+            };
             return Ok(Err(reason.to_owned()));
         };
         let is_as_written = |own: &Case| {
@@ -117,28 +116,27 @@ fn describe_case(
     (number, filter): (usize, &Filter),
 ) -> Result<String, String> {
     let (width, height) = frame.size();
-    if width * height > MOST_PIXELS {
-        return Err(format!(
-            "This case cannot be tried in the browser: its frame has {width}x{height} pixels, and at most {MOST_PIXELS} are allowed."
-        ));
-    }
-    if case.input != InputFormat::default() {
-        let change = case.input.change().unwrap_or_default();
-        return Err(format!(
-            "This case cannot be tried in the browser: its frame had another form ({change})."
-        ));
-    }
-    if case.scene.frame > 0 && !filter.history.is_empty() {
-        return Err("This case cannot be tried in the browser: it needs the frame before.".into());
-    }
     let is_missing = |name: &&str| match *name {
         EXCLUSION => frame.exclusion.is_none(),
         "velocity_z" => frame.velocity_z.is_none(),
         _ => frame.velocity_next.is_none(),
     };
-    if let Some(name) = filter.further_inputs().into_iter().find(is_missing) {
+    let missing = filter.further_inputs().into_iter().find(is_missing);
+    let refused = if width * height > MOST_PIXELS {
+        format!("its frame has {width}x{height} pixels, and at most {MOST_PIXELS} are allowed")
+    } else if case.input != InputFormat::default() {
+        let change = case.input.change().unwrap_or_default();
+        format!("its frame had another form ({change})")
+    } else if case.scene.frame > 0 && !filter.history.is_empty() {
+        "it needs the frame before".to_owned()
+    } else if let Some(name) = missing {
+        format!("the run's folder does not hold {name}, which the filter reads")
+    } else {
+        String::new()
+    };
+    if !refused.is_empty() {
         return Err(format!(
-            "This case cannot be tried in the browser: the run's folder does not hold {name}, which the filter reads."
+            "This case cannot be tried in the browser: {refused}."
         ));
     }
     let colors = [&frame.color];

@@ -8,68 +8,36 @@ use base64::engine::general_purpose::STANDARD;
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
 use frame::Frame;
-use serde::Serialize;
+use serde_json::{Map, json};
 
 use crate::pixels::scene_files::SceneFiles;
 
-#[derive(Serialize)]
-struct LiveScene {
-    /// Pixels per row and rows of the inputs.
-    width: u32,
-    height: u32,
-    /// Part of them that is the picture.
-    crop: Crop,
-    /// Inputs as base64 of zlib of 32-bit floats: halves would change velocities by up to 0.015 pixels and depths by 0.05 %, which moves taps.
-    inputs: BTreeMap<&'static str, String>,
-    /// Display exposure, in stops.
-    stops: f32,
-    /// Planes of the truth by alignment.
-    truth: BTreeMap<String, Vec<usize>>,
-    /// Planes that are 1 where scores are pooled.
-    moving: BTreeMap<String, usize>,
-    /// Part of the squared error there that is the truth's own noise.
-    noise: BTreeMap<String, f64>,
-}
-
-#[derive(Serialize)]
-struct Crop {
-    x: u32,
-    y: u32,
-    width: u32,
-    height: u32,
-}
-
-/// Writes a scene as JSON. Adds the regions of its truths to its planes.
+/// Writes a scene as JSON. Adds the regions of its truths to its planes, as numbers that are 1 where scores are pooled.
 pub fn scene_json(files: &mut SceneFiles) -> String {
-    let (width, height) = files.whole.size();
-    let (inner, band) = (files.frame.size(), files.whole.guard_band);
-    let truths = files.truths.iter();
-    let truth = truths.map(|(alignment, truth)| (alignment.to_string(), truth.color_planes()));
-    let noise = files.truths.iter();
-    let noise = noise.map(|(alignment, truth)| (alignment.to_string(), truth.noise));
-    let planes = &mut files.planes;
-    let moving = files.truths.iter().map(|(alignment, truth)| {
-        let mask = truth.regions.moving.map(|moves| f32::from(*moves));
-        (alignment.to_string(), planes.add(&mask))
+    let ((width, height), (inner_width, inner_height)) = (files.whole.size(), files.frame.size());
+    let band = files.whole.guard_band;
+    let [mut truths, mut noises, mut regions] = [(); 3].map(|()| Map::new());
+    for (alignment, truth) in &files.truths {
+        let moving = truth.regions.moving.map(|moves| f32::from(*moves));
+        let name = alignment.to_string();
+        truths.insert(name.clone(), json!(truth.color_planes()));
+        noises.insert(name.clone(), json!(truth.noise));
+        regions.insert(name, json!(files.planes.add(&moving)));
+    }
+    let scene = json!({
+        "width": width,
+        "height": height,
+        "crop": { "x": band, "y": band, "width": inner_width, "height": inner_height },
+        "inputs": list_inputs(&files.whole),
+        "stops": files.frame.display.stops,
+        "truth": truths,
+        "moving": regions,
+        "noise": noises,
     });
-    let scene = LiveScene {
-        width,
-        height,
-        crop: Crop {
-            x: band,
-            y: band,
-            width: inner.0,
-            height: inner.1,
-        },
-        inputs: list_inputs(&files.whole),
-        stops: files.frame.display.stops,
-        truth: truth.collect(),
-        moving: moving.collect(),
-        noise: noise.collect(),
-    };
-    serde_json::to_string(&scene).expect("a scene is plain data")
+    scene.to_string()
 }
 
+/// Packs the inputs as 32-bit floats: halves would change velocities by up to 0.015 pixels and depths by 0.05 %, which moves taps.
 fn list_inputs(frame: &Frame) -> BTreeMap<&'static str, String> {
     let next = frame.velocity_next.as_ref();
     let z = frame.velocity_z.as_ref();
@@ -83,7 +51,7 @@ fn list_inputs(frame: &Frame) -> BTreeMap<&'static str, String> {
         .collect()
 }
 
-/// Compresses numbers, the lowest byte of each first.
+/// Writes numbers as base64 of zlib, the lowest byte of each first.
 fn compress(numbers: &[f32]) -> String {
     let bytes: Vec<u8> = numbers.iter().flat_map(|it| it.to_le_bytes()).collect();
     let mut encoder = ZlibEncoder::new(Vec::new(), Compression::default());
