@@ -11,7 +11,7 @@
   const APART = 1e-3;
   // Time after the last key before the shader is compiled, in milliseconds.
   const PAUSE = 250;
-  const BROKEN = "The shader has errors: the picture and the scores are those of the last one without.";
+  const STALE = "The shader has errors: the picture and the scores are those of the last one without.";
   // Narrower windows show one picture, in pixels.
   const NARROW = 700;
   // What files next to the page contain, by name.
@@ -78,7 +78,7 @@
     mine.found = { flip: scores.meanOver(region, map), psnr: scores.psnr(output, truth, region, scene.stops, noise, limit) };
     mine.version += 1;
     fillScores(mine);
-    say(mine.errors.length > 0 ? BROKEN : "");
+    say(mine.errors.length > 0 ? STALE : "");
     if (mine.version === 1) await showLive(mine, output);
     else pictures.redraw();
     if (mine !== tried) return;
@@ -114,7 +114,7 @@
     try {
       await compile(mine, (await openCard()).device);
     } catch {
-      return say(BROKEN, mine);
+      return say(STALE, mine);
     }
     return change(mine);
   };
