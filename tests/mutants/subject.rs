@@ -5,6 +5,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 
 use cli::{Programs, select_filters};
 use suite::{Error, FilterChoice};
+use tempfile::TempDir;
 use tests::filter_folder::{copy_changed_filter, shipped_filter};
 use tests::mutants::{Mutant, choose_mutants};
 use tracer::SceneId;
@@ -32,6 +33,8 @@ pub struct MutantFilter {
     /// Description of the change, with its line.
     pub name: String,
     pub choice: FilterChoice,
+    /// Its files, which a run copies.
+    _folder: TempDir,
 }
 
 impl Subject {
@@ -57,9 +60,11 @@ impl Subject {
             .collect();
         let chosen = choose_mutants(&accepted, count).into_iter();
         let mutants = chosen.map(|mutant| {
+            let (choice, folder) = load_mutant(&filter, &sound.preset, &mutant)?;
             Ok(MutantFilter {
                 name: mutant.describe(&kernels),
-                choice: load_mutant(&filter, &sound.preset, &mutant)?,
+                choice,
+                _folder: folder,
                 mutant,
             })
         });
@@ -84,11 +89,16 @@ fn select(name: &str) -> Result<FilterChoice, Error> {
     }
 }
 
-fn load_mutant(filter: &str, preset: &str, mutant: &Mutant) -> Result<FilterChoice, Error> {
+/// Loads a mutant from a folder that is there as long as the second value.
+fn load_mutant(
+    filter: &str,
+    preset: &str,
+    mutant: &Mutant,
+) -> Result<(FilterChoice, TempDir), Error> {
     let folder = tempfile::tempdir().expect("temporary folders can be made");
     let copy = folder.path().join(filter);
     copy_changed_filter(filter, &copy, |text| mutant.apply(text));
     let mut choice = select(&format!("{}:{preset}", copy.display()))?;
     choice.filter.time_limit = TIME_LIMIT;
-    Ok(choice)
+    Ok((choice, folder))
 }
