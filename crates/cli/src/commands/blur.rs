@@ -32,7 +32,8 @@ pub struct BlurArgs {
     #[arg(long)]
     pub as_written: bool,
     /// OpenEXR file with the channels R G B, Z, velocity.X, velocity.Y, and velocity_next.X, velocity_next.Y, velocity_z and exclusion for
-    /// filters that read them. With --frames the first frame's file, as `run` and `truths render` write it, or a folder of 0000.exr, 0001.exr and so on.
+    /// filters that read them. With --frames the first frame's file, as `run` and `truths render` write it, or a folder of 0000.exr,
+    /// 0001.exr and so on.
     #[arg(long, value_name = "FILE|DIR")]
     pub frame: PathBuf,
     /// TOML file with a table [convention] that says which velocity, depth and colour the frame has and the picture gets

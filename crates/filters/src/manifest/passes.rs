@@ -6,7 +6,7 @@ use toml::Spanned;
 use super::file::File;
 use super::number::{IDENTIFIER, NumberEntry, NumbersEntry, is_identifier};
 use super::pass_shader::{PassEntry, read_shader};
-use crate::filter::{PassShader, Stage};
+use crate::filter::{EXCLUSION, PassShader, Stage};
 use crate::{Count, Expression, Filter, FilterError, Format, Holds, Pass, Rounding, Texture};
 
 #[derive(Deserialize)]
@@ -40,7 +40,7 @@ const BUILTIN_VARIABLES: [&str; 12] = [
     "depth",
     "velocity_next",
     "velocity_z",
-    "exclusion",
+    EXCLUSION,
     "color_before",
     "velocity_before",
     "depth_before",

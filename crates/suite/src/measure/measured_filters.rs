@@ -10,7 +10,8 @@ use crate::Error;
 /// Folder of the copies in the folder of a run; each is a filter folder.
 pub const MEASURED_FILTERS: &str = "measured_filters";
 
-/// Copies filter.toml and the shaders of each filter of a plan that is neither built in nor a program. Removes the copy of another filter of the same name.
+/// Copies filter.toml and the shaders of each filter of a plan that is neither built in nor a program. Removes the copy of another filter of
+/// the same name. A shader outside of the filter's folder is left out.
 pub(crate) fn copy_filters(plan: &RunPlan) -> Result<(), Error> {
     for choice in &plan.filters {
         let filter = &choice.filter;
@@ -27,7 +28,9 @@ pub(crate) fn copy_filters(plan: &RunPlan) -> Result<(), Error> {
             continue;
         };
         for path in filter.list_files() {
-            let below = path.strip_prefix(folder).unwrap_or(path);
+            let Ok(below) = path.strip_prefix(folder) else {
+                continue;
+            };
             let bytes = fs::read(path).map_err(|source| FileError::io(path, "read", source))?;
             write_atomically(&copy.join(below), &bytes)?;
         }
