@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::{EXCLUSION, Format};
+use crate::Format;
 
 /// Values of a convention that members of uniform blocks may name.
 pub(crate) const CONVENTION_VALUES: [&str; 5] = [
@@ -224,7 +224,7 @@ impl Convention {
         match name.strip_suffix("_before").unwrap_or(name) {
             "color" => self.color_format.unwrap_or(Format::Rgba32Float),
             "velocity" | "velocity_next" => self.velocity_format.unwrap_or(Format::Rg32Float),
-            "velocity_z" | EXCLUSION => Format::R32Float,
+            "velocity_z" | "exclusion" => Format::R32Float,
             "output" => self.output_format.unwrap_or(Format::Rgba32Float),
             _ => self.depth_format.unwrap_or(Format::R32Float),
         }
