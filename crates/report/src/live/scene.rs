@@ -1,15 +1,13 @@
 //! A scene of live cases: what filters get, and what their output is compared with.
 
 use std::collections::BTreeMap;
-use std::io::Write;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use flate2::Compression;
-use flate2::write::ZlibEncoder;
 use frame::Frame;
 use serde_json::{Map, json};
 
+use crate::pixels::planes::deflate;
 use crate::pixels::scene_files::SceneFiles;
 
 /// Writes a scene as JSON. Adds the regions of its truths to its planes, as numbers that are 1 where scores are pooled.
@@ -54,7 +52,5 @@ fn list_inputs(frame: &Frame) -> BTreeMap<&'static str, String> {
 /// Writes numbers as base64 of zlib, the lowest byte of each first.
 fn compress(numbers: &[f32]) -> String {
     let bytes: Vec<u8> = numbers.iter().flat_map(|it| it.to_le_bytes()).collect();
-    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::default());
-    encoder.write_all(&bytes).expect("memory takes every byte");
-    STANDARD.encode(encoder.finish().expect("memory takes every byte"))
+    STANDARD.encode(deflate(&bytes))
 }

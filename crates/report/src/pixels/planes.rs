@@ -94,8 +94,13 @@ fn compress(bits: &[u16], others: &[u16]) -> Vec<u8> {
     for index in 0..bits.len() {
         [low[index], high[index]] = bits[index].wrapping_sub(others[index]).to_le_bytes();
     }
+    deflate(&bytes)
+}
+
+/// Makes a zlib stream.
+pub fn deflate(bytes: &[u8]) -> Vec<u8> {
     let mut encoder = ZlibEncoder::new(Vec::new(), Compression::default());
-    encoder.write_all(&bytes).expect("memory takes every byte");
+    encoder.write_all(bytes).expect("memory takes every byte");
     encoder.finish().expect("memory takes every byte")
 }
 
