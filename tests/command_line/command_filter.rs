@@ -9,6 +9,7 @@ use frame::{ExrFile, Frame, Raster, Reprojection, read_exr, write_exr};
 use tests::filter_folder::{write_manifest, write_script};
 use tests::text::{assert_contains, read_rows};
 
+use crate::child::{send, wait_until};
 use crate::sandbox::*;
 
 fn write_lines(sandbox: &Sandbox, name: &str, more: &str) {

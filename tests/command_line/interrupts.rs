@@ -1,6 +1,7 @@
 //! Ctrl-C: every command ends within two seconds, even during GPU work.
 
-use crate::sandbox::{Sandbox, assert_ends_at_ctrl_c, quick_command, split, wait_until_busy};
+use crate::child::{assert_ends_at_ctrl_c, wait_until_busy};
+use crate::sandbox::{Sandbox, quick_command, split};
 
 /// Many passes that together take minutes.
 const PASSES: &str = "[[pass]]\nentry = \"work\"\nrepeat = 1000";

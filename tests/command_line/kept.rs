@@ -7,6 +7,7 @@ use std::process::{Child, Stdio};
 use frame::{read_exr, write_exr};
 use tests::text::assert_contains;
 
+use crate::child::wait_until;
 use crate::kept_cases::damage;
 use crate::sandbox::*;
 

@@ -5,6 +5,7 @@ mod audit;
 #[cfg(unix)]
 mod blender;
 mod check;
+mod child;
 #[cfg(unix)]
 mod command_filter;
 mod compare;

@@ -4,6 +4,7 @@ use std::fs;
 
 use tests::filter_folder::write_manifest;
 
+use crate::child::{assert_ends_at_ctrl_c, wait_until_busy};
 use crate::sandbox::*;
 
 #[test]

@@ -9,7 +9,8 @@ use std::process::{ChildStdin, Command, Stdio};
 use serde_json::{Value, json};
 use tests::text::{assert_contains, read_rows};
 
-use crate::sandbox::{Sandbox, python_with, split, stderr, stdout, wait_until};
+use crate::child::wait_until;
+use crate::sandbox::{Sandbox, python_with, split, stderr, stdout};
 
 pub const SERVE: &str = "tune serve --quiet --filter jump_flood --objective flip --size 64x32 \
     --samples-per-pixel 16 --out out";

@@ -10,9 +10,8 @@ use tests::filter_folder::{write_manifest, write_script};
 use tests::text::{assert_contains, squeeze};
 use tune::{Trial, Tuning};
 
-use crate::sandbox::{
-    SCENE, Sandbox, assert_done, assert_refused, split, stderr, stdout, wait_until,
-};
+use crate::child::wait_until;
+use crate::sandbox::{SCENE, Sandbox, assert_done, assert_refused, split, stderr, stdout};
 
 /// Scenes: name, distance that the plate moves in one frame in metres, and family.
 const SCENES: [(&str, &str, &str); 7] = [

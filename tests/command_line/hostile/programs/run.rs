@@ -5,6 +5,7 @@ use std::process::{Command, Output};
 use frame::{ExrFile, Raster, write_exr};
 use tests::text::assert_contains;
 
+use crate::child::{assert_ends_at_ctrl_c, wait_until};
 use crate::sandbox::*;
 
 /// Makes a sandbox with a frame of 16 x 16 pixels, which is quick to blur.

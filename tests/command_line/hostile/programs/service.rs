@@ -6,7 +6,8 @@ use std::process::{Child, Stdio};
 use serde_json::Value;
 use tests::text::assert_contains;
 
-use crate::sandbox::{Sandbox, assert_ends_at_ctrl_c, split};
+use crate::child::assert_ends_at_ctrl_c;
+use crate::sandbox::{Sandbox, split};
 use crate::serve::SERVE;
 
 fn start(sandbox: &Sandbox) -> Child {
