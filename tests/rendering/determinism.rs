@@ -216,15 +216,7 @@ fn bad_settings_are_refused_with_the_allowed_values() {
         let refused = trace_truth(scene, &settings, alignment, &unwatched);
         refused.expect_err("refused").to_string()
     };
-    for (change, expected) in read_rows(
-        "
-        samples 100 => is 100 over 8 replicates; allowed: 8 times a power of two up to 65536, such as 128
-        samples 4 => is 4 over 8 replicates; allowed: 8 times a power of two up to 65536, such as 8
-        replicates 3 => replicates is 3; allowed: even numbers from 2, such as 8
-        replicates 0 => replicates is 0; allowed: even numbers from 2, such as 8
-        height 0 => size is 33x0; allowed: 1 to 16384 pixels on either side, 67108864 in all
-        exposure -0.5 => exposure is -0.5 frames; allowed: above 0 and finite (0.5 frames = 180 degrees)",
-    ) {
+    for (change, expected) in read_rows(include_str!("refused_settings.txt")) {
         let (mut settings, (name, number)) = (settings, change.split_once(' ').unwrap());
         let number: f64 = number.parse().unwrap();
         match name {

@@ -88,19 +88,8 @@ fn a_language_without_its_compiler_names_the_way_out() {
 #[test]
 fn slang_hlsl_and_wesl_go_through_their_compilers() {
     let module = find_module().display().to_string();
-    for (file, compiler, words) in [
-        (
-            "blur.slang",
-            "slangc",
-            "*-lang?slang*-target?spirv*-entry?main*-stage?compute*-o?",
-        ),
-        ("blur.hlsl", "dxc", "*-spirv*-T?cs_6_0*-E?main*-Fo?"),
-        (
-            "blur.hlsl",
-            "slangc",
-            "*-target?spirv*-entry?main*-stage?compute*-o?",
-        ),
-    ] {
+    for (called, words) in read_table("calls of compilers") {
+        let ((file, compiler), words) = (called.split_once(' ').unwrap(), words[0]);
         let sandbox = Sandbox::new();
         write_pass(&sandbox, file, BINDINGS);
         sandbox.put("translated/copy.wgsl", COPY);

@@ -4,7 +4,7 @@
 use tests::near::assert_near;
 use tests::text::assert_contains;
 
-use super::{blur_busy, busy_picture, largest_difference, make};
+use super::{blur_busy, busy_picture, largest_difference, make, make_declared};
 use crate::filter_files::ready;
 
 /// Stores colours in the texture `kept`, in this format, and shows it.
@@ -115,11 +115,7 @@ fn the_pass_that_writes_the_first_broken_value_is_named() {
 
 #[test]
 fn an_image_that_is_read_and_written_keeps_what_is_not_written() {
-    let declarations = "[[texture]]\nname = \"state\"\nformat = \"rgba16float\"\n\
-                        [[pass]]\nshader = \"fill.wgsl\"\nover = \"state\"\n\
-                        [[pass]]\nshader = \"step.comp\"\nover = \"state\"\nrepeat = 3\n\
-                        [[pass]]\nshader = \"show_state.wgsl\"\nstage = \"fragment\"\n";
-    let shown = blur_busy(&make("resources", declarations));
+    let shown = blur_busy(&make_declared("resources", "state.toml"));
     // Each run changes every third column, by its left neighbour's value.
     let mut expected = vec![1.0_f32; 61];
     for iteration in 0..3 {
@@ -136,14 +132,7 @@ fn an_image_that_is_read_and_written_keeps_what_is_not_written() {
 
 #[test]
 fn hlsl_without_registers_is_bound_by_name() {
-    let pass = "[[pass]]\nshader = \"blur.hlsl\"\nentry = \"frag\"\nstage = \"fragment\"\n\
-                [[pass.binding]]\nname = \"_MainTex\"\ntexture = \"color\"\n\
-                [[pass.binding]]\nname = \"_Motion\"\ntexture = \"velocity\"\n\
-                [[pass.binding]]\nname = \"sampler_MainTex\"\nsampler = \"nearest\"\n\
-                [[pass.binding]]\nglobals = true\n\
-                values = { _Scale = \"max(min(exposure, 1), 0.5) + color_scale\", \"*\" = 0, \
-                _MainTex_TexelSize = [\"1 / width\", 0, 0, 0] }\n";
-    let files = make("resources", pass);
+    let files = make_declared("resources", "names.toml");
     let found = blur_busy(&files);
     let picture = busy_picture();
     for (x, y) in [(12_u32, 9_u32), (40, 30), (5, 5)] {
@@ -186,14 +175,9 @@ fn textures_of_whole_numbers_keep_their_signs() {
     declare("rg8sint", ["i", "rg8i", ""]).assert_refused("whole_numbers");
 }
 
-const TABLE: &str = "[[pass]]\nshader = \"table.comp\"\n[[pass.binding]]\nbinding = 0\ntexture = \"output\"\n\
-                     [[pass.binding]]\nbinding = 1\nvalues = { view.size = [\"width\", \"height\", 0, 0], view.scale = 0.5, \
-                     taps = 0.25, \"taps[1].weight\" = 4 }\n\
-                     [[pass.binding]]\nbinding = 2\nvalues = { first = [0, \"10 * exposure\"], weights = [1, 2, 3, 4, 80] }\n";
-
 #[test]
 fn members_of_structs_and_storage_buffers_have_their_values() {
-    let files = make("resources", TABLE);
+    let files = make_declared("resources", "members.toml");
     // Height and scale; two weights; the length of the array, its last number and 10 x exposure.
     let due = [43.5, 4.25, 5.0 + 80.0 + 7.0];
     for (found, due) in blur_busy(&files).at(30, 20).iter().zip(due) {
