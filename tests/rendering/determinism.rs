@@ -5,16 +5,14 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use frame::{Alignment, Efficiency, Frame, Ladder, Truth, VelocityKind};
 use glam::{DVec3, Vec3};
-use tests::shapes::*;
 use tests::text::read_rows;
-use tests::unwatched;
 use tracer::{
     Background, Lens, Progress, RenderSettings, Scene, TraceError, frame_hash, ladder_hash,
     replicate_hash, trace_ladder, trace_truth, truth_hash,
 };
 
 use crate::lens::with_lens;
-use crate::renders::{render_frame, render_ladder, render_truth, settings, sun};
+use crate::renders::*;
 use crate::translucency::{film, glass};
 
 const RUNGS: [u32; 3] = [1, 4, 16];
