@@ -182,7 +182,7 @@ fn bad_models_are_refused_with_the_way_out() {
     let faces = "vt 0 0\r\nusemtl the roof\r\nf 3/1 8/1 9/1 4/1\r\nf 4/1 9/1 10/1 5/1";
     let textured = HOUSE.replace("usemtl the roof\r\nf 3 8 9 4\r\nf 4 9 10 5", faces);
     let parts = "dot.png | outside of the model's folder | import the model plain";
-    refuse(&textured, &parts);
+    refuse(&textured, parts);
     let left: Vec<_> = fs::read_dir(sandbox.path("scenes")).unwrap().collect();
     assert_eq!(left.len(), 2, "plate and dot.png alone: {left:?}");
 }

@@ -101,7 +101,7 @@ fn raw_dumps_give_the_same_frame_and_need_their_layout() {
     assert_eq!(show(&sandbox), expected);
     for (change, parts) in read_table("raw pictures") {
         let (from, to) = change.split_once('/').unwrap();
-        capture.write("capture.toml", &described.replace(from, to));
+        capture.write("capture.toml", described.replace(from, to));
         sandbox.refuse(INGEST, &parts);
     }
     capture.write("capture.toml", DESCRIPTION);
@@ -142,7 +142,7 @@ fn files_of_two_captures_are_not_mixed() {
     let capture = Capture::new(&sandbox).with_subframes(4);
     ingest(&sandbox);
     // Renaming the scene makes no other capture; changing the exposure does.
-    capture.write("capture.toml", &DESCRIPTION.replace("0.5", "0.25"));
+    capture.write("capture.toml", DESCRIPTION.replace("0.5", "0.25"));
     sandbox.done("engine ingest capture --quiet -o out/engine/other");
     let words = "run --quiet --scenes out/engine/mine --filter identity";
     for name in ["frame.exr", "truth_trailing.exr"] {

@@ -41,7 +41,7 @@ fn folders_that_are_no_captures_are_refused() {
         refuse(bench, name, &parts, remove);
     }
     for (text, parts) in read_table("descriptions") {
-        let describe = || capture.write("capture.toml", &text.replace(';', "\n"));
+        let describe = || capture.write("capture.toml", text.replace(';', "\n"));
         refuse(bench, "capture.toml", &parts, describe);
     }
     let parts = ["color.png", "remove one of them"];
@@ -99,7 +99,7 @@ fn sub_frames_that_make_no_truth_are_refused() {
     fs::remove_file(&second).unwrap();
     refuse("subframes/0003.exr: is in the place of 0002.exr | without a gap");
     fs::rename(fourth, &second).unwrap();
-    capture.write("capture.toml", &format!("{DESCRIPTION}subframes = 32\n"));
+    capture.write("capture.toml", format!("{DESCRIPTION}subframes = 32\n"));
     refuse("subframes: holds 4 sub-frames, capture.toml says 32 | capture all");
     capture.write("capture.toml", DESCRIPTION);
     fs::copy(capture.path("velocity.exr"), second).unwrap();
