@@ -2,7 +2,8 @@
 
 use std::fs;
 
-use frame::{ExrFile, read_exr};
+use frame::{ExrFile, Frame, read_exr};
+use metrics::flip_ldr;
 use suite::Case;
 
 use crate::browser::{Browser, address_of};
@@ -38,13 +39,20 @@ fn channels(files: &[ExrFile; 4]) -> Vec<(&'static str, &ExrFile, Vec<&'static s
 fn files_of(sandbox: &Sandbox, case: &Case) -> [ExrFile; 4] {
     let own = sandbox.path("out").join(&case.folder);
     let scene = sandbox.path("out").join(case.scene.folder());
-    [
+    let mut files = [
         scene.join(format!("truth_{}.exr", case.alignment)),
         own.join("output.exr"),
         scene.join("frame.exr"),
         own.join("errors.exr"),
     ]
-    .map(|path| read_exr(&path).unwrap())
+    .map(|path| read_exr(&path).unwrap());
+    let [truth, output] = [0, 1].map(|at: usize| files[at].color("").unwrap());
+    let viewing = Frame::read(&scene.join("frame.exr"))
+        .unwrap()
+        .display
+        .into();
+    files[3].push_plane("flip", &flip_ldr(&truth, &output, &viewing));
+    files
 }
 
 /// Largest relative error of a number: half a step of a half is 1/2048, and three digits round by 1/200 at most.

@@ -174,8 +174,8 @@ fn probes_locate_a_filter_s_taps() {
     // The taps are 3 pixels further right on average, at 2 and at 4, in pixels one wide.
     for half in &mut truth.at_instant {
         half.offset = half.offset.map(|_| [3.0, 0.0]);
-        let products = [9.0 + 1.0 + 1.0 / 12.0, 0.0, 1.0 / 12.0];
-        half.spread = half.spread.map(|_| products);
+        let squares = [9.0 + 1.0 + 1.0 / 12.0, 1.0 / 12.0];
+        half.spread = half.spread.map(|_| squares);
     }
     let reference = make_reference(&frame, &truth);
     let measured = |taps: &[([i32; 2], f32)]| {

@@ -317,6 +317,6 @@ fn nothing_unknown(color: &Image) -> AtInstant {
         unknowable: color.map(|_| 0.0),
         placed: color.map(|_| 1.0),
         offset: color.map(|_| [0.0; 2]),
-        spread: color.map(|_| [0.0; 3]),
+        spread: color.map(|_| [0.0; 2]),
     }
 }

@@ -21,13 +21,13 @@ pub struct AtInstant {
     /// camera. Divide the next fields by it to get means over that fraction.
     pub placed: Plane,
     /// Offset from the pixel's centre to the visible point's place at the instant, in pixels, +x right, +y down; zero for a point
-    /// without a place. A replicate stores half floats: see [`AtInstant::rounded`].
+    /// without a place, and outside the moving region. A replicate stores half floats: see [`AtInstant::rounded`].
     pub offset: Vectors,
-    /// Products xx, xy and yy of that offset, in square pixels; the same applies.
-    pub spread: Raster<[f32; 3]>,
+    /// Squares xx and yy of that offset, in square pixels; the same applies.
+    pub spread: Vectors,
 }
 
-const SPREAD: [&str; 3] = ["xx", "xy", "yy"];
+const SPREAD: [&str; 2] = ["xx", "yy"];
 
 impl AtInstant {
     /// Makes the state of unknown surfaces: none has a place at the instant.
@@ -38,17 +38,28 @@ impl AtInstant {
             unknowable: nothing.clone(),
             placed: nothing,
             offset: Raster::filled(width, height, [0.0; 2]),
-            spread: Raster::filled(width, height, [0.0; 3]),
+            spread: Raster::filled(width, height, [0.0; 2]),
         }
     }
 
-    /// Rounds offsets and their products to half floats, which have 11 significant bits: the error is at most 1 part in
+    /// Rounds offsets and their squares to half floats, which have 11 significant bits: the error is at most 1 part in
     /// 4096, far below the noise of a replicate, and its file shrinks by a third. Values larger than any half float stay.
     /// Means of replicates are not rounded.
     pub fn rounded(self) -> AtInstant {
         AtInstant {
             offset: self.offset.map(|offset| offset.map(nearest_half)),
             spread: self.spread.map(|spread| spread.map(nearest_half)),
+            ..self
+        }
+    }
+
+    /// Sets offsets and their squares to 0 outside a region. Where nothing moves they are the means of places within a pixel, which no score
+    /// is about, and which fill a third of a file.
+    pub fn within(self, region: &Raster<bool>) -> AtInstant {
+        let keep = |own: &[f32; 2], inside: &bool| if *inside { *own } else { [0.0; 2] };
+        AtInstant {
+            offset: self.offset.zip(region, keep),
+            spread: self.spread.zip(region, keep),
             ..self
         }
     }
@@ -65,7 +76,7 @@ impl AtInstant {
         }
     }
 
-    /// Adds `frozen.R/G/B`, `unknowable`, `reference.placed`, `reference.x/y` and `reference.xx/xy/yy`.
+    /// Adds `frozen.R/G/B`, `unknowable`, `reference.placed`, `reference.x/y` and `reference.xx/yy`.
     pub(crate) fn push(&self, file: &mut ExrFile, layer: &str) {
         let name = |name: &str| in_layer(layer, name);
         file.push_color(&name("frozen"), &self.frozen);
@@ -75,23 +86,22 @@ impl AtInstant {
             let plane = self.offset.map(|offset| offset[component]);
             file.push_plane(&name(&format!("reference.{axis}")), &plane);
         }
-        for (component, product) in SPREAD.into_iter().enumerate() {
+        for (component, square) in SPREAD.into_iter().enumerate() {
             let plane = self.spread.map(|spread| spread[component]);
-            file.push_plane(&name(&format!("reference.{product}")), &plane);
+            file.push_plane(&name(&format!("reference.{square}")), &plane);
         }
     }
 
     pub(crate) fn from_exr(file: &ExrFile, layer: &str) -> Result<Self, FileError> {
         let plane = |name: &str| file.plane(&in_layer(layer, name));
         let [x, y] = [plane("reference.x")?, plane("reference.y")?];
-        let [xx, xy, yy] = SPREAD.map(|product| plane(&format!("reference.{product}")));
-        let products = xx?.zip(&xy?, |xx, xy| [*xx, *xy]);
+        let [xx, yy] = SPREAD.map(|square| plane(&format!("reference.{square}")));
         Ok(Self {
             frozen: file.color(&in_layer(layer, "frozen"))?,
             unknowable: plane("unknowable")?,
             placed: plane("reference.placed")?,
             offset: x.zip(&y, |x, y| [*x, *y]),
-            spread: products.zip(&yy?, |[xx, xy], yy| [*xx, *xy, *yy]),
+            spread: xx?.zip(&yy?, |xx, yy| [*xx, *yy]),
         })
     }
 }
@@ -120,13 +130,13 @@ mod tests {
         );
         let state = AtInstant {
             offset: Raster::filled(1, 1, [given[0], given[1]]),
-            spread: Raster::filled(1, 1, given),
+            spread: Raster::filled(1, 1, [given[2], given[1]]),
             placed: Raster::filled(1, 1, given[0]),
             ..AtInstant::unknown(1, 1)
         };
         let expected = AtInstant {
             offset: Raster::filled(1, 1, [nearest[0], nearest[1]]),
-            spread: Raster::filled(1, 1, nearest),
+            spread: Raster::filled(1, 1, [nearest[2], nearest[1]]),
             ..state.clone()
         };
         assert_eq!(state.rounded(), expected);

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::exr::{Channel, ExrFile, Samples, read_exr, write_exr};
+use crate::exr::{Channel, ExrFile, Samples, read_exr, write_small_exr};
 use crate::{
     Alignment, Camera, Display, FileError, FrameOptions, Image, Picture, Plane, Provenance, Raster,
     Reprojection, Vectors,
@@ -92,7 +92,7 @@ impl Frame {
     /// Writes the frame as OpenEXR: `R G B`, `Z`, `velocity.X/Y`, `object.id`, `coverage.<object>`,
     /// `samples`; `velocity_next.X/Y` and `velocity_z` where it has them.
     pub fn write(&self, path: &Path) -> Result<(), FileError> {
-        write_exr(path, &self.to_exr())
+        write_small_exr(path, self.to_exr())
     }
 
     /// Makes the content of the file that [`Frame::write`] writes.

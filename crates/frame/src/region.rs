@@ -90,7 +90,7 @@ impl Regions {
 }
 
 /// Marks every pixel with its centre within `radius` pixels of the centre of a pixel of `set`.
-fn dilate(set: &Raster<bool>, radius: u32) -> Raster<bool> {
+pub(crate) fn dilate(set: &Raster<bool>, radius: u32) -> Raster<bool> {
     let mut disc = Raster::filled(set.width, set.height, false);
     let rows: Vec<&[bool]> = set.pixels.chunks_exact(set.width as usize).collect();
     for y in 0..set.height {

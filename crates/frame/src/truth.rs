@@ -156,8 +156,8 @@ impl Truth {
             .collect()
     }
 
-    /// Writes the truth as OpenEXR: the mean as `R G B` and `coverage.<object>`, the channels of [`AtInstant`], the halves of both
-    /// as layers `A` and `B`, `stderr.R/G/B`, `motion`, `samples`, and the channels of [`Support`]. The attributes `noise_floor_<region>`
+    /// Writes the truth as OpenEXR: the mean as `R G B`, `coverage.<object>` and `unknowable`, the halves of both and of [`AtInstant`] as
+    /// layers `A` and `B`, `stderr.R/G/B`, `motion`, `samples`, and the channels of [`Support`]. The attributes `noise_floor_<region>`
     /// hold [`Truth::noise_floors`].
     pub fn write(&self, path: &Path) -> Result<(), FileError> {
         write_small_exr(path, self.to_exr())
@@ -170,7 +170,7 @@ impl Truth {
         self.mean().push(&mut file, "", &self.objects);
         self.halves[0].push(&mut file, "A", &self.objects);
         self.halves[1].push(&mut file, "B", &self.objects);
-        self.at_instant_mean().push(&mut file, "");
+        file.push_plane("unknowable", &self.at_instant_mean().unknowable);
         self.at_instant[0].push(&mut file, "A");
         self.at_instant[1].push(&mut file, "B");
         file.push_color("stderr", &self.standard_error);

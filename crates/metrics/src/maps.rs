@@ -87,9 +87,9 @@ maps! {
     probes {
         /// Difference of the sum of weights from 1.
         Unity => unity "unity"
-        /// Distance between the centres of the gathered and the true origins, in pixels; 0 where undefined.
+        /// Distance between the centres of the gathered and the true origins, in pixels; 0 where undefined, and outside the knowable region.
         GatherOffset => offset "gather_offset"
-        /// Difference of the spreads, in pixels; 0 where undefined.
+        /// Difference of the spreads, in pixels; 0 there too.
         GatherSpread => spread "gather_spread"
     }
 }

@@ -171,7 +171,10 @@ impl<'a> TruthTracer<'a> {
         let canvas = self.canvas();
         let settings = &self.settings;
         let picture = assemble_picture(tile, means);
-        let at_instant = assemble_at_instant(tile, instant_means).rounded();
+        let moving = support.moving_region().part(tile);
+        let at_instant = assemble_at_instant(tile, instant_means)
+            .rounded()
+            .within(&moving);
         check_picture(scene, &picture)?;
         check_at_instant(scene, &at_instant)?;
         let samples = self.samples.get().expect("the replicate was traced by it");
@@ -251,7 +254,7 @@ fn assemble_at_instant(tile: Tile, pixels: Vec<InstantMeans>) -> AtInstant {
         unknowable: pixels.map(|pixel| pixel.unknowable as f32),
         placed: pixels.map(|pixel| pixel.placed as f32),
         offset: pixels.map(|pixel| pixel.offset.as_vec2().to_array()),
-        spread: pixels.map(|pixel| pixel.spread.as_vec3().to_array()),
+        spread: pixels.map(|pixel| pixel.spread.as_vec2().to_array()),
     }
 }
 

@@ -41,7 +41,8 @@ fn layers_equal_the_files_of_the_case() {
     let exr = |name: &str| read_exr(&sandbox.path(name)).unwrap();
     let layers = exr("layers/plate/velocity_gather_fine.exr");
     let output = exr("out/plate/velocity_gather_fine/output.exr");
-    let errors = exr("out/plate/velocity_gather_fine/errors.exr");
+    let case = &sandbox.read_filter_cases()[0];
+    let errors = suite::ErrorMaps::read(case, &sandbox.path("out")).unwrap();
     let truth = Truth::read(&sandbox.path("out/plate/truth_trailing.exr")).unwrap();
     let frame = Frame::read(&sandbox.path("out/plate/frame.exr")).unwrap();
     let (truth, frame) = (truth.mean(), frame.cropped());
@@ -52,7 +53,7 @@ fn layers_equal_the_files_of_the_case() {
     assert_eq!(color("truth"), truth.color);
     assert_eq!(color("output"), output.color("").unwrap());
     assert_eq!(color("instant"), frame.color);
-    assert_eq!(plane("flip"), errors.plane("flip").unwrap());
+    assert_eq!(plane("flip"), errors.map("flip").unwrap());
     for (axis, name) in ["velocity.X", "velocity.Y"].into_iter().enumerate() {
         assert_eq!(plane(name), frame.velocity.map(|velocity| velocity[axis]));
     }

@@ -107,7 +107,7 @@ fn at_instant(salt: u32) -> AtInstant {
         unknowable: plane(salt + 3),
         placed: plane(salt + 4),
         offset: pairs(salt + 5),
-        spread: image(salt + 7),
+        spread: pairs(salt + 7),
     }
 }
 

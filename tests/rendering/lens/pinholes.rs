@@ -124,6 +124,6 @@ fn every_layer_of_a_truth_is_the_mean_of_shifted_pinhole_truths() {
         compare("offset x", 0.1, &|it| it.offset.pixels[pixel][0]);
         compare("offset y", 0.1, &|it| it.offset.pixels[pixel][1]);
         compare("spread xx", 0.3, &|it| it.spread.pixels[pixel][0]);
-        compare("spread yy", 0.3, &|it| it.spread.pixels[pixel][2]);
+        compare("spread yy", 0.3, &|it| it.spread.pixels[pixel][1]);
     }
 }

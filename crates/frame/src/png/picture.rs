@@ -3,6 +3,8 @@
 use std::io::Cursor;
 use std::path::Path;
 
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+
 use super::palette::check_png_palette;
 use crate::{FileError, Raster, read_bounded, write_atomically};
 
@@ -57,8 +59,11 @@ pub fn read_png(path: &Path) -> Result<Raster<[f32; 3]>, FileError> {
 /// Encodes display values in [0, 1] (see [`display_srgb`](crate::display_srgb)) as an 8-bit PNG.
 pub fn png_bytes(display: &Raster<[f32; 3]>) -> Vec<u8> {
     let mut png = Cursor::new(Vec::new());
+    // A fifth smaller than by the crate's own choice, which is quicker.
+    let encoder =
+        PngEncoder::new_with_quality(&mut png, CompressionType::Default, FilterType::Adaptive);
     to_eight_bits(display)
-        .write_to(&mut png, image::ImageFormat::Png)
+        .write_with_encoder(encoder)
         .expect("writing to memory cannot fail");
     png.into_inner()
 }

@@ -17,14 +17,14 @@ pub struct Origin {
 /// Variance of a point within a pixel, both axes together.
 const WITHIN_A_PIXEL: f64 = 2.0 / 12.0;
 
-/// Origins in a truth, in its 32 bits: offset, and its products xx and yy.
+/// Origins in a truth, in its 32 bits: offset, and its squares xx and yy.
 pub struct TrueOrigins(Raster<Option<[f32; 4]>>);
 
 impl TrueOrigins {
     /// Finds the origins; none for a pixel if a part of it has no place at the instant.
     pub fn new(seen: &AtInstant) -> Self {
         Self(index_pixels(&seen.placed, |at| {
-            let ([x, y], [xx, _, yy]) = (seen.offset.pixels[at], seen.spread.pixels[at]);
+            let ([x, y], [xx, yy]) = (seen.offset.pixels[at], seen.spread.pixels[at]);
             // A mean of ones is one except for rounding.
             (f64::from(seen.placed.pixels[at]) > 1.0 - 1e-6).then_some([x, y, xx, yy])
         }))

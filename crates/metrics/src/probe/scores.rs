@@ -40,8 +40,9 @@ impl OriginReference {
     pub fn measure(&self, probes: &Probes, regions: &Regions) -> ProbeMeasurement {
         let unity = map_pixels(&probes.weight, |weight| (f64::from(*weight) - 1.0).abs());
         let largest = unity.pixels.iter().copied().fold(0.0, f64::max);
-        let errors = index_pixels(&probes.weight, |at| {
-            Difference::new(find_gathered_origin(probes, at), self.expected.at(at))
+        let errors = index_pixels(&regions.knowable, |at| {
+            regions.knowable.pixels[at]
+                .then(|| Difference::new(find_gathered_origin(probes, at), self.expected.at(at)))?
         });
         let inside = regions.indices(Region::Knowable);
         let found = average(inside.filter_map(|at| errors.pixels[at]));

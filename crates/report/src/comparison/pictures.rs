@@ -1,9 +1,9 @@
 //! Pictures of a case in two runs.
 
-use frame::{Plane, read_exr};
+use frame::Plane;
 use judge::Pair;
 use store::RenderFile;
-use suite::{Error, StoredRun};
+use suite::{Error, ErrorMaps, StoredRun};
 
 use crate::pixels::png::{embed_file, embed_picture};
 
@@ -40,12 +40,12 @@ impl Pictures {
 }
 
 fn change(sides: [&StoredRun; 2], pair: &Pair) -> Result<Option<String>, Error> {
-    let files = pair.files(sides, "errors.exr");
-    if !files.iter().all(|file| file.is_file()) {
+    let files = ["errors.exr", "output.exr"].map(|name| pair.files(sides, name));
+    if !files.as_flattened().iter().all(|file| file.is_file()) {
         return Ok(None);
     }
-    let [first, second] = files.map(|file| read_exr(&file)?.plane("flip"));
-    let (first, second) = (first?, second?);
+    let flip = |case, side: &StoredRun| ErrorMaps::read(case, side.folder())?.map("flip");
+    let (first, second) = (flip(pair.first, sides[0])?, flip(pair.second, sides[1])?);
     if !first.same_size(&second) {
         return Ok(None);
     }

@@ -190,6 +190,7 @@ impl SceneFiles {
             self.truths.insert(case.alignment, truth);
         }
         let truth = &self.truths[&case.alignment];
+        errors.add_flip(&truth.mean.color, &output, self.frame.display);
         let bleeds = read_bleeds(&file, &self.frame.objects, truth)?;
         let colors = self.planes.add_image(&output);
         let truths = truth.color_planes();

@@ -7,6 +7,7 @@ use frame::{Frame, Ladder, Picture, Vectors};
 use metrics::{
     ColorReference, ImageScores, Jitter, MeasureError, Measurement, Metric, ProbeScores, Reference,
 };
+use store::RenderFile;
 use tracer::Defocus;
 
 use super::dilated_velocity::read_dilated_velocity;
@@ -239,9 +240,15 @@ impl CaseContext<'_> {
             CommonTruth::Missing => ImageScores::not_applicable(OTHER_SHUTTER),
         };
         let folder = planned.id.folder();
+        let rung = match planned.source {
+            PictureSource::Accumulation(subframes) => {
+                Some(RenderFile::Rung(planned.id.alignment, subframes))
+            }
+            _ => None,
+        };
         let files = write_case(
             &self.scene.plan.out.join(&folder),
-            self.frame,
+            (self.frame, rung),
             (picture, measured.dilated_velocity.as_ref()),
             measurement,
         )?;

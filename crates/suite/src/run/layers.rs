@@ -8,9 +8,10 @@ use tracer::{Progress, TraceError, Watch};
 
 use super::Run;
 use super::case::Case;
+use super::error_maps::ErrorMaps;
 use crate::Error;
 
-/// Single channels of errors.exr that become layers.
+/// Error maps that become layers.
 const MAPS: [ErrorMap; 3] = [
     ErrorMap::Flip,
     ErrorMap::LabelTotalVariation,
@@ -56,15 +57,13 @@ fn collect_layers(
     folder: &Path,
 ) -> Result<ExrFile, Error> {
     let own = folder.join(&case.folder);
-    let (output, errors) = (
-        read_exr(&own.join("output.exr"))?,
-        read_exr(&own.join("errors.exr"))?,
-    );
+    let output = read_exr(&own.join("output.exr"))?;
+    let errors = ErrorMaps::read(case, folder)?;
     let (width, height) = truth.size();
     let sizes = [
         ("frame.exr", frame.size()),
         ("output.exr", (output.width, output.height)),
-        ("errors.exr", (errors.width, errors.height)),
+        ("errors.exr", errors.size()),
     ];
     if let Some((name, found)) = sizes.iter().find(|(_, found)| *found != (width, height)) {
         return Err(Error::Usage(format!(
@@ -84,8 +83,9 @@ fn collect_layers(
         std::array::from_fn(|c| output[c] - truth[c])
     });
     file.push_color("signed", &signed);
+    errors.add_flip(&mean.color, &color, frame.display);
     for map in MAPS {
-        file.push_plane(map.name(), &errors.plane(map.name())?);
+        file.push_plane(map.name(), &errors.map(map.name())?);
     }
     file.push_vectors("velocity", &frame.velocity);
     file.push_plane("depth.Z", &frame.depth);

@@ -46,7 +46,7 @@ pub(crate) struct InstantSums {
     unknowable: f64,
     placed: f64,
     offset: DVec2,
-    spread: DVec3,
+    spread: DVec2,
 }
 
 /// Means over the samples of a pixel.
@@ -56,8 +56,8 @@ pub(crate) struct InstantMeans {
     pub unknowable: f64,
     pub placed: f64,
     pub offset: DVec2,
-    /// xx, xy, yy.
-    pub spread: DVec3,
+    /// xx, yy.
+    pub spread: DVec2,
 }
 
 impl InstantView {
@@ -237,12 +237,7 @@ impl InstantSums {
             let offset = place - DVec2::from(centre);
             self.placed += share;
             self.offset += share * offset;
-            self.spread += share
-                * DVec3::new(
-                    offset.x * offset.x,
-                    offset.x * offset.y,
-                    offset.y * offset.y,
-                );
+            self.spread += share * (offset * offset);
         }
     }
 
