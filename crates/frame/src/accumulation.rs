@@ -125,7 +125,7 @@ impl Ladder {
         }
     }
 
-    pub(crate) fn read_file(path: &Path) -> Result<Self, FileError> {
+    fn read_file(path: &Path) -> Result<Self, FileError> {
         let mut file = read_exr(path)?;
         file.expect_kind("ladder")?;
         let objects = file.objects()?;

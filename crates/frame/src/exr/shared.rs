@@ -1,8 +1,11 @@
 //! Pixels that a file has in common with another: it leaves them out, and they are read from there.
 
+use std::path::Path;
+
 use super::file::{Channel, ExrFile, Samples};
 use super::reading::read_alone;
-use crate::{Alignment, FileError, Ladder, Picture};
+use crate::FileError;
+use crate::raster::mean_plane;
 
 /// The frame of a scene, as the folder of a case sees it.
 pub const FRAME_OF_CASE: &str = "../frame.exr";
@@ -39,7 +42,7 @@ impl ExrFile {
         let path = self.path.with_file_name(&name);
         let other = match name.as_str() {
             FRAME_OF_CASE | FIRST_RUNG => read_alone(&path)?,
-            _ if is_rung(&name) => average_halves(Ladder::read_file(&path)?),
+            _ if is_rung(&name) => read_mean(&path)?,
             _ => {
                 return Err(self.foreign(format!(
                     "attribute \"{OTHER}\" holds \"{name}\"; allowed: {FRAME_OF_CASE}, {FIRST_RUNG}, and rungs of ladders"
@@ -91,17 +94,26 @@ fn is_rung(name: &str) -> bool {
         let count = file
             .strip_prefix('n')
             .and_then(|rest| rest.strip_suffix(".exr"));
-        alignment.parse::<Alignment>().is_ok()
+        alignment.chars().all(|c| c.is_ascii_lowercase())
             && count.is_some_and(|count| count.parse::<u32>().is_ok())
     })
 }
 
-/// Makes the picture of a rung.
-fn average_halves(ladder: Ladder) -> ExrFile {
-    let mean = Picture::mean(&ladder.rungs[0].halves);
-    let mut file = ExrFile::new(mean.color.width, mean.color.height);
-    mean.move_to(&mut file, "", &ladder.objects);
-    file
+/// Reads the mean of a rung's halves.
+fn read_mean(path: &Path) -> Result<ExrFile, FileError> {
+    let mut rung = read_alone(path)?;
+    if rung.attributes.get(OTHER).map(String::as_str) == Some(FIRST_RUNG) {
+        rung.fill_in()?;
+    }
+    let mut mean = ExrFile::new(rung.width, rung.height);
+    for channel in &rung.channels {
+        if let Some((layer, name)) = channel.name.split_once(".A.") {
+            let twin = rung.plane(&format!("{layer}.B.{name}"))?;
+            let both = rung.plane(&channel.name)?;
+            mean.push_owned_plane(name, mean_plane([&both, &twin]));
+        }
+    }
+    Ok(mean)
 }
 
 fn has_left_out(channel: &Channel) -> bool {
