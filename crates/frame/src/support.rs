@@ -1,8 +1,7 @@
 //! Support: pixels where an open shutter sees things, independent of a truth's noise.
 
 use crate::exr::ExrFile;
-use crate::region::dilate;
-use crate::{FileError, Plane, Raster, Tile, motion_margin};
+use crate::{FileError, Plane, Raster, Tile};
 
 /// Visibility in each pixel while the shutter was open, as probe rays found it.
 ///
@@ -19,11 +18,6 @@ pub struct Support {
 }
 
 impl Support {
-    /// Marks the pixels of [`Region::Moving`](crate::Region::Moving).
-    pub fn moving_region(&self) -> Raster<bool> {
-        dilate(&self.moving, motion_margin(self.moving.height))
-    }
-
     /// Marks the pixels where object `id` was seen and nothing else.
     pub fn throughout(&self, id: usize) -> Raster<bool> {
         let others = self.seen.iter().enumerate().filter(|(at, _)| *at != id);

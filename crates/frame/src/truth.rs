@@ -3,11 +3,11 @@
 use std::path::Path;
 
 use crate::exr::{ExrFile, read_exr, write_small_exr};
-use crate::region::estimate_noise;
+use crate::region::{dilate, estimate_noise};
 use crate::shutter::{get_shutter, set_shutter};
 use crate::{
-    Alignment, AtInstant, FileError, Image, Picture, Plane, Provenance, Region, Regions, Replicate,
-    Shutter, ShutterProfile, Support,
+    Alignment, AtInstant, FileError, Image, Picture, Plane, Provenance, Raster, Region, Regions,
+    Replicate, Shutter, ShutterProfile, Support,
 };
 
 /// Radiance and visibility integrated over the shutter, with its own noise. All rasters have the same size.
@@ -226,6 +226,11 @@ impl Truth {
 /// rest. Moving pixels are knowable where the support saw nothing that the frame does not show.
 pub fn regions(truth: &Truth) -> Regions {
     Regions::new(&truth.support, motion_margin(truth.motion.height))
+}
+
+/// Marks the pixels of [`Region::Moving`].
+pub fn moving_region(support: &Support) -> Raster<bool> {
+    dilate(&support.moving, motion_margin(support.moving.height))
 }
 
 /// Returns the margin around motion that is searched for blur, in pixels: a fifteenth of a picture's height, because bleed

@@ -5,6 +5,7 @@ use std::sync::OnceLock;
 
 use frame::{
     Alignment, AtInstant, ColorSampling, Raster, Replicate, Support, Tile, Truth, motion_margin,
+    moving_region,
 };
 
 use crate::aligned_shutter::{AlignedShutter, list_family};
@@ -171,7 +172,7 @@ impl<'a> TruthTracer<'a> {
         let canvas = self.canvas();
         let settings = &self.settings;
         let picture = assemble_picture(tile, means);
-        let moving = support.moving_region().part(tile);
+        let moving = moving_region(support).part(tile);
         let at_instant = assemble_at_instant(tile, instant_means)
             .rounded()
             .within(&moving);
