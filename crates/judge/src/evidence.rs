@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use frame::{Ladder, Picture, read_exr};
+use frame::{Ladder, Picture, read_attribute, read_exr};
 use metrics::Reference;
 use store::RenderFile;
-use suite::{Case, Error, ErrorMaps, Run};
+use suite::{Case, Error, ErrorMaps, Run, SHARP};
 
 use crate::decoys::{Decoys, FEW_SUBFRAMES};
 use crate::finding::Finding;
@@ -37,10 +37,11 @@ fn add_evidence_of_truth(
 ) -> Result<(), Error> {
     let (first, _) = &cases[0];
     let (frame, truth) = first.read_frame_and_truth(folder)?;
-    let file = RenderFile::Rung(truth.alignment, FEW_SUBFRAMES);
-    let file = first.render_path(folder, file);
-    // An engine may have drawn too few sub-frames for it.
-    let few_subframes = match file.exists() {
+    let rung = |count| first.render_path(folder, RenderFile::Rung(truth.alignment, count));
+    let file = rung(FEW_SUBFRAMES);
+    // An engine may have drawn too few sub-frames for it, or it is of an earlier truth: a check renders only the first rung.
+    let hash = |file: &Path| read_attribute(file, "content_hash");
+    let few_subframes = match file.exists() && hash(&file) == hash(&rung(SHARP)) {
         true => Some(Ladder::read_rung(&file, FEW_SUBFRAMES)?),
         false => None,
     };
