@@ -1,5 +1,6 @@
 //! Keeps results: puts the scores of runs of different scenes into their file below `results/`, and writes its page from all files
-//! there: `cargo run -p cli --example results -- out/run.json`. Without a run it only writes the page.
+//! there: `cargo run -p cli --example results -- out/run.json`. A file named `bench` and more, as pages save it, goes into its card's file
+//! below `results/bench/`. Without a file it only writes the page.
 
 mod page;
 
@@ -8,15 +9,19 @@ use std::process::ExitCode;
 
 use judge::Results;
 use report::write_case_strip;
-use suite::{Case, Error, Run};
+use suite::{Bench, Case, Error, Run};
 
 use crate::page::{list_engines, main_results, picture_name, results_page};
 
 const FOLDER: &str = "results";
+/// Folder of the files of cards, below the first.
+const BENCHES: &str = "bench";
 
 fn main() -> ExitCode {
-    let runs: Vec<PathBuf> = std::env::args_os().skip(1).map(PathBuf::from).collect();
-    match keep(&runs).and_then(|()| write_page(&runs)) {
+    let paths = std::env::args_os().skip(1).map(PathBuf::from);
+    let (benches, runs): (Vec<_>, Vec<_>) = paths.partition(|path| is_bench(path));
+    let kept = keep(&runs).and_then(|()| keep_benches(&benches));
+    match kept.and_then(|()| write_page(&runs)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("{error}");
@@ -44,11 +49,25 @@ fn keep(paths: &[PathBuf]) -> Result<(), Error> {
     Ok(())
 }
 
+fn is_bench(path: &Path) -> bool {
+    let name = path.file_name().unwrap_or_default();
+    name.to_string_lossy().starts_with("bench")
+}
+
+fn keep_benches(paths: &[PathBuf]) -> Result<(), Error> {
+    for path in paths {
+        let kept = Bench::read(path)?.keep(&Path::new(FOLDER).join(BENCHES))?;
+        println!("{}", kept.display());
+    }
+    Ok(())
+}
+
 /// Writes the page from every file of results, and the pictures of the runs' cases on it.
 fn write_page(runs: &[PathBuf]) -> Result<(), Error> {
     let results = Results::read_all(Path::new(FOLDER))?;
+    let cards = Bench::read_all(&Path::new(FOLDER).join(BENCHES))?;
     let path = Path::new(FOLDER).join("README.md");
-    frame::write_atomically(&path, results_page(&results)?.as_bytes())?;
+    frame::write_atomically(&path, results_page(&results, &cards)?.as_bytes())?;
     println!("{}", path.display());
     for path in runs {
         write_pictures(&results, &Run::read(path)?, path)?;

@@ -10,9 +10,6 @@ use suite::{Bench, Error, IDENTITY};
 /// Engines' shipped presets, without scores.
 const ENGINES: &str = include_str!("../../results/engines.toml");
 
-/// A bench of the presets on a graphics card.
-const BENCH: &str = include_str!("../../results/bench/1920x1080_h100.json");
-
 /// Characters of a line of the page.
 const WIDTH: usize = 135;
 
@@ -56,8 +53,11 @@ pub fn main_results(all: &[Results]) -> Option<&Results> {
 }
 
 /// Makes the page from files of results: engines' shipped presets, and each shutter's presets next to their ranks in the sealed variants.
-pub fn results_page(all: &[Results]) -> Result<String, Error> {
-    let bench: Bench = serde_json::from_str(BENCH).expect("it is a bench");
+pub fn results_page(all: &[Results], cards: &[Bench]) -> Result<String, Error> {
+    let (of_browsers, benches): (Vec<&Bench>, Vec<&Bench>) =
+        (cards.iter()).partition(|own| own.scene.is_some());
+    let longest = benches.into_iter().max_by_key(|own| own.cases.len());
+    let bench = longest.ok_or_else(|| Error::Usage("no bench of the program".to_owned()))?;
     let results = main_results(all).ok_or_else(|| Error::Usage("no file of results".to_owned()))?;
     let sealed = all.iter().find(|own| {
         own.seal.is_some() && own.size == results.size && own.adapter == results.adapter
@@ -78,7 +78,7 @@ pub fn results_page(all: &[Results]) -> Result<String, Error> {
         })
     };
     let groups = results.ranking();
-    let mut page = fill(HEAD) + &engines(results, &groups, &bench);
+    let mut page = fill(HEAD) + &engines(results, &groups, bench) + &times(&of_browsers);
     page += &fill(PRESETS);
     let sealed_groups = sealed.map(Results::ranking).unwrap_or_default();
     for group in &groups {
@@ -146,7 +146,7 @@ These commands make the scores, the pictures and this page. Each run announces t
     cargo run -p cli --example results -- out/sealed_{SIZE}/run.json
 
 Flax's licence forbids a port, so that it has no row: [its finding](findings/flax.md). To add a filter, put its folder into `shaders/` and run them with `--filter` and its name. The JSON files next to this page hold every
-score, and [one in bench](bench/1920x1080_h100.json) the times; [engines.toml](engines.toml) holds the sentences about engines. [Picture sizes](studies/picture-sizes.md) uses the files of other
+score, and [one in bench](bench/1920x1080_nvidia_h100_80gb_hbm3.json) the times; [engines.toml](engines.toml) holds the sentences about engines. [Picture sizes](studies/picture-sizes.md) uses the files of other
 sizes. [What the scores mean](../crates/metrics/README.md).
 ";
 
@@ -235,6 +235,27 @@ fn engines(results: &Results, groups: &[Vec<RankedFilter>], bench: &Bench) -> St
         }
     }
     text
+}
+
+/// Makes the table of the times that readers' browsers measured; nothing without any.
+fn times(cards: &[&Bench]) -> String {
+    let titles = ["card", "picture", "preset", "time"];
+    let rows = cards
+        .iter()
+        .flat_map(|own| own.cases.iter().map(move |case| (own, case)));
+    let rows = rows.map(|(own, case)| {
+        let picture = format!("{}x{}, {}", own.width, own.height, own.frame_text());
+        let name = format!("{}:{}", case.filter, case.preset);
+        let time = find_time(own, &name);
+        vec![own.adapter.name.clone(), picture, format!("`{name}`"), time]
+    });
+    if cards.is_empty() {
+        return String::new();
+    }
+    let table = markdown_table(&titles, rows);
+    format!(
+        "\n## Readers' cards\n\nBrowsers measured these times, in milliseconds per frame.\n\n{table}"
+    )
 }
 
 /// Finds the time of a preset in milliseconds; a dash if it was not timed.

@@ -11,7 +11,7 @@ use filters::Filter;
 use frame::Alignment;
 use judge::{Agreement, Results, compare_sizes};
 use metrics::Metric;
-use suite::{IDENTITY, Run};
+use suite::{Bench, IDENTITY, Run};
 use tests::filter_folder::copy_changed_filter;
 use tests::text::assert_contains;
 use tracer::{Location, SceneId, Seal, list_scenes};
@@ -41,9 +41,10 @@ fn the_page_of_results_is_made_from_the_files_beside_it() {
         assert!(text == own.text(), "{name} was edited");
     }
     assert!(results.iter().any(|own| own.seal.is_some()));
+    let cards = Bench::read_all(&folder().join("bench")).unwrap();
     let page = fs::read_to_string(folder().join("README.md")).unwrap();
     assert!(
-        page == results_page(&results).unwrap(),
+        page == results_page(&results, &cards).unwrap(),
         "results/README.md is not what its files say; write it: cargo run -p cli --example results"
     );
 }

@@ -1,12 +1,13 @@
 //! Live cases: filters that the page itself runs, in a real browser, against the program.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use frame::{Image, Raster};
 use serde_json::{Value, json};
-use suite::Case;
+use suite::{Bench, Case};
 use tests::filter_folder::copy_folder;
+use tests::text::assert_contains;
 
 use crate::browser::Browser;
 use crate::sandbox::Sandbox;
@@ -144,10 +145,72 @@ fn a_page_runs_filters_as_the_program_does() {
         let found = compare(&mut browser, &sandbox, "out", &case);
         assert!(found.are_small(&case.name()), "{}: {found:?}", case.name());
     }
+    the_times_of_a_page_are_a_bench_of_the_program(&mut browser, &sandbox);
     // Left, it leaves nothing behind.
     browser.press("k");
     browser.until("!document.querySelector('.trying') && document.querySelector('[name=left]').value === 'truth'");
     assert_eq!(browser.complaints(), [""; 0]);
+}
+
+/// Clicks a button of the panel that saves a file; returns the file's path.
+fn save(browser: &mut Browser, sandbox: &Sandbox, button: &str, file: &str) -> PathBuf {
+    browser.save_to(&sandbox.path(""));
+    browser.value(&format!(
+        "[...document.querySelectorAll('.live button')].find(one => one.textContent === '{button}').click()"
+    ));
+    let path = sandbox.path(file);
+    while !path.is_file() {
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    path
+}
+
+fn the_times_of_a_page_are_a_bench_of_the_program(browser: &mut Browser, sandbox: &Sandbox) {
+    let path = save(browser, sandbox, "Download bench.json", "bench.json");
+    let mut bench = Bench::read(&path).unwrap();
+    assert_eq!((bench.width, bench.height, bench.rounds), (64, 32, 64));
+    assert_eq!(bench.scene.as_deref(), Some("plate"));
+    let [case] = &bench.cases[..] else {
+        panic!("{:?}", bench.cases);
+    };
+    let mut shipped = sandbox.read_filter_cases().into_iter();
+    let shipped = shipped.find(|own| own.filter == "bevy_blur").unwrap();
+    assert_eq!(
+        (&case.filter, &case.preset),
+        (&shipped.filter, &shipped.preset)
+    );
+    assert_eq!(case.parameters, shipped.parameters);
+    assert!(
+        case.seconds.lower_quartile > 0.0 && case.passes.len() == 1,
+        "{case:?}"
+    );
+    let kept = sandbox.path("kept");
+    let refused = bench.clone().keep(&kept).unwrap_err().to_string();
+    assert_contains(&refused, &["is a processor; only times of graphics cards"]);
+    // Times of another preset join those of the first.
+    bench.adapter.kind = "other".to_owned();
+    bench.adapter.name = "A Card (R)".to_owned();
+    let first = bench.clone().keep(&kept).unwrap();
+    assert!(first.ends_with("64x32_a_card_r_plate.json"), "{first:?}");
+    bench.cases[0].preset = "later".to_owned();
+    bench.clone().keep(&kept).unwrap();
+    assert_eq!(bench.clone().keep(&kept).unwrap(), first);
+    let presets = Bench::read(&first).unwrap().cases.into_iter();
+    let presets: Vec<String> = presets.map(|own| own.preset).collect();
+    assert_eq!(presets, [shipped.preset.clone(), "later".to_owned()]);
+    bench.rounds = 20;
+    let refused = bench.clone().keep(&kept).unwrap_err().to_string();
+    assert_contains(
+        &refused,
+        &[
+            "holds times of 64 rounds on the scene plate",
+            "not of 20 rounds",
+        ],
+    );
+    bench.format = 9;
+    fs::write(&path, json!(bench).to_string()).unwrap();
+    let refused = Bench::read(&path).unwrap_err().to_string();
+    assert_contains(&refused, &["bench.json: has format 9; allowed: 1"]);
 }
 
 #[test]
@@ -188,13 +251,7 @@ fn what_a_reader_changes_is_what_the_program_measures() {
     let tried = read_score(&mut browser, "flip");
     assert_ne!(tried, before);
 
-    browser.save_to(&sandbox.path(""));
-    let save = "[...document.querySelectorAll('.live button')].find(one => one.textContent === 'Download filter').click()";
-    browser.value(save);
-    let zip = sandbox.path("kino.zip");
-    while !zip.is_file() {
-        std::thread::sleep(std::time::Duration::from_millis(20));
-    }
+    let zip = save(&mut browser, &sandbox, "Download filter", "kino.zip");
     unpack(&fs::read(&zip).unwrap(), &sandbox.path(""));
     sandbox.measure("--filters ./kino:tried");
     let metrics::Measured::Score(score) = find_case(&sandbox, "kino:tried")

@@ -22,8 +22,8 @@ mod stats;
 mod verify;
 
 pub use bench::{
-    BASELINE, BENCH_FORMAT, Bench, BenchPlan, CaseCost, GROWTH_FROM, REACHES, ReachCost,
-    ReachPoint, Spread, bench,
+    BASELINE, Bench, BenchPlan, CaseCost, GROWTH_FROM, REACHES, ReachCost, ReachPoint, Spread,
+    bench,
 };
 pub use colors::{magma, velocity_wheel};
 pub use engine_scene::{

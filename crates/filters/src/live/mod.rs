@@ -39,7 +39,10 @@ impl Filter {
             if !as_written {
                 settings = settings.scaled_to(self, width);
             }
-            json!({ "name": preset.name, "doc": preset.doc, "values": settings.values })
+            let reference_width = settings.reference_width;
+            json!({
+                "name": preset.name, "doc": preset.doc, "values": settings.values, "reference_width": reference_width,
+            })
         };
         let has_file = self.passes.iter().any(|pass| pass.shader.is_none());
         let in_pixels = |own: &Parameter| own.unit == Some(Unit::Pixels);

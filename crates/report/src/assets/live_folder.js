@@ -58,6 +58,13 @@
     return `${lines.join("\n")}\n`;
   };
 
+  const saveAs = (download, blob) => {
+    const link = document.createElement("a");
+    Object.assign(link, { href: URL.createObjectURL(blob), download });
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+  };
+
   // Saves the folder with the text of the shader. Returns what to run.
   const save = (filter, values, text, scene) => {
     const toml = `${filter.toml.trimEnd()}\n\n${presetOf(filter, values, scene)}`;
@@ -65,12 +72,9 @@
       [`${filter.name}/filter.toml`, toml],
       [`${filter.name}/${filter.file}`, `${text.trimEnd()}\n`],
     ];
-    const link = document.createElement("a");
-    Object.assign(link, { href: URL.createObjectURL(zip(files)), download: `${filter.name}.zip` });
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+    saveAs(`${filter.name}.zip`, zip(files));
     return `shuttertruth run --filter ./${filter.name}:${nameOf(filter)}`;
   };
 
-  pictures.folder = { presetOf, save };
+  pictures.folder = { presetOf, save, saveAs };
 }

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use filters::{EXCLUSION, Filter, Input};
 use metrics::{Measured, Metric};
 use serde_json::json;
-use suite::{Case, Error, FilterFrame, InputFormat, MEASURED_FILTERS, Run, filter_input};
+use suite::{Case, Error, FilterFrame, InputFormat, MEASURED_FILTERS, PROGRAM, Run, filter_input};
 
 use crate::pixels::report_files::write_script;
 
@@ -156,6 +156,7 @@ fn describe_case(
         "parameters": case.parameters,
         "values": filter.frame_values(&input)?,
         "alignment": case.alignment,
+        "program": PROGRAM,
         "stored": {
             "flip": value(Metric::FLIP),
             "psnr": value(Metric::PSNR),
