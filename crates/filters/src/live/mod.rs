@@ -5,6 +5,7 @@ mod expressions;
 mod inputs;
 mod modules;
 mod passes;
+mod translated;
 
 use std::collections::BTreeMap;
 
@@ -18,6 +19,7 @@ use expressions::{describe, list_names};
 use inputs::list_inputs;
 use modules::list_modules;
 use passes::{describe_pass, list_features};
+use translated::rewrite;
 
 impl Filter {
     /// Describes the filter for pictures of a width, without their guard band; `as_written` leaves the presets' values in pixels unscaled.
@@ -44,12 +46,10 @@ impl Filter {
                 "name": preset.name, "doc": preset.doc, "values": settings.values, "reference_width": reference_width,
             })
         };
-        let has_file = self.passes.iter().any(|pass| pass.shader.is_none());
         let in_pixels = |own: &Parameter| own.unit == Some(Unit::Pixels);
         Ok(json!({
             "name": self.name,
-            "file": has_file.then(|| format!("{}.wgsl", self.name)),
-            "toml": toml,
+            "toml": rewrite(self, toml),
             // What a new preset has to name, so that its values in pixels stay as they are.
             "reference_width": self.parameters.iter().any(in_pixels).then_some(width),
             "parameters": self.parameters,

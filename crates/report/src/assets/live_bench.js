@@ -7,6 +7,8 @@
   // A pass is repeated until it takes this long, in nanoseconds: browsers round the clock to about 0.1 ms.
   const SPAN = 5e6;
   const MOST_REPETITIONS = 2048;
+  // A clock with shorter steps is not rounded, in seconds.
+  const EXACT = 1e-6;
 
   // Runs every dispatch `counts` times; returns its start and end by the clock, in nanoseconds.
   const readClock = async (device, { dispatches }, counts) => {
@@ -66,7 +68,12 @@
 
   const divisorOf = (a, b) => (b === 0n ? a : divisorOf(b, a % b));
 
-  // Measures a filter: `seconds` of all passes, `passes` with their own, and the steps of the clock in seconds.
+  const stepOf = (nanoseconds) => {
+    const step = Math.abs(Number(nanoseconds)) / 1e9;
+    return step > EXACT ? step : null;
+  };
+
+  // Measures a filter: `seconds` of all passes, `passes` with their own, and the steps of a rounded clock in seconds.
   const time = (device, words) =>
     card.caught(device, async () => {
       const run = card.prepare(device, words);
@@ -84,7 +91,7 @@
         });
         const all = turns.map((_, turn) => passes.reduce((sum, own) => sum + own.turns[turn], 0));
         const described = passes.map(({ turns: own, ...pass }) => ({ ...pass, seconds: spreadOf(own) }));
-        return { seconds: spreadOf(all), passes: described, step: Math.abs(Number(step)) / 1e9 };
+        return { seconds: spreadOf(all), passes: described, step: stepOf(step) };
       } finally {
         card.destroy(run);
       }
@@ -101,7 +108,7 @@
       cases.push({ filter: filter.name, preset: name, parameters: values, reference_width, ...times });
     }
     const { width, height } = scene;
-    const clock = { clock: "timestamps", clock_step: Math.min(...steps) };
+    const clock = { clock: "timestamps", clock_step: Math.min(...steps) || null };
     const bench = { format: 1, program, adapter, ...clock, width, height, rounds: TURNS, scene: scene.name, cases, reaches: [] };
     // Real numbers have a point.
     const reals = filter.parameters.filter(({ kind }) => kind === "real").map(({ name }) => name);
