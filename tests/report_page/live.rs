@@ -10,7 +10,7 @@ use tests::filter_folder::copy_folder;
 use tests::text::assert_contains;
 
 use crate::browser::Browser;
-use crate::sandbox::Sandbox;
+use crate::sandbox::{SCENE, Sandbox};
 use crate::{make_page, open_case};
 
 /// Place of the open case's panel.
@@ -132,12 +132,19 @@ fn find_case(sandbox: &Sandbox, name: &str) -> Case {
 #[test]
 fn a_page_runs_filters_as_the_program_does() {
     let sandbox = Sandbox::new();
-    // Passes with textures of tiles; exchanged textures; a vertex stage, a sampler, halves and velocity in another unit.
-    copy_folder(
-        &tests::root().join("examples/first_blur/bevy"),
-        &sandbox.path("bevy_blur"),
-    );
-    sandbox.measure("--filters kino:default,jump_flood:corrected,./bevy_blur");
+    // Passes with textures of tiles; exchanged textures; the mask; an include; a vertex stage, a sampler, halves and velocity in another
+    // unit.
+    let held =
+        "[object.held]\nmesh = \"plate.obj\"\nparent = \"camera\"\ntranslation = [0, -0.6, -2]\n";
+    sandbox.write("scene.toml", &format!("{SCENE}\n{held}"));
+    let body = "textureStore(output, pixel, textureLoad(color, pixel, 0) * (1.0 - textureLoad(exclusion, pixel, 0).x));";
+    sandbox.write_kernel("masked", "", &["exclusion"], body);
+    for name in ["unreal", "bevy"] {
+        let folder = tests::root().join("examples/first_blur").join(name);
+        copy_folder(&folder, &sandbox.path(&format!("{name}_blur")));
+    }
+    sandbox
+        .measure("--filters kino:default,jump_flood:corrected,./masked,./unreal_blur,./bevy_blur");
     let page = make_page(&sandbox);
     let mut browser = Browser::new(1280, 900);
     for case in sandbox.read_filter_cases() {

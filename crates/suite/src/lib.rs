@@ -58,7 +58,7 @@ pub use monitor::{Monitor, Step};
 pub use pack::unpacked::{Unpacked, take_pack};
 pub use pack::write_pack;
 pub use random::Random;
-pub use render::exclusion::FilterFrame;
+pub use render::exclusion::{FilterFrame, read_exclusion};
 pub use render::ladders::{SHARP, sharp_picture};
 pub use render::merge::{Merged, merge};
 pub use render::rendering::Rendering;

@@ -66,6 +66,19 @@ impl Filter {
         }))
     }
 
+    /// Lists the files of a folder that has the filter in WGSL, each with its text: filter.toml, then its modules.
+    ///
+    /// # Errors
+    /// As [`Filter::live`].
+    pub fn wgsl_files(&self) -> Result<Vec<(String, String)>, String> {
+        let live = self.live(0, true)?;
+        let text = |value: &Value, name: &str| value[name].as_str().map(str::to_owned);
+        let toml = text(&live, "toml").map(|text| ("filter.toml".to_owned(), text));
+        let modules = live["modules"].as_array().into_iter().flatten();
+        let modules = modules.filter_map(|own| Some((text(own, "file")?, text(own, "wgsl")?)));
+        Ok(toml.into_iter().chain(modules).collect())
+    }
+
     /// Lists the numbers of a frame that the filter's data name, without the run of a pass. Fails for a frame that lacks one of them.
     pub fn frame_values(&self, input: &Input) -> Result<BTreeMap<String, f64>, String> {
         let frame = FrameValues::of(input, &self.convention);

@@ -81,7 +81,9 @@ impl<'a> LiveFiles<'a> {
         let Some(filter) = found.filter(|_| case.command.is_none()) else {
             let reason = match case.command {
                 Some(_) => "A browser cannot run this filter: it is a program.",
-                None => "This page cannot run the filter: the run's folder does not hold it.",
+                None => {
+                    "This page cannot run the filter: the run's folder does not hold it in WGSL."
+                }
             };
             return Ok(Err(reason.to_owned()));
         };
