@@ -1,6 +1,8 @@
 //! Live cases: filters that the page itself runs, in a real browser, against the program.
 
 use std::fs;
+use std::io::{BufRead, BufReader, Write};
+use std::net::{TcpListener, TcpStream};
 use std::path::{Path, PathBuf};
 
 use frame::{Image, Raster};
@@ -28,6 +30,36 @@ fn open_panel(browser: &mut Browser, page: &Path, case: &str) {
     browser.until(&format!(
         "{LIVE}.dataset.version === '1' || !['Loading ..', ''].includes({LIVE}.querySelector('.said').textContent)"
     ));
+}
+
+/// Serves the folder of a page at 127.0.0.1, where a browser loads files by other rules; returns the page's address.
+fn serve(page: &Path) -> PathBuf {
+    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+    let address = listener.local_addr().unwrap();
+    let folder = page.parent().unwrap().to_owned();
+    // A browser may open a connection and not use it.
+    let answer = |mut stream: TcpStream, folder: PathBuf| {
+        let mut first = String::new();
+        BufReader::new(&stream).read_line(&mut first)?;
+        let path = first.split(' ').nth(1).unwrap_or("/");
+        let path = folder.join(path[1..].replace("%20", " "));
+        let is_script = path.extension().is_some_and(|ending| ending == "js");
+        let kind = ["text/html", "text/javascript"][usize::from(is_script)];
+        let body = fs::read(path)?;
+        let head = format!(
+            "HTTP/1.1 200 OK\r\nContent-Type: {kind}\r\nContent-Length: {}\r\nConnection: close\r\n\r\n",
+            body.len()
+        );
+        stream.write_all(&[head.into_bytes(), body].concat())
+    };
+    std::thread::spawn(move || {
+        for stream in listener.incoming().flatten() {
+            let folder = folder.clone();
+            std::thread::spawn(move || answer(stream, folder));
+        }
+    });
+    let name = page.file_name().unwrap().to_str().unwrap();
+    PathBuf::from(format!("http://{address}/{name}"))
 }
 
 /// Changes the panel by a script, and waits for the next picture.
@@ -251,7 +283,7 @@ fn what_a_reader_changes_is_what_the_program_measures() {
     let page = make_page(&sandbox);
     sandbox.measure_into("moved", "--filters kino:default --set kino.samples=4");
     let mut browser = Browser::new(1280, 900);
-    open_panel(&mut browser, &page, "plate/kino:default");
+    open_panel(&mut browser, &serve(&page), "plate/kino:default");
     let field = format!("{LIVE}.querySelector('[type=number][aria-label^=\"samples\"]')");
     change(
         &mut browser,
