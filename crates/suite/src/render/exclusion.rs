@@ -7,7 +7,8 @@ use filters::EXCLUSION;
 use frame::{ExrFile, FileError, Frame, Plane, read_exr, write_exr};
 use tracer::{Parent, Scene};
 
-use crate::engine_scene::EXCLUSION_FILE;
+/// Name of the mask's file in the folder of a scene.
+pub const EXCLUSION_FILE: &str = "exclusion.exr";
 
 /// A frame with the mask that few filters read.
 pub struct FilterFrame {
