@@ -41,12 +41,22 @@ fn the_page_of_results_is_made_from_the_files_beside_it() {
         assert!(text == own.text(), "{name} was edited");
     }
     assert!(results.iter().any(|own| own.seal.is_some()));
-    let cards = Bench::read_all(&folder().join("bench")).unwrap();
+    let mut cards = Bench::read_all(&folder().join("bench")).unwrap();
     let page = fs::read_to_string(folder().join("README.md")).unwrap();
     assert!(
         page == results_page(&results, &cards).unwrap(),
         "results/README.md is not what its files say; write it: cargo run -p cli --example results"
     );
+    // A reader's card, as a browser would have timed it.
+    let sent = Some("fan".to_owned());
+    cards.push(Bench {
+        scene: sent,
+        speed: None,
+        ..cards[0].clone()
+    });
+    let page = results_page(&results, &cards).unwrap();
+    let row = "1920x1080, the scene fan | `babylon:default` | 0.06 |";
+    assert_contains(&page, &["## Readers' cards", row]);
 }
 
 #[test]

@@ -6,6 +6,7 @@ use std::net::{TcpListener, TcpStream};
 use std::path::{Path, PathBuf};
 
 use frame::{Image, Raster};
+use metrics::Metric;
 use serde_json::{Value, json};
 use suite::{Bench, Case};
 use tests::filter_folder::copy_folder;
@@ -143,15 +144,15 @@ fn compare(browser: &mut Browser, sandbox: &Sandbox, out: &str, case: &Case) -> 
     let stored = sandbox.read_color(&format!("{out}/{}/output.exr", case.folder.display()));
     let live = read_picture(browser, (stored.width, stored.height));
     let apart = find_apart(&live, &stored);
-    let mut score = |metric, name| match case.scores.get(metric) {
-        metrics::Measured::Score(stored) => (read_score(browser, name) - stored.value).abs(),
-        metrics::Measured::NotApplicable { reason } => panic!("no {name}: {reason}"),
+    let mut score = |metric, name| {
+        let stored = case.measured(metric).value().unwrap();
+        (read_score(browser, name) - stored).abs()
     };
     Differences {
         pixel: apart.iter().copied().fold(0.0, f32::max),
         share: count_apart(&apart),
-        flip: score(metrics::Metric::FLIP, "flip"),
-        psnr: score(metrics::Metric::PSNR, "psnr"),
+        flip: score(Metric::FLIP, "flip"),
+        psnr: score(Metric::PSNR, "psnr"),
     }
 }
 
@@ -215,7 +216,7 @@ fn a_translated_shader_can_be_changed_and_saved(browser: &mut Browser, sandbox: 
     sandbox.measure_into("again", "--filters ./saved/bevy_blur:tried");
     let run: suite::Run = sandbox.read_json("again/run.json");
     let case = run.cases.iter().find(|case| case.preset == "tried");
-    let score = case.unwrap().estimate(metrics::Metric::FLIP).unwrap();
+    let score = case.unwrap().measured(Metric::FLIP).value().unwrap();
     assert!((score - tried).abs() <= f64::from(APART), "{score} {tried}");
 }
 
@@ -236,13 +237,11 @@ fn the_times_of_a_page_are_a_bench_of_the_program(browser: &mut Browser, sandbox
     let [case] = &bench.cases[..] else {
         panic!("{:?}", bench.cases);
     };
-    let mut shipped = sandbox.read_filter_cases().into_iter();
-    let shipped = shipped.find(|own| own.filter == "bevy_blur").unwrap();
+    let shipped = find_case(sandbox, "bevy_blur:default");
     assert_eq!(
-        (&case.filter, &case.preset),
-        (&shipped.filter, &shipped.preset)
+        (&case.preset, &case.parameters),
+        (&shipped.preset, &shipped.parameters)
     );
-    assert_eq!(case.parameters, shipped.parameters);
     assert!(
         case.seconds.lower_quartile > 0.0 && case.passes.len() == 1,
         "{case:?}"
@@ -310,7 +309,9 @@ fn what_a_reader_changes_is_what_the_program_measures() {
     let zip = save(&mut browser, &sandbox, "Download filter", "kino.zip");
     unpack(&fs::read(&zip).unwrap(), &sandbox.path(""));
     sandbox.measure("--filters ./kino:tried");
-    let score = find_case(&sandbox, "kino:tried").estimate(metrics::Metric::FLIP);
+    let score = find_case(&sandbox, "kino:tried")
+        .measured(Metric::FLIP)
+        .value();
     assert!((score.unwrap() - tried).abs() <= f64::from(APART));
     assert_eq!(browser.complaints(), [""; 0]);
 }
