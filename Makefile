@@ -1,4 +1,4 @@
-# `make run` does the main job; `make test` proves that the program is right, and `make prove` repeats it at full breadth within an
+# `make run` does the main job, and `make site` makes a site of its results; `make test` proves that the program is right, and `make prove` repeats it at full breadth within an
 # hour: CONTRIBUTING.md. `make archive` makes the release archive; `make action` and `make image` try it in a bare Debian and in two
 # images: docs/release.md.
 #
@@ -8,7 +8,7 @@
 # shaders in GLSL. `make prove` needs Blender, too.
 # On macOS and Windows plain cargo commands work.
 
-.PHONY: run test prove breadth guides fuzz mutants growth archive action image publish vulkan software_vulkan python chromium node glslang blender
+.PHONY: run site test prove breadth guides fuzz mutants growth archive action image publish vulkan software_vulkan python chromium node glslang blender mdbook
 
 # Mesa complains on every start where a login session has not set it, as in containers; nothing is written there.
 export XDG_RUNTIME_DIR ?= /tmp
@@ -18,6 +18,17 @@ SCENES ?= sliding_panel,panel_over_texture,two_spheres,railing,fan
 
 run: vulkan
 	cargo run --locked --bin shuttertruth -- run $(if $(SCENES),--scenes $(SCENES)) --samples-per-pixel 64 --out out
+
+# A static site in target/site: results, an engine's page each, the gallery, live cases of $(SCENES), and the guides.
+TARGET_DIR := $(abspath $(or $(CARGO_TARGET_DIR),target))
+
+site: vulkan mdbook
+	cargo build --workspace --locked --bin shuttertruth --example results
+	"$(PROGRAM)" run --scenes $(SCENES) --size 320x180 --samples-per-pixel 64 --out "$(TARGET_DIR)/site_run" \
+	    --filter "identity$$(sed -n 's/^ships = "\(.*\)"/,\1/p' results/engines.toml | tr -d '\n')"
+	rm -rf "$(TARGET_DIR)/site_source"
+	"$(dir $(PROGRAM))examples/results" --site "$(TARGET_DIR)/site_source" "$(TARGET_DIR)/site_run/run.json"
+	"$(MDBOOK)" build "$(TARGET_DIR)/site_source" --dest-dir "$(TARGET_DIR)/site"
 
 # Tests compare numbers, which graphics cards round in their own ways. They run on Mesa's software driver, or on VK_DRIVER_FILES.
 TEST = VK_DRIVER_FILES="$${VK_DRIVER_FILES:-$$(ls /usr/share/vulkan/icd.d/lvp_icd*.json 2>/dev/null | head -n 1)}" cargo test --workspace --locked
@@ -179,6 +190,14 @@ glslang:
 	command -v glslangValidator >/dev/null && exit 0; \
 	$(call INSTALL,compiler of GLSL,glslang-tools,$(GLSLANG_WAY_OUT)); \
 	command -v glslangValidator >/dev/null || { echo "still no glslangValidator after the installation; $(GLSLANG_WAY_OUT)" >&2; exit 1; }
+
+# mdBook makes a book of Markdown pages.
+MDBOOK_VERSION := 0.5.4
+MDBOOK = $(TARGET_DIR)/mdbook/bin/mdbook
+
+mdbook:
+	@"$(MDBOOK)" --version 2>/dev/null | grep -qxF "mdbook v$(MDBOOK_VERSION)" || \
+	cargo install mdbook --version "=$(MDBOOK_VERSION)" --locked --no-default-features --features search --root "$(TARGET_DIR)/mdbook"
 
 BLENDER_WAY_OUT := install it, for example: apt-get install blender python3-numpy (Debian, Ubuntu), dnf install blender (Fedora), pacman -S blender python-numpy (Arch)
 
