@@ -52,7 +52,7 @@ prove:
 	printf "$$took"; exit $$failed
 
 # Tests that `make test` leaves out. The guides are a part of their own.
-breadth: software_vulkan python chromium node glslang blender
+breadth: software_vulkan python chromium node glslang blender site
 	$(TEST) --tests --no-fail-fast -- --ignored --skip guides::
 
 # Runs every command of every page, and prints each with its time.

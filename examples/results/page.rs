@@ -20,7 +20,7 @@ const WIDTH: usize = 135;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Engine {
-    name: String,
+    pub name: String,
     /// Preset that equals the engine's default.
     pub ships: String,
     /// Its mistake, in one sentence.
@@ -33,7 +33,7 @@ pub struct Engine {
 
 impl Engine {
     /// Names its page on the site, below results: `engines/unity_hdrp_quality_medium.md`.
-    fn page_name(&self) -> String {
+    pub fn page_name(&self) -> String {
         let name = self.name.to_lowercase();
         let words = name.split(|letter: char| !letter.is_ascii_alphanumeric());
         let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
@@ -233,21 +233,26 @@ impl<'a> Kept<'a> {
         let row = |ranked: &RankedFilter| {
             let other = sealed.iter().find(|other| other.name == ranked.name);
             let (scene, worst) = &ranked.worst;
-            let is_blur = ranked.filter != IDENTITY;
+            let own = engines.iter().filter(|own| own.ships == ranked.name);
+            let links: Vec<String> = own.map(|own| self.link(own)).collect();
+            let bold = if self.is_site && !links.is_empty() {
+                "**"
+            } else {
+                ""
+            };
+            let none = if ranked.filter == IDENTITY {
+                ", no blur"
+            } else {
+                ""
+            };
             let mut row = vec![
                 ranked.rank_text(),
-                format!(
-                    "`{}`{}",
-                    ranked.name,
-                    if is_blur { "" } else { ", no blur" }
-                ),
+                format!("{bold}`{}`{bold}{none}", ranked.name),
                 mean(ranked),
                 other.map_or("-".to_owned(), RankedFilter::rank_text),
                 format!("{scene} {}", Metric::FLIP.number(*worst)),
             ];
             if self.is_site {
-                let own = engines.iter().filter(|own| own.ships == ranked.name);
-                let links: Vec<String> = own.map(|own| self.link(own)).collect();
                 let time = find_time(&self.bench, &ranked.name);
                 row.extend([self.bleed(ranked), time, links.join(", ")]);
             }

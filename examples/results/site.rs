@@ -83,7 +83,8 @@ impl Site {
                     format!("{}.md", link.trim_end_matches('/'))
                 }
             });
-            site.pages.insert(path, text);
+            // Browsers complain about a language that the book's highlighter does not know.
+            site.pages.insert(path, text.replace("```wgsl", "```c"));
         }
         let first = site.pages.get_mut("README.md").expect("it is a page");
         *first = first.replacen("\n\n|", &format!("\n\n{WAYS}\n\n|"), 1);
@@ -162,7 +163,8 @@ impl Site {
 /// Makes the page of the live cases, with a picture per scene.
 fn live_page(scenes: &[&str]) -> String {
     let link = |scene: &&str| {
-        format!("\n## {scene}\n\n[![{scene}]({scene}.png)](report.html#{scene}/kino:default)\n")
+        let page = format!("report.html#{scene}/kino:default");
+        format!("\n## [{scene}]({page})\n\n[![{scene}]({scene}.png)]({page})\n")
     };
     LIVE.to_owned() + &scenes.iter().map(link).collect::<String>()
 }
