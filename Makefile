@@ -13,22 +13,22 @@
 # Mesa complains on every start where a login session has not set it, as in containers; nothing is written there.
 export XDG_RUNTIME_DIR ?= /tmp
 
+TARGET_DIR := $(or $(CARGO_TARGET_DIR),target)
+
 # What `make run` measures; `make run SCENES=` takes all.
 SCENES ?= sliding_panel,panel_over_texture,two_spheres,railing,fan
 
 run: vulkan
 	cargo run --locked --bin shuttertruth -- run $(if $(SCENES),--scenes $(SCENES)) --samples-per-pixel 64 --out out
 
-# A static site in target/site: results, an engine's page each, the gallery, live cases of $(SCENES), and the guides.
-TARGET_DIR := $(abspath $(or $(CARGO_TARGET_DIR),target))
-
+# A static site in target/site: results, a page per engine, the gallery, live cases of $(SCENES), and the guides.
 site: vulkan mdbook
 	cargo build --workspace --locked --bin shuttertruth --example results
 	"$(PROGRAM)" run --scenes $(SCENES) --size 320x180 --samples-per-pixel 64 --out "$(TARGET_DIR)/site_run" \
 	    --filter "identity$$(sed -n 's/^ships = "\(.*\)"/,\1/p' results/engines.toml | tr -d '\n')"
 	rm -rf "$(TARGET_DIR)/site_source"
 	"$(dir $(PROGRAM))examples/results" --site "$(TARGET_DIR)/site_source" "$(TARGET_DIR)/site_run/run.json"
-	"$(MDBOOK)" build "$(TARGET_DIR)/site_source" --dest-dir "$(TARGET_DIR)/site"
+	"$(MDBOOK)" build "$(TARGET_DIR)/site_source" --dest-dir "$(abspath $(TARGET_DIR)/site)"
 
 # Tests compare numbers, which graphics cards round in their own ways. They run on Mesa's software driver, or on VK_DRIVER_FILES.
 TEST = VK_DRIVER_FILES="$${VK_DRIVER_FILES:-$$(ls /usr/share/vulkan/icd.d/lvp_icd*.json 2>/dev/null | head -n 1)}" cargo test --workspace --locked
@@ -74,8 +74,8 @@ mutants: software_vulkan
 	    $(call given,MINUTES,--minutes) $(call given,OUT,--out)
 
 # Joins, judges and reports a run of 10,000 cases, copies of a small one: docs/many-machines.md.
-GROWTH = $(or $(CARGO_TARGET_DIR),target)/tmp/growth
-PROGRAM = $(or $(CARGO_TARGET_DIR),target)/debug/shuttertruth
+GROWTH = $(TARGET_DIR)/tmp/growth
+PROGRAM = $(TARGET_DIR)/debug/shuttertruth
 
 growth: software_vulkan python
 	rm -rf "$(GROWTH)"
@@ -108,7 +108,7 @@ publish:
 
 # The Python that has these packages; one of your own is used as it is. Its pip is called through it: in a copied folder the script
 # `pip` still belongs to the original.
-VENV := $(abspath $(or $(CARGO_TARGET_DIR),target))/python
+VENV := $(abspath $(TARGET_DIR))/python
 export PYTHON ?= $(VENV)/bin/python3
 
 # `$(call INSTALL,what is missing,packages,way out)`: from Debian's packages, as root.

@@ -326,8 +326,7 @@ These commands make the scores, the pictures and this page. Each run announces t
     cargo run -p cli --example results -- out/sealed_{SIZE}/run.json
 
 Flax's licence forbids a port, so that it has no row: [its finding](findings/flax.md). To add a filter, put its folder into `shaders/` and run them with `--filter` and its name. The JSON files next to this page hold every
-score, and [one in bench](bench/1920x1080_h100.json) the times; [engines.toml](engines.toml) holds the sentences about engines. [Picture sizes](studies/picture-sizes.md) uses the files of other
-sizes. [What the scores mean](../crates/metrics/README.md).
+score, and [one in bench](bench/1920x1080_h100.json) the times; [engines.toml](engines.toml) holds the sentences about engines. [What the scores mean](../crates/metrics/README.md).
 ";
 
 /// An engine with its scores.
