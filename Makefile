@@ -191,13 +191,13 @@ glslang:
 	$(call INSTALL,compiler of GLSL,glslang-tools,$(GLSLANG_WAY_OUT)); \
 	command -v glslangValidator >/dev/null || { echo "still no glslangValidator after the installation; $(GLSLANG_WAY_OUT)" >&2; exit 1; }
 
-# mdBook makes a book of Markdown pages.
+# mdBook makes a book of Markdown pages. Optimized it would save seconds, and compile for minutes.
 MDBOOK_VERSION := 0.5.4
 MDBOOK = $(TARGET_DIR)/mdbook/bin/mdbook
 
 mdbook:
 	@"$(MDBOOK)" --version 2>/dev/null | grep -qxF "mdbook v$(MDBOOK_VERSION)" || \
-	cargo install mdbook --version "=$(MDBOOK_VERSION)" --locked --no-default-features --features search --root "$(TARGET_DIR)/mdbook"
+	cargo install mdbook --version "=$(MDBOOK_VERSION)" --locked --no-default-features --features search --debug --root "$(TARGET_DIR)/mdbook"
 
 BLENDER_WAY_OUT := install it, for example: apt-get install blender python3-numpy (Debian, Ubuntu), dnf install blender (Fedora), pacman -S blender python-numpy (Arch)
 
