@@ -17,7 +17,7 @@ use crate::sandbox::{SCENE, Sandbox};
 use crate::{make_page, open_case};
 
 /// Place of the open case's panel.
-const LIVE: &str = "document.querySelector('article.open .live')";
+pub const LIVE: &str = "document.querySelector('article.open .live')";
 
 /// Largest difference of a pixel, and of a score of FLIP, between the browser's shader compiler and the program's.
 const APART: f32 = 1e-3;
@@ -25,7 +25,7 @@ const APART: f32 = 1e-3;
 const APART_PIXELS: f32 = 1e-3;
 
 /// Opens the panel of a case. Waits for its first picture, or the reason why there is none.
-fn open_panel(browser: &mut Browser, page: &Path, case: &str) {
+pub fn open_panel(browser: &mut Browser, page: &Path, case: &str) {
     open_case(browser, page, case);
     browser.click("article.open .live button");
     browser.until(&format!(

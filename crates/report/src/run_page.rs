@@ -24,6 +24,7 @@ const SCRIPTS: [&str; 13] = [
     include_str!("assets/live_flip.js"),
     include_str!("assets/live_folder.js"),
     include_str!("assets/live_panel.js"),
+    include_str!("assets/sort.js"),
     include_str!("assets/overview.js"),
     include_str!("assets/address.js"),
 ];
