@@ -12,7 +12,7 @@ use crate::pixels::report_files::{Place, folder_name};
 use crate::sequence::SEQUENCES_PAGE;
 
 /// Scripts in the order in which they run.
-const SCRIPTS: [&str; 13] = [
+const SCRIPTS: [&str; 14] = [
     include_str!("assets/planes.js"),
     include_str!("assets/paint.js"),
     include_str!("assets/pictures.js"),
