@@ -31,7 +31,14 @@ pub fn report() {
     );
     println!(
         "{:13} {:>7} {:>9} {:>7} {:>13} {:>13} {:>15} {:>17}",
-        "", "frame", "trailing", "both", "floor, moving", "error, all", "all at 0.005", "trailing at 0.002"
+        "",
+        "frame",
+        "trailing",
+        "both",
+        "floor, moving",
+        "error, all",
+        "all at 0.005",
+        "trailing at 0.002"
     );
     let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
     let shipped = SHIPPED.map(|name| shipped.join(name));

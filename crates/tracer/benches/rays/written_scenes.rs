@@ -16,7 +16,8 @@ const SCENES: [(&str, &str); 3] = [
 const SURFACES: &str = "newmtl grey\nKd 0.6 0.6 0.6\nnewmtl light\nKd 0 0 0\nKe 12 11 9\n";
 
 /// A horizontal square that faces up.
-const FLOOR: &str = "mtllib surfaces.mtl\nv -8 0 8\nv 8 0 8\nv 8 0 -8\nv -8 0 -8\nusemtl grey\nf 1 2 3 4\n";
+const FLOOR: &str =
+    "mtllib surfaces.mtl\nv -8 0 8\nv 8 0 8\nv 8 0 -8\nv -8 0 -8\nusemtl grey\nf 1 2 3 4\n";
 
 /// A horizontal square that faces down.
 const LAMP: &str = "mtllib surfaces.mtl\nv -0.4 0 0.4\nv -0.4 0 -0.4\nv 0.4 0 -0.4\nv 0.4 0 0.4\nusemtl light\nf 1 2 3 4\n";
