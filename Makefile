@@ -1,4 +1,4 @@
-# `make run` does the main job; `make test` proves that the program is right, and `make prove` repeats it at full breadth within an
+# `make run` does the main job, and `make site` makes a site of its results; `make test` proves that the program is right, and `make prove` repeats it at full breadth within an
 # hour: CONTRIBUTING.md. `make archive` makes the release archive; `make action` and `make image` try it in a bare Debian and in two
 # images: docs/release.md.
 #
@@ -8,16 +8,27 @@
 # shaders in GLSL. `make prove` needs Blender, too.
 # On macOS and Windows plain cargo commands work.
 
-.PHONY: run test prove breadth guides fuzz mutants growth archive action image publish vulkan software_vulkan python chromium node glslang blender
+.PHONY: run site test prove breadth guides fuzz mutants growth archive action image publish vulkan software_vulkan python chromium node glslang blender mdbook
 
 # Mesa complains on every start where a login session has not set it, as in containers; nothing is written there.
 export XDG_RUNTIME_DIR ?= /tmp
+
+TARGET_DIR := $(or $(CARGO_TARGET_DIR),target)
 
 # What `make run` measures; `make run SCENES=` takes all.
 SCENES ?= sliding_panel,panel_over_texture,two_spheres,railing,fan
 
 run: vulkan
 	cargo run --locked --bin shuttertruth -- run $(if $(SCENES),--scenes $(SCENES)) --samples-per-pixel 64 --out out
+
+# A static site in target/site: results, a page per engine, the gallery, live cases of $(SCENES), and the guides.
+site: vulkan mdbook
+	cargo build --workspace --locked --bin shuttertruth --example results
+	"$(PROGRAM)" run --scenes $(SCENES) --size 320x180 --samples-per-pixel 64 --out "$(TARGET_DIR)/site_run" \
+	    --filter "identity$$(sed -n 's/^ships = "\(.*\)"/,\1/p' results/engines.toml | tr -d '\n')"
+	rm -rf "$(TARGET_DIR)/site_source"
+	"$(dir $(PROGRAM))examples/results" --site "$(TARGET_DIR)/site_source" "$(TARGET_DIR)/site_run/run.json"
+	"$(MDBOOK)" build "$(TARGET_DIR)/site_source" --dest-dir "$(abspath $(TARGET_DIR)/site)"
 
 # Tests compare numbers, which graphics cards round in their own ways. They run on Mesa's software driver, or on VK_DRIVER_FILES.
 TEST = VK_DRIVER_FILES="$${VK_DRIVER_FILES:-$$(ls /usr/share/vulkan/icd.d/lvp_icd*.json 2>/dev/null | head -n 1)}" cargo test --workspace --locked
@@ -41,7 +52,7 @@ prove:
 	printf "$$took"; exit $$failed
 
 # Tests that `make test` leaves out. The guides are a part of their own.
-breadth: software_vulkan python chromium node glslang blender
+breadth: software_vulkan python chromium node glslang blender site
 	$(TEST) --tests --no-fail-fast -- --ignored --skip guides::
 
 # Runs every command of every page, and prints each with its time.
@@ -63,8 +74,8 @@ mutants: software_vulkan
 	    $(call given,MINUTES,--minutes) $(call given,OUT,--out)
 
 # Joins, judges and reports a run of 10,000 cases, copies of a small one: docs/many-machines.md.
-GROWTH = $(or $(CARGO_TARGET_DIR),target)/tmp/growth
-PROGRAM = $(or $(CARGO_TARGET_DIR),target)/debug/shuttertruth
+GROWTH = $(TARGET_DIR)/tmp/growth
+PROGRAM = $(TARGET_DIR)/debug/shuttertruth
 
 growth: software_vulkan python
 	rm -rf "$(GROWTH)"
@@ -97,7 +108,7 @@ publish:
 
 # The Python that has these packages; one of your own is used as it is. Its pip is called through it: in a copied folder the script
 # `pip` still belongs to the original.
-VENV := $(abspath $(or $(CARGO_TARGET_DIR),target))/python
+VENV := $(abspath $(TARGET_DIR))/python
 export PYTHON ?= $(VENV)/bin/python3
 
 # `$(call INSTALL,what is missing,packages,way out)`: from Debian's packages, as root.
@@ -179,6 +190,14 @@ glslang:
 	command -v glslangValidator >/dev/null && exit 0; \
 	$(call INSTALL,compiler of GLSL,glslang-tools,$(GLSLANG_WAY_OUT)); \
 	command -v glslangValidator >/dev/null || { echo "still no glslangValidator after the installation; $(GLSLANG_WAY_OUT)" >&2; exit 1; }
+
+# mdBook makes a book of Markdown pages. Optimized it would save seconds, and compile for minutes.
+MDBOOK_VERSION := 0.5.4
+MDBOOK = $(TARGET_DIR)/mdbook/bin/mdbook
+
+mdbook:
+	@"$(MDBOOK)" --version 2>/dev/null | grep -qxF "mdbook v$(MDBOOK_VERSION)" || \
+	cargo install mdbook --version "=$(MDBOOK_VERSION)" --locked --no-default-features --features search --debug --root "$(TARGET_DIR)/mdbook"
 
 BLENDER_WAY_OUT := install it, for example: apt-get install blender python3-numpy (Debian, Ubuntu), dnf install blender (Fedora), pacman -S blender python-numpy (Arch)
 

@@ -1,22 +1,34 @@
 //! Keeps results: puts the scores of runs of different scenes into their file below `results/`, and writes its page from all files
-//! there: `cargo run -p cli --example results -- out/run.json`. Without a run it only writes the page.
+//! there: `cargo run -p cli --example results -- out/run.json`. A file named `bench` and more, as pages save it, goes into its card's file
+//! below `results/bench/`. Without a file it only writes the page. With `--site FOLDER` it keeps nothing, and writes the source of the
+//! site with live cases of one run: `make site`.
 
 mod page;
+mod site;
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use judge::Results;
-use report::write_case_strip;
-use suite::{Case, Error, Run};
+use report::{write_case_strip, write_report};
+use suite::{ACCUMULATE, Bench, Case, Error, Run};
 
 use crate::page::{list_engines, main_results, picture_name, results_page};
+use crate::site::{Site, read};
 
 const FOLDER: &str = "results";
+/// Folder of the files of cards, below the first.
+const BENCHES: &str = "bench";
 
 fn main() -> ExitCode {
-    let runs: Vec<PathBuf> = std::env::args_os().skip(1).map(PathBuf::from).collect();
-    match keep(&runs).and_then(|()| write_page(&runs)) {
+    let paths = std::env::args_os().skip(1).map(PathBuf::from);
+    let (benches, runs): (Vec<_>, Vec<_>) = paths.partition(|path| is_bench(path));
+    let done = match &runs[..] {
+        [option, folder, run] if option == Path::new("--site") => write_site(folder, run),
+        _ => (keep(&runs).and_then(|()| keep_benches(&benches))).and_then(|()| write_page(&runs)),
+    };
+    match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("{error}");
@@ -44,11 +56,25 @@ fn keep(paths: &[PathBuf]) -> Result<(), Error> {
     Ok(())
 }
 
+fn is_bench(path: &Path) -> bool {
+    let name = path.file_name().unwrap_or_default();
+    name.to_string_lossy().starts_with("bench")
+}
+
+fn keep_benches(paths: &[PathBuf]) -> Result<(), Error> {
+    for path in paths {
+        let kept = Bench::read(path)?.keep(&Path::new(FOLDER).join(BENCHES))?;
+        println!("{}", kept.display());
+    }
+    Ok(())
+}
+
 /// Writes the page from every file of results, and the pictures of the runs' cases on it.
 fn write_page(runs: &[PathBuf]) -> Result<(), Error> {
     let results = Results::read_all(Path::new(FOLDER))?;
+    let cards = Bench::read_all(&Path::new(FOLDER).join(BENCHES))?;
     let path = Path::new(FOLDER).join("README.md");
-    frame::write_atomically(&path, results_page(&results)?.as_bytes())?;
+    frame::write_atomically(&path, results_page(&results, &cards)?.as_bytes())?;
     println!("{}", path.display());
     for path in runs {
         write_pictures(&results, &Run::read(path)?, path)?;
@@ -74,5 +100,29 @@ fn write_pictures(all: &[Results], run: &Run, path: &Path) -> Result<(), Error> 
             println!("{}", path.display());
         }
     }
+    Ok(())
+}
+
+/// Writes the source of the site to `folder`, with live cases of the run at `path`.
+fn write_site(folder: &Path, path: &Path) -> Result<(), Error> {
+    let mut run = Run::read(path)?;
+    // A scene's pictures are loaded together; live cases need no sub-frames next to them.
+    run.cases.retain(|case| case.filter != ACCUMULATE);
+    let names: BTreeSet<String> = (run.cases.iter())
+        .map(|case| case.scene.to_string())
+        .collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    Site::collect(Path::new("."), &names)?.write(Path::new("."), folder)?;
+    let [own, live] = [
+        path.parent().unwrap_or(Path::new("")),
+        &folder.join("src/live"),
+    ];
+    for name in names {
+        let picture = read(&own.join(name).join("frame.png"))?;
+        frame::write_atomically(&live.join(format!("{name}.png")), &picture)?;
+    }
+    // Pictures and tables are files of their own, which the page loads when someone opens a case.
+    write_report(&run, &[], own, &live.join("report.html"), 0)?;
+    println!("{}", folder.display());
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! The page of kept results, in Markdown: engines' shipped presets, and the ranking of all presets.
+//! The page of kept results, in Markdown: engines' shipped presets, and the ranking of all presets. On the site each engine has a page.
 
 use cli::{markdown_table, range_text};
 use frame::Alignment;
@@ -10,9 +10,6 @@ use suite::{Bench, Error, IDENTITY};
 /// Engines' shipped presets, without scores.
 const ENGINES: &str = include_str!("../../results/engines.toml");
 
-/// A bench of the presets on a graphics card.
-const BENCH: &str = include_str!("../../results/bench/1920x1080_h100.json");
-
 /// Characters of a line of the page.
 const WIDTH: usize = 135;
 
@@ -20,7 +17,7 @@ const WIDTH: usize = 135;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Engine {
-    name: String,
+    pub name: String,
     /// Preset that equals the engine's default.
     pub ships: String,
     /// Its mistake, in one sentence.
@@ -29,6 +26,16 @@ pub struct Engine {
     change: Option<Change>,
     /// Page below results/findings with its code.
     finding: Option<String>,
+}
+
+impl Engine {
+    /// Names its page on the site, below results: `engines/unity_hdrp_quality_medium.md`.
+    pub fn page_name(&self) -> String {
+        let name = self.name.to_lowercase();
+        let words = name.split(|letter: char| !letter.is_ascii_alphanumeric());
+        let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
+        format!("engines/{}.md", words.join("_"))
+    }
 }
 
 #[derive(Deserialize)]
@@ -56,41 +63,218 @@ pub fn main_results(all: &[Results]) -> Option<&Results> {
 }
 
 /// Makes the page from files of results: engines' shipped presets, and each shutter's presets next to their ranks in the sealed variants.
-pub fn results_page(all: &[Results]) -> Result<String, Error> {
-    let bench: Bench = serde_json::from_str(BENCH).expect("it is a bench");
-    let results = main_results(all).ok_or_else(|| Error::Usage("no file of results".to_owned()))?;
-    let sealed = all.iter().find(|own| {
-        own.seal.is_some() && own.size == results.size && own.adapter == results.adapter
-    });
-    let [width, height] = results.size;
-    let settings = [
-        ("{SCENES}", results.scenes().len().to_string()),
-        ("{SIZE}", format!("{width}x{height}")),
-        ("{SAMPLES}", results.samples_per_pixel.to_string()),
-        ("{ADAPTER}", results.adapter.clone().unwrap_or_default()),
-        ("{RANK_RULE}", RANK_RULE.to_owned()),
-        ("{CARD}", bench.adapter.name.clone()),
-        ("{TIMED_SIZE}", format!("{}x{}", bench.width, bench.height)),
-    ];
-    let fill = |text: &str| {
-        (settings.iter()).fold(text.to_owned(), |text, (key, value)| {
-            text.replace(key, value)
+pub fn results_page(all: &[Results], cards: &[Bench]) -> Result<String, Error> {
+    Kept::new(all, cards, false)?.page()
+}
+
+/// Makes the pages of the site by path below results: the one above with longer tables, and one per engine.
+pub fn site_pages(all: &[Results], cards: &[Bench]) -> Result<Vec<(String, String)>, Error> {
+    let kept = Kept::new(all, cards, true)?;
+    let mut pages = vec![("README.md".to_owned(), kept.page()?)];
+    for own in measured(&kept.groups) {
+        let section = kept.section(&own);
+        let table = kept.engine_table(std::slice::from_ref(&own));
+        let ships = &own.engine.ships;
+        let text = format!(
+            "{section}\n{table}\n[Try it on five scenes](../../live/report.html#fan/{ships}) · [All results](../README.md)\n"
+        );
+        let text = text.trim_start().replacen("###", "#", 1);
+        let [findings, pictures] = ["](findings/", "](pictures/"];
+        let text = text.replace(findings, "](../findings/");
+        let text = text.replace(pictures, "](../pictures/");
+        pages.push((own.engine.page_name(), text.replace("](engines/", "](")));
+    }
+    Ok(pages)
+}
+
+/// The files of results that make the page.
+struct Kept<'a> {
+    results: &'a Results,
+    sealed: Option<&'a Results>,
+    /// Presets of each shutter.
+    groups: Vec<Vec<RankedFilter>>,
+    /// The program's own, of most presets.
+    bench: &'a Bench,
+    /// Those of readers.
+    of_browsers: Vec<&'a Bench>,
+    /// True on the site.
+    is_site: bool,
+}
+
+impl<'a> Kept<'a> {
+    fn new(all: &'a [Results], cards: &'a [Bench], is_site: bool) -> Result<Self, Error> {
+        let (of_browsers, benches): (Vec<&Bench>, Vec<&Bench>) =
+            (cards.iter()).partition(|own| own.scene.is_some());
+        let longest = benches.into_iter().max_by_key(|own| own.cases.len());
+        let results =
+            main_results(all).ok_or_else(|| Error::Usage("no file of results".to_owned()))?;
+        let sealed = all.iter().find(|own| {
+            own.seal.is_some() && own.size == results.size && own.adapter == results.adapter
+        });
+        Ok(Self {
+            results,
+            sealed,
+            groups: results.ranking(),
+            bench: longest.ok_or_else(|| Error::Usage("no bench of the program".to_owned()))?,
+            of_browsers,
+            is_site,
         })
-    };
-    let groups = results.ranking();
-    let mut page = fill(HEAD) + &engines(results, &groups, &bench);
-    page += &fill(PRESETS);
-    let sealed_groups = sealed.map(Results::ranking).unwrap_or_default();
-    for group in &groups {
-        let alignment = group[0].alignment;
-        let others = (sealed_groups.iter()).find(|other| other[0].alignment == alignment);
-        page += &format!("\n### Presets of a {alignment} shutter\n\n");
-        page += &ranking(group, others.map_or(&[][..], Vec::as_slice));
-        if let Some(sealed) = sealed {
-            page += &agreement(results, sealed, alignment)?;
+    }
+
+    fn page(&self) -> Result<String, Error> {
+        let Self { results, bench, .. } = self;
+        let [width, height] = results.size;
+        let settings = [
+            ("{SCENES}", results.scenes().len().to_string()),
+            ("{SIZE}", format!("{width}x{height}")),
+            ("{SAMPLES}", results.samples_per_pixel.to_string()),
+            ("{ADAPTER}", results.adapter.clone().unwrap_or_default()),
+            ("{RANK_RULE}", RANK_RULE.to_owned()),
+            ("{CARD}", bench.adapter.name.clone()),
+            ("{TIMED_SIZE}", format!("{}x{}", bench.width, bench.height)),
+        ];
+        let fill = |text: &str| {
+            (settings.iter()).fold(text.to_owned(), |text, (key, value)| {
+                text.replace(key, value)
+            })
+        };
+        let mut page = fill(HEAD) + &self.engines() + &times(&self.of_browsers);
+        page += &fill(PRESETS);
+        let sealed_groups = self.sealed.map(Results::ranking).unwrap_or_default();
+        for group in &self.groups {
+            let alignment = group[0].alignment;
+            let others = (sealed_groups.iter()).find(|other| other[0].alignment == alignment);
+            page += &format!("\n### Presets of a {alignment} shutter\n\n");
+            page += &self.ranking(group, others.map_or(&[][..], Vec::as_slice));
+            if let Some(sealed) = self.sealed {
+                page += &agreement(results, sealed, alignment)?;
+            }
+        }
+        Ok(wrap(&(page + &fill(COMMANDS))))
+    }
+
+    /// Makes a table of the engines and, unless each has a page, a section for each.
+    fn engines(&self) -> String {
+        let all = measured(&self.groups);
+        let mut text = self.engine_table(&all);
+        let worse: Vec<&str> = (all.iter())
+            .filter(|own| own.shipped.mean > own.none)
+            .map(|own| own.engine.name.as_str())
+            .collect();
+        if !worse.is_empty() {
+            text += &format!("\nWorse than no blur: {}.\n", worse.join(", "));
+        }
+        if !self.is_site {
+            text.extend(all.iter().map(|own| self.section(own)));
+        }
+        text
+    }
+
+    fn engine_table(&self, engines: &[Measured]) -> String {
+        let number = |value: f64| Metric::FLIP.number(value);
+        let row = |own: &Measured| -> Vec<String> {
+            let scores = [own.shipped.mean, own.none].map(number);
+            let name = format!("{}, `{}`", self.link(&own.engine), own.engine.ships);
+            let names = [name, own.shipped.alignment.to_string()];
+            let changed = own.changed.map_or("-".to_owned(), number);
+            let time = find_time(self.bench, &own.engine.ships);
+            (names.into_iter().chain(scores).chain([changed, time])).collect()
+        };
+        let titles = [
+            "engine ships",
+            "shutter",
+            "FLIP",
+            "no blur",
+            "after the change",
+            "time",
+        ];
+        markdown_table(&titles, engines.iter().map(row))
+    }
+
+    /// Names an engine, with a link to its page if it has one.
+    fn link(&self, engine: &Engine) -> String {
+        match self.is_site {
+            true => format!("[{}]({})", engine.name, engine.page_name()),
+            false => engine.name.clone(),
         }
     }
-    Ok(wrap(&(page + &fill(COMMANDS))))
+
+    /// Describes an engine below a heading, with its worst picture.
+    fn section(&self, own: &Measured) -> String {
+        let Engine {
+            name,
+            wrong,
+            change,
+            ships,
+            finding,
+        } = &own.engine;
+        let mut text = format!("\n### {name}\n\n{wrong}");
+        if let (Some(change), Some(changed)) = (change, own.changed) {
+            let [before, after] = [own.shipped.mean, changed].map(|own| Metric::FLIP.number(own));
+            let Change { by, preset } = change;
+            text += &format!(" {by} (`{preset}`): {before} becomes {after}.");
+        }
+        if let Some(finding) = finding {
+            text += &format!(" [The lines of code](findings/{finding}.md).");
+        }
+        text += "\n";
+        if let Some(worst) = self.results.worst_of(ships) {
+            let file = picture_name(worst);
+            let scene = &worst.scene;
+            text += &format!("\n![truth, {ships} and FLIP on {scene}](pictures/{file})\n");
+        }
+        text
+    }
+
+    /// Makes the table of a shutter's presets, with their ranks in the sealed variants.
+    fn ranking(&self, group: &[RankedFilter], sealed: &[RankedFilter]) -> String {
+        let titles = ["rank", "preset", "FLIP (95 % CI)", "sealed", "worst scene"];
+        let more = ["bleed", "time", "default of"]
+            .iter()
+            .filter(|_| self.is_site);
+        let titles: Vec<&str> = titles.iter().chain(more).copied().collect();
+        let engines = list_engines();
+        let row = |ranked: &RankedFilter| {
+            let other = sealed.iter().find(|other| other.name == ranked.name);
+            let (scene, worst) = &ranked.worst;
+            let own = engines.iter().filter(|own| own.ships == ranked.name);
+            let links: Vec<String> = own.map(|own| self.link(own)).collect();
+            let bold = if self.is_site && !links.is_empty() {
+                "**"
+            } else {
+                ""
+            };
+            let none = if ranked.filter == IDENTITY {
+                ", no blur"
+            } else {
+                ""
+            };
+            let mut row = vec![
+                ranked.rank_text(),
+                format!("{bold}`{}`{bold}{none}", ranked.name),
+                mean(ranked),
+                other.map_or("-".to_owned(), RankedFilter::rank_text),
+                format!("{scene} {}", Metric::FLIP.number(*worst)),
+            ];
+            if self.is_site {
+                let time = find_time(self.bench, &ranked.name);
+                row.extend([self.bleed(ranked), time, links.join(", ")]);
+            }
+            row
+        };
+        markdown_table(&titles, group.iter().map(row))
+    }
+
+    /// Returns the mean bleed of a preset over the scenes that have one.
+    fn bleed(&self, ranked: &RankedFilter) -> String {
+        let scores = self.results.scores.iter();
+        let own = scores.filter(|own| own.name == ranked.name && own.alignment == ranked.alignment);
+        let scores: Vec<f64> = own.filter_map(|own| own.score(Metric::Bleed)).collect();
+        match scores.len() {
+            0 => "-".to_owned(),
+            count => Metric::Bleed.number(scores.iter().sum::<f64>() / count as f64),
+        }
+    }
 }
 
 /// Fills the lines of paragraphs; leaves tables, pictures, headings and commands unchanged.
@@ -146,8 +330,7 @@ These commands make the scores, the pictures and this page. Each run announces t
     cargo run -p cli --example results -- out/sealed_{SIZE}/run.json
 
 Flax's licence forbids a port, so that it has no row: [its finding](findings/flax.md). To add a filter, put its folder into `shaders/` and run them with `--filter` and its name. The JSON files next to this page hold every
-score, and [one in bench](bench/1920x1080_h100.json) the times; [engines.toml](engines.toml) holds the sentences about engines. [Picture sizes](studies/picture-sizes.md) uses the files of other
-sizes. [What the scores mean](../crates/metrics/README.md).
+score, and [one in bench](bench/1920x1080_nvidia_h100_80gb_hbm3.json) the times; [engines.toml](engines.toml) holds the sentences about engines. [What the scores mean](../crates/metrics/README.md).
 ";
 
 /// An engine with its scores.
@@ -182,59 +365,25 @@ fn measured(groups: &[Vec<RankedFilter>]) -> Vec<Measured<'_>> {
     all
 }
 
-/// Makes a table of the engines, and a section for each with its worst picture.
-fn engines(results: &Results, groups: &[Vec<RankedFilter>], bench: &Bench) -> String {
-    let all = measured(groups);
-    let number = |value: f64| Metric::FLIP.number(value);
-    let row = |own: &Measured| -> Vec<String> {
-        let scores = [own.shipped.mean, own.none].map(number);
-        let name = format!("{}, `{}`", own.engine.name, own.engine.ships);
-        let names = [name, own.shipped.alignment.to_string()];
-        let changed = own.changed.map_or("-".to_owned(), number);
-        let time = find_time(bench, &own.engine.ships);
-        (names.into_iter().chain(scores).chain([changed, time])).collect()
-    };
-    let titles = [
-        "engine ships",
-        "shutter",
-        "FLIP",
-        "no blur",
-        "after the change",
-        "time",
-    ];
-    let mut text = markdown_table(&titles, all.iter().map(row));
-    let worse: Vec<&str> = (all.iter())
-        .filter(|own| own.shipped.mean > own.none)
-        .map(|own| own.engine.name.as_str())
-        .collect();
-    if !worse.is_empty() {
-        text += &format!("\nWorse than no blur: {}.\n", worse.join(", "));
+/// Makes the table of the times that readers' browsers measured; nothing without any.
+fn times(cards: &[&Bench]) -> String {
+    let titles = ["card", "picture", "preset", "time"];
+    let rows = cards
+        .iter()
+        .flat_map(|own| own.cases.iter().map(move |case| (own, case)));
+    let rows = rows.map(|(own, case)| {
+        let picture = format!("{}x{}, {}", own.width, own.height, own.frame_text());
+        let name = format!("{}:{}", case.filter, case.preset);
+        let time = find_time(own, &name);
+        vec![own.adapter.name.clone(), picture, format!("`{name}`"), time]
+    });
+    if cards.is_empty() {
+        return String::new();
     }
-    for own in &all {
-        let Engine {
-            name,
-            wrong,
-            change,
-            ships,
-            finding,
-        } = &own.engine;
-        text += &format!("\n### {name}\n\n{wrong}");
-        if let (Some(change), Some(changed)) = (change, own.changed) {
-            let [before, after] = [own.shipped.mean, changed].map(number);
-            let Change { by, preset } = change;
-            text += &format!(" {by} (`{preset}`): {before} becomes {after}.");
-        }
-        if let Some(finding) = finding {
-            text += &format!(" [The lines of code](findings/{finding}.md).");
-        }
-        text += "\n";
-        if let Some(worst) = results.worst_of(ships) {
-            let file = picture_name(worst);
-            let scene = &worst.scene;
-            text += &format!("\n![truth, {ships} and FLIP on {scene}](pictures/{file})\n");
-        }
-    }
-    text
+    let table = markdown_table(&titles, rows);
+    format!(
+        "\n## Readers' cards\n\nBrowsers measured these times, in milliseconds per frame.\n\n{table}"
+    )
 }
 
 /// Finds the time of a preset in milliseconds; a dash if it was not timed.
@@ -249,28 +398,6 @@ fn find_time(bench: &Bench, name: &str) -> String {
 /// Names the file of a case's picture: `mcguire_tuned_fan.png`.
 pub fn picture_name(case: &ResultScores) -> String {
     format!("{}_{}.png", case.name.replace(':', "_"), case.scene)
-}
-
-/// Makes the table of a shutter's presets, with their ranks in the sealed variants.
-fn ranking(group: &[RankedFilter], sealed: &[RankedFilter]) -> String {
-    let titles = ["rank", "preset", "FLIP (95 % CI)", "sealed", "worst scene"];
-    let row = |ranked: &RankedFilter| {
-        let other = sealed.iter().find(|other| other.name == ranked.name);
-        let (scene, worst) = &ranked.worst;
-        let is_blur = ranked.filter != IDENTITY;
-        vec![
-            ranked.rank_text(),
-            format!(
-                "`{}`{}",
-                ranked.name,
-                if is_blur { "" } else { ", no blur" }
-            ),
-            mean(ranked),
-            other.map_or("-".to_owned(), RankedFilter::rank_text),
-            format!("{scene} {}", Metric::FLIP.number(*worst)),
-        ]
-    };
-    markdown_table(&titles, group.iter().map(row))
 }
 
 /// `0.047 (0.040 to 0.053)`; FLIP is at least 0, and so are the limits of its mean.

@@ -24,7 +24,7 @@ fn a_right_capture_passes_and_is_listed_object_by_object() {
     let sandbox = Sandbox::new();
     let capture = Capture::new(&sandbox);
     // An audit needs no sub-frames.
-    capture.write("capture.toml", &format!("{DESCRIPTION}subframes = 32\n"));
+    capture.write("capture.toml", format!("{DESCRIPTION}subframes = 32\n"));
     let (told, audit) = audit(&sandbox, 0);
     assert_contains(&told, "PASS: velocity, depth and colour are right");
     assert_contains(&told, "plate drawn by Test Engine 1.2, 96x54");

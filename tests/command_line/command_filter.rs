@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use frame::{ExrFile, Frame, Raster, Reprojection, read_exr, write_exr};
 use tests::filter_folder::{write_manifest, write_script};
-use tests::text::{assert_contains, read_rows};
+use tests::text::assert_contains;
 
 use crate::child::{send, wait_until};
 use crate::sandbox::*;
@@ -159,22 +159,10 @@ fn failing_programs_name_their_error_and_leave_no_picture() {
     refuse(lines, &[ended, shown, "\n  | line 12\n"]);
     let parts = ["ended well, but wrote no {out}", "printed:\n  | done"];
     refuse("echo done", &parts);
-    for (lines, parts) in read_rows(
-        "
-        kill -9 $$ => ended with signal: 9 | it printed nothing
-        cp $0 $2 => wrote an {out} that cannot be used: not a complete OpenEXR file
-        cp ../odd.exr $2 => wrote 5x4 pixels; the frame has 64x32
-        cp ../nan.exr $2 => wrote [NaN, NaN, NaN] at pixel (9, 3) | finite
-        cp ../no_green.exr $2 => wrote an {out} that cannot be used: lacks the channel \"G\"",
-    ) {
+    for (lines, parts) in read_table("broken programs") {
         refuse(lines, &parts);
     }
-    for (program, parts) in read_rows(
-        "
-        no_such_program => `no_such_program` is not on the PATH | ./no_such_program
-        ./no_such_program => cannot be run in | No such file
-        ./filter.toml => cannot be run in | Permission denied",
-    ) {
+    for (program, parts) in read_table("programs that are not found") {
         let command = format!("command = [\"{program}\", \"{{frame}}\", \"{{out}}\"]");
         write_lines(&sandbox, "mine", &command);
         assert_refused(&sandbox.shuttertruth(&blur("./mine")), 2, &parts);
@@ -266,24 +254,7 @@ fn bad_folders_of_programs_are_refused_with_the_line() {
         ("PARAMETER", parameter),
         ("|", "\n"),
     ];
-    for (lines, parts) in read_rows(
-        r#"
-        command = [] => filter.toml:4: command: is empty
-        command = [""] => filter.toml:4: | the program, is empty
-        command = "cp" => filter.toml:4: | sequence
-        CP "{out}"] => filter.toml:4: | {frame} is missing
-        CP "{frame}"] => filter.toml:4: | {out} is missing
-        CP "{frame}", "{out}", "-m{shutter}"] => "-m{shutter}" holds the unknown {shutter} | allowed: {frame}, {out}, {exposure}, {frame_index}, {frames_per_second}, and
-        CP "{frame}", "{out}", "{"] => "{" has a brace without the other
-        COPY PARAMETER = "taps" => filter.toml:4: | {taps} is missing
-        COPY PARAMETER = "exposure" => {exposure} is already a value
-        COPY PASS => filter.toml:5: | neither [[pass]] nor [[texture]]
-        COPY time_limit = 0 => filter.toml:5: time_limit = 0; | above 0
-        COPY time_limit = nan => filter.toml:5: time_limit = NaN;
-        COPY time_limit = 1e9 => at most 86400
-        time_limit = -3|PASS => filter.toml:4: time_limit = -3; | above 0
-         => neither a [[pass]] nor a command"#,
-    ) {
+    for (lines, parts) in read_table("commands that cannot be") {
         let replace = |lines: String, (word, text): &(&str, &str)| lines.replace(word, text);
         let lines = words.iter().fold(lines.to_owned(), replace);
         write_lines(&sandbox, "mine", &lines);

@@ -159,15 +159,7 @@ fn cases_of_only_one_run_are_named_and_runs_without_a_common_ground_are_refused(
     }
     fs::create_dir(sandbox.path("damaged")).unwrap();
     sandbox.put("damaged/run.json", "{}");
-    sandbox.refuse_rows(
-        "compare out",
-        "
-        small => small/run.json | 32x16 | 64x32 | at the other's size
-        fine => fine/run.json | truth of plate (trailing) | same samples per pixel
-        slow => no case in common | plate there and slow here
-        damaged => damaged/run.json | no run of this program
-        nowhere => nowhere | cannot read",
-    );
+    sandbox.refuse_table("compare out", "pictures that cannot be compared");
 }
 
 #[test]
@@ -183,11 +175,9 @@ fn the_page_shows_both_pictures_and_both_runs_and_names_as_text() {
         let engine = base64::engine::general_purpose::STANDARD;
         format!("src=\"data:image/png;base64,{}\"", engine.encode(bytes))
     };
-    for name in [
-        "out/plate/velocity_gather_fine/output.png",
-        "other/plate/velocity_gather_fine_samples_2/output.png",
-        "out/plate/truth_trailing.png",
-    ] {
+    let other = "other/plate/velocity_gather_fine_samples_2/output.png";
+    let own = "out/plate/velocity_gather_fine/output.png out/plate/truth_trailing.png";
+    for name in own.split(' ').chain([other]) {
         assert_eq!(text.matches(&address(name)).count(), 1, "{name}");
     }
     let parts =

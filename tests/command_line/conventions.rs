@@ -5,9 +5,9 @@ use std::path::Path;
 use filters::Convention;
 use frame::{ExrFile, Frame, Image, read_exr, read_png, write_exr};
 use serde_json::Value;
-use tests::text::{assert_contains, read_rows};
+use tests::text::assert_contains;
 
-use crate::sandbox::Sandbox;
+use crate::sandbox::{Sandbox, read_table};
 
 /// Conventions, each different from the frames' in one thing or more.
 const FORMS: [&str; 12] = [
@@ -134,14 +134,7 @@ fn a_wrong_convention_is_refused_with_its_line() {
     render(&sandbox);
     let words = "engine blur --filter identity --frame r/plate/frame.exr --out b.exr --convention engine.toml";
     sandbox.refuse(words, &["engine.toml: cannot read"]);
-    for (text, parts) in read_rows(
-        r#"
-         => engine.toml | missing field `convention`
-        [convention]\nspeed = 1 => engine.toml:2: | unknown field `speed`
-        name = "x"\n[convention] => engine.toml:1: | the table [convention] alone
-        [convention]\ndepth = "ndc" => engine.toml:1: | convention: depth of a depth buffer needs near
-        [convention]\nvelocity_per = "second" => engine.toml:1: | needs frames_per_second"#,
-    ) {
+    for (text, parts) in read_table("broken conventions") {
         sandbox.put("engine.toml", text.replace("\\n", "\n"));
         sandbox.refuse(words, &parts);
     }

@@ -4,9 +4,9 @@ use std::fs;
 
 use frame::{display_srgb, write_png};
 use metrics::{SequenceMetric, SequenceScores};
-use tests::text::{Parts, assert_contains, read_rows};
+use tests::text::{Parts, assert_contains};
 
-use crate::sandbox::{SCENE, Sandbox, assert_done, stdout};
+use crate::sandbox::{SCENE, Sandbox, assert_done, read_table, stdout};
 
 const BLUR: &str = "engine blur --filter ./late --frame out/plate/frame.exr --frames 3 --out";
 const TRUTH: [&str; 2] = ["--truth", "out/plate/truth_trailing.exr"];
@@ -98,12 +98,7 @@ fn assert_misfits_are_refused(sandbox: &Sandbox) {
             format!("--truth out/plate{at}/truth_trailing.exr --frame out/plate{at}/frame.exr");
         sandbox.refuse(&format!("score {files} --image {words}"), parts);
     };
-    for (words, parts) in read_rows(
-        "
-        --frames 4 => mine/0003.exr | numbered from 0000
-        --frames 3 --ladder out/plate/ladder_trailing => --ladder | cannot be used with | --frames
-        --frames 3 --scenes-dir elsewhere => truth_trailing.exr: is of the scene plate | --scenes-dir",
-    ) {
+    for (words, parts) in read_table("finished sequences") {
         refuse(&format!("mine {words}"), "", &parts);
     }
     let parts = ["is no folder", "0001.exr"];

@@ -7,11 +7,10 @@ use std::process::Output;
 use engine::CaptureDescription;
 use frame::Frame;
 use tests::near::assert_near;
-use tests::text::read_rows;
 use tests::{settings, unwatched};
 use tracer::{load_scene, trace_frame};
 
-use crate::sandbox::{Sandbox, assert_done, assert_refused, split, stdout};
+use crate::sandbox::{Sandbox, assert_done, assert_refused, read_table, split, stdout};
 
 /// House far from the origin, as exporters write one: Windows line ends, quads, a pentagon, indices counted from the
 /// end, no normals, names with spaces.
@@ -150,15 +149,7 @@ const SLIDE: &str = "--slide 40px/frame";
 #[test]
 fn bad_requests_are_refused_with_the_way_out() {
     let sandbox = set_up();
-    for (more, parts) in read_rows(
-        "
-         => nothing would move | spin such as 20deg/frame
-        --slide 40 => 40 | 40px/frame
-        --slide 0px/frame => 0px/frame | 40px/frame
-        --slide 40deg/frame => 40deg/frame | 40px/frame
-        --slide fast => fast | 40px/frame
-        --slide 4px/frame --exposure 0 => --exposure | 0",
-    ) {
+    for (more, parts) in read_table("motions of imported models") {
         assert_refused(&import(&sandbox, more), 2, &parts);
     }
     for (out, parts) in [
@@ -191,7 +182,7 @@ fn bad_models_are_refused_with_the_way_out() {
     let faces = "vt 0 0\r\nusemtl the roof\r\nf 3/1 8/1 9/1 4/1\r\nf 4/1 9/1 10/1 5/1";
     let textured = HOUSE.replace("usemtl the roof\r\nf 3 8 9 4\r\nf 4 9 10 5", faces);
     let parts = "dot.png | outside of the model's folder | import the model plain";
-    refuse(&textured, &parts);
+    refuse(&textured, parts);
     let left: Vec<_> = fs::read_dir(sandbox.path("scenes")).unwrap().collect();
     assert_eq!(left.len(), 2, "plate and dot.png alone: {left:?}");
 }

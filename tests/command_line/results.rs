@@ -2,6 +2,8 @@
 
 #[path = "../../examples/results/page.rs"]
 mod page;
+#[path = "../../examples/results/site.rs"]
+mod site;
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -11,12 +13,15 @@ use filters::Filter;
 use frame::Alignment;
 use judge::{Agreement, Results, compare_sizes};
 use metrics::Metric;
-use suite::{IDENTITY, Run};
+use suite::{Bench, IDENTITY, Run};
 use tests::filter_folder::copy_changed_filter;
+use tests::root;
 use tests::text::assert_contains;
 use tracer::{Location, SceneId, Seal, list_scenes};
 
 use self::page::{list_engines, main_results, picture_name, results_page};
+use self::site::Site;
+use crate::links::find_pages;
 use crate::sandbox::Sandbox;
 
 /// Presets that are worse than no blur, the best of them first.
@@ -41,11 +46,22 @@ fn the_page_of_results_is_made_from_the_files_beside_it() {
         assert!(text == own.text(), "{name} was edited");
     }
     assert!(results.iter().any(|own| own.seal.is_some()));
+    let mut cards = Bench::read_all(&folder().join("bench")).unwrap();
     let page = fs::read_to_string(folder().join("README.md")).unwrap();
     assert!(
-        page == results_page(&results).unwrap(),
+        page == results_page(&results, &cards).unwrap(),
         "results/README.md is not what its files say; write it: cargo run -p cli --example results"
     );
+    // A reader's card, as a browser would have timed it.
+    let sent = Some("fan".to_owned());
+    cards.push(Bench {
+        scene: sent,
+        speed: None,
+        ..cards[0].clone()
+    });
+    let page = results_page(&results, &cards).unwrap();
+    let row = "1920x1080, the scene fan | `babylon:default` | 0.06 |";
+    assert_contains(&page, &["## Readers' cards", row]);
 }
 
 #[test]
@@ -57,6 +73,28 @@ fn the_pictures_show_what_each_engine_ships_at_its_worst() {
     let files = fs::read_dir(folder().join("pictures")).unwrap();
     let found = files.map(|file| file.unwrap().file_name().into_string().unwrap());
     assert_eq!(found.collect::<BTreeSet<_>>(), due);
+}
+
+#[test]
+fn the_site_has_every_guide_and_a_page_for_every_engine() {
+    let site = Site::collect(&root(), &["fan"]).unwrap();
+    let guides = ["docs", "results"].map(|folder| find_pages(&root().join(folder)));
+    let guides = guides.concat();
+    let guides = guides.iter().map(|path| path.strip_prefix(root()).unwrap());
+    let engines = list_engines().into_iter();
+    let engines = engines.map(|engine| Path::new("results").join(engine.page_name()));
+    for page in guides.map(Path::to_owned).chain(engines) {
+        let link = format!("]({})", page.display());
+        assert!(site.pages["SUMMARY.md"].contains(&link), "no entry: {link}");
+    }
+    let results = &site.pages["results/README.md"];
+    let none = results
+        .lines()
+        .filter(|line| line.contains("`identity:default`, no blur"));
+    assert_eq!(none.count(), 2);
+    let folder = tempfile::tempdir().unwrap();
+    site.write(&root(), folder.path()).unwrap();
+    assert!(folder.path().join("src/docs/report.png").is_file());
 }
 
 #[test]

@@ -190,10 +190,10 @@ impl Sandbox {
         assert!(status.unwrap().success(), "git {line}");
     }
 
-    /// Does the same for a table: more words of the command, and the parts of the message.
+    /// Does the same for a table in tables.txt: more words of the command, and the parts of the message.
     #[track_caller]
-    pub fn refuse_rows(&self, command: &str, table: &str) {
-        for (words, parts) in read_rows(table) {
+    pub fn refuse_table(&self, command: &str, name: &str) {
+        for (words, parts) in read_table(name) {
             self.refuse(&format!("{command} {words}"), &parts);
         }
     }
@@ -378,6 +378,13 @@ pub fn python_with(packages: &[&str]) -> String {
     let way_out = "`make test` installs them; or pip install them, and set PYTHON to the Python that has them";
     assert!(is_there, "{python} lacks one of {packages:?}: {way_out}");
     python
+}
+
+/// Reads a table of tables.txt.
+pub fn read_table(name: &str) -> Vec<(&'static str, Vec<&'static str>)> {
+    let begin = format!("\n## {name}\n");
+    let (_, table) = include_str!("tables.txt").split_once(&begin).expect(name);
+    read_rows(table.split("\n## ").next().unwrap_or_default())
 }
 
 /// Reads the rows of a table, with a static lifetime.

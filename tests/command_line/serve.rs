@@ -7,10 +7,10 @@ use std::path::Path;
 use std::process::{ChildStdin, Command, Stdio};
 
 use serde_json::{Value, json};
-use tests::text::{assert_contains, read_rows};
+use tests::text::assert_contains;
 
 use crate::child::wait_until;
-use crate::sandbox::{Sandbox, python_with, split, stderr, stdout};
+use crate::sandbox::{Sandbox, python_with, read_table, split, stderr, stdout};
 
 pub const SERVE: &str = "tune serve --quiet --filter jump_flood --objective flip --size 64x32 \
     --samples-per-pixel 16 --out out";
@@ -83,12 +83,7 @@ fn requests_get_answers_and_bad_or_cancelled_ones_none() {
 fn parameters_of_a_file_are_checked() {
     let sandbox = Sandbox::new();
     let words = "tune evaluate --quiet --filter jump_flood --params p.json --out out";
-    for (text, parts) in read_rows(
-        r#"
-        {"sample": 3} => p.json: jump_flood.sample | allowed: samples
-        {"samples": 3.5} => p.json: jump_flood.samples: found 3.5 | from 1 to 64
-        samples = 3 => p.json | allowed: one table of parameters"#,
-    ) {
+    for (text, parts) in read_table("parameters of requests") {
         sandbox.put("p.json", text);
         sandbox.refuse(words, &parts);
     }

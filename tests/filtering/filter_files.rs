@@ -59,14 +59,21 @@ impl FilterFiles {
         Filter::load(folder.path())
     }
 
-    /// Fails unless each change of a file is refused with these words. A change is (text, replacement, words).
+    /// Fails unless each change of a table in refusals.toml is refused with its words.
     #[track_caller]
-    pub fn assert_refused(&self, name: &str, changes: &[(&str, &str, &[&str])]) {
-        for (from, to, parts) in changes {
-            let Err(error) = self.changed(name, from, to).load() else {
-                panic!("\"{from}\" -> \"{to}\" was accepted");
-            };
-            assert_contains(&format!("\"{from}\" -> \"{to}\": {error}"), parts);
+    pub fn assert_refused(&self, table: &str) {
+        let tables: toml::Table = include_str!("refusals.toml").parse().unwrap();
+        let files: BTreeMap<String, Vec<Vec<String>>> = tables[table].clone().try_into().unwrap();
+        for (name, rows) in &files {
+            for row in rows {
+                let [from, to, parts @ ..] = &row[..] else {
+                    panic!("{table}: {row:?} lacks a text or its replacement");
+                };
+                let Err(error) = self.changed(name, from, to).load() else {
+                    panic!("\"{from}\" -> \"{to}\" was accepted");
+                };
+                assert_contains(&format!("\"{from}\" -> \"{to}\": {error}"), parts);
+            }
         }
     }
 }

@@ -3,10 +3,9 @@
 use frame::{Alignment, Shutter};
 use glam::{DVec2, DVec3};
 use tests::half_plane::half_plane;
-use tests::shapes::*;
 
 use crate::moving_shapes::*;
-use crate::renders::{render_truth, settings_of_two};
+use crate::renders::*;
 
 /// Checks of one shape's coverage, by alignment, angle of its motion, and exposure.
 const SHAPES: [fn(Alignment, f64, f64); 3] = [expect_half_plane, expect_reversals, expect_disc];

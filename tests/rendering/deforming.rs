@@ -5,12 +5,11 @@ use glam::{DQuat, DVec2, DVec3, Vec3};
 use tests::brute_force::expect_what_every_triangle_gives;
 use tests::half_plane::half_plane;
 use tests::random::Numbers;
-use tests::shapes::*;
 use tracer::{Key, Mesh, Motion, Scene, Shape};
 
 use crate::intersection::expect_no_leak;
 use crate::moving_shapes::{DISTANCE, HEIGHT, WIDTH, expect_coverage, pixel_corner};
-use crate::renders::{render_frame, settings_with};
+use crate::renders::*;
 
 /// Makes a mesh with key shapes: `place` moves each vertex.
 pub fn deforming_mesh(mesh: Mesh, times: &[f64], place: impl Fn(Vec3, f64) -> Vec3) -> Mesh {

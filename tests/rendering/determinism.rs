@@ -5,16 +5,14 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use frame::{Alignment, Efficiency, Frame, Ladder, Truth, VelocityKind};
 use glam::{DVec3, Vec3};
-use tests::shapes::*;
 use tests::text::read_rows;
-use tests::unwatched;
 use tracer::{
     Background, Lens, Progress, RenderSettings, Scene, TraceError, frame_hash, ladder_hash,
     replicate_hash, trace_ladder, trace_truth, truth_hash,
 };
 
 use crate::lens::with_lens;
-use crate::renders::{render_frame, render_ladder, render_truth, settings, sun};
+use crate::renders::*;
 use crate::translucency::{film, glass};
 
 const RUNGS: [u32; 3] = [1, 4, 16];
@@ -216,15 +214,7 @@ fn bad_settings_are_refused_with_the_allowed_values() {
         let refused = trace_truth(scene, &settings, alignment, &unwatched);
         refused.expect_err("refused").to_string()
     };
-    for (change, expected) in read_rows(
-        "
-        samples 100 => is 100 over 8 replicates; allowed: 8 times a power of two up to 65536, such as 128
-        samples 4 => is 4 over 8 replicates; allowed: 8 times a power of two up to 65536, such as 8
-        replicates 3 => replicates is 3; allowed: even numbers from 2, such as 8
-        replicates 0 => replicates is 0; allowed: even numbers from 2, such as 8
-        height 0 => size is 33x0; allowed: 1 to 16384 pixels on either side, 67108864 in all
-        exposure -0.5 => exposure is -0.5 frames; allowed: above 0 and finite (0.5 frames = 180 degrees)",
-    ) {
+    for (change, expected) in read_rows(include_str!("refused_settings.txt")) {
         let (mut settings, (name, number)) = (settings, change.split_once(' ').unwrap());
         let number: f64 = number.parse().unwrap();
         match name {

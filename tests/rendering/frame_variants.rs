@@ -2,11 +2,9 @@
 
 use frame::{ColorSampling, VelocityKind};
 use glam::{DQuat, DVec3, Vec3};
-use tests::shapes::*;
-use tests::unwatched;
 use tracer::{Background, Key, Scene, TraceError, Turn, trace_frame};
 
-use crate::renders::{render_frame, settings, settings_with};
+use crate::renders::*;
 
 const SIZE: [u32; 2] = [36, 24];
 

@@ -4,7 +4,6 @@ use std::f64::consts::{PI, TAU};
 
 use frame::Truth;
 use glam::{DQuat, DVec3, Vec2, Vec3};
-use tests::shapes::*;
 use tests::statistics::{estimate_pixels, expect_pooled_agreement};
 use tracer::{Background, EnvironmentMap, Key, Scene, Texture};
 

@@ -6,10 +6,9 @@ use frame::Alignment;
 use glam::{DQuat, DVec3, Vec3};
 use rayon::prelude::*;
 use tests::random::{Numbers, hash};
-use tests::shapes::*;
 use tracer::{Background, Key, Mesh, Motion, Ray, Scene, Stage};
 
-use crate::renders::{expect_near, render_truth, settings_of_two, sun};
+use crate::renders::*;
 
 #[test]
 fn a_square_has_no_hole_along_its_diagonals() {

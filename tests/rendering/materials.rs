@@ -1,10 +1,9 @@
 //! Renders of glossy materials, against known answers.
 
 use glam::{DVec3, Vec3};
-use tests::shapes::*;
 use tracer::{Background, Finish, Material};
 
-use crate::renders::{expect_near, floor_scene, fresnel, heights, mean_radiance};
+use crate::renders::*;
 
 const fn metal(roughness: f32) -> Finish {
     Finish::Conductor { roughness }

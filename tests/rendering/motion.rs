@@ -3,11 +3,9 @@
 use frame::Alignment;
 use glam::{DAffine3, DQuat, DVec3};
 use tests::random::Numbers;
-use tests::shapes::*;
-use tests::unwatched;
 use tracer::{Interpolation, Key, Motion, TraceError, Turn, trace_truth};
 
-use crate::renders::{render_frame, settings};
+use crate::renders::*;
 
 /// Makes a motion through keys at these times, with positions of up to `far` and turns of up to `turn` radians about random axes.
 pub fn random_motion(

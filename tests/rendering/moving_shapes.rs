@@ -4,11 +4,10 @@
 
 use frame::{Alignment, Shutter, Truth};
 use glam::{DQuat, DVec2};
-use tests::shapes::*;
 use tests::statistics::{coverage_estimates, expect_agreement, expect_total};
 use tracer::{Key, Mesh, RenderSettings, Scene};
 
-use crate::renders::{render_truth, settings};
+use crate::renders::*;
 
 pub const WIDTH: u32 = 32;
 pub const HEIGHT: u32 = 18;

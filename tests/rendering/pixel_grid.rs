@@ -2,14 +2,12 @@
 
 use frame::{ColorSampling, Frame, VelocityKind};
 use glam::{DVec3, Vec3};
-use tests::shapes::*;
-use tests::unwatched;
 use tracer::{
     Background, Key, PixelGrid, PointMotion, RenderSettings, Scene, TraceError, frame_hash,
     trace_frame_part, trace_motion_on,
 };
 
-use crate::renders::{render_frame, settings_with};
+use crate::renders::*;
 
 const WIDTH: u32 = 36;
 const HEIGHT: u32 = 24;

@@ -3,10 +3,9 @@
 use frame::{Alignment, Replicate, Truth, TruthError};
 use metrics::{Region, Regions, measure, regions};
 use tests::synthetic::{Object, Sampling, Scene, Shape, VIEWING};
-use tests::unwatched;
 use tracer::TruthTracer;
 
-use crate::renders::{load_shipped, render_truth, settings};
+use crate::renders::*;
 
 fn count(regions: &Regions, region: Region) -> usize {
     let all = regions.moving.map(|_| ());

@@ -5,9 +5,9 @@ use std::f64::consts::FRAC_PI_2;
 use frame::{Alignment, Frame, Image, Ladder, Truth, VelocityKind};
 use glam::{DQuat, DVec3, Vec3};
 pub use tests::near::expect_near;
-pub use tests::settings;
-use tests::shapes::*;
-use tests::{scenes, settings_of, unwatched};
+pub use tests::shapes::*;
+use tests::{scenes, settings_of};
+pub use tests::{settings, unwatched};
 use tracer::{
     Background, Key, Material, Motion, RenderSettings, Scene, Sun, load_scene, trace_frame,
     trace_ladder, trace_truth,

@@ -3,11 +3,10 @@
 use frame::{Alignment, Efficiency, Shutter, ShutterError, ShutterProfile};
 use glam::DVec2;
 use tests::half_plane::{area, half_plane};
-use tests::unwatched;
 use tracer::{Interpolation, Scene, TraceError, trace_truth};
 
 use crate::moving_shapes::*;
-use crate::renders::{render_ladder, render_truth, settings};
+use crate::renders::*;
 
 /// Efficiency, and its formula over the parts of the interval.
 type Curve = (Efficiency, fn(f64) -> f64);

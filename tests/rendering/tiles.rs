@@ -1,11 +1,10 @@
 //! Tiles of frames, replicates and rungs, rendered alone: they equal the same part of the whole.
 
 use frame::{Alignment, AtInstant, Replicate, Tile, Truth, VelocityKind};
-use tests::unwatched;
 use tracer::{LadderTracer, PixelGrid, RenderSettings, TruthTracer, trace_frame_part};
 
 use crate::lens::with_lens;
-use crate::renders::{load_shipped, render_frame, render_truth, settings_of_two};
+use crate::renders::*;
 
 fn settings() -> RenderSettings {
     let mut settings = settings_of_two([40, 24], 32);

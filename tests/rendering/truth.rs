@@ -6,14 +6,12 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use frame::{Alignment, FAR_DEPTH, Picture, Plane, Replicate, Truth};
 use glam::{DVec3, Vec3};
 use metrics::{Metric, Reference};
-use tests::shapes::*;
 use tests::statistics::{estimate_pixels, expect_pooled_agreement};
-use tests::unwatched;
 use tracer::{
     Background, Parent, Progress, RenderSettings, Scene, TruthTracer, load_scene, trace_ladder,
 };
 
-use crate::renders::{expect_near, render_frame, render_ladder, render_truth, settings, sun};
+use crate::renders::*;
 
 const WIDTH: u32 = 48;
 const HEIGHT: u32 = 18;

@@ -2,12 +2,11 @@
 
 use frame::{FAR_DEPTH, Frame, VelocityKind};
 use glam::{DQuat, DVec2, DVec3, Vec3};
-use tests::shapes::*;
 use tracer::{
     Interpolation, Key, Motion, Parent, PixelGrid, Scene, Turn, trace_further_velocities,
 };
 
-use crate::renders::{self, expect_near, settings_with, turned};
+use crate::renders::{self, *};
 
 const WIDTH: u32 = 33;
 const HEIGHT: u32 = 21;

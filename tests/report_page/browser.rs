@@ -65,7 +65,7 @@ impl Browser {
         browser
     }
 
-    /// Opens a file, at a part of it such as `#railing/bevy:high`.
+    /// Opens a file, or an address of http, at a part of it such as `#railing/bevy:high`.
     pub fn open(&mut self, page: &Path, part: &str) {
         let url = format!("{}{part}", address_of(page));
         self.call("Page.navigate", json!({"url": url}));
@@ -304,11 +304,14 @@ fn read_address(process: &mut Child) -> String {
     panic!("Chromium ended before it listened: {}", said.join("\n"));
 }
 
-/// Formats a path as a browser's address line does.
+/// Formats a path, or an address of http, as a browser's address line does.
 pub fn address_of(page: &Path) -> String {
     let escapes = [(' ', "%20"), ('#', "%23"), ('<', "%3C"), ('>', "%3E")];
     let path = page.to_str().unwrap().to_owned();
     let escaped =
         (escapes.iter()).fold(path, |path, (letter, escape)| path.replace(*letter, escape));
-    format!("file://{escaped}")
+    match escaped.starts_with("http:") {
+        true => escaped,
+        false => format!("file://{escaped}"),
+    }
 }

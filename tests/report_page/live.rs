@@ -1,19 +1,23 @@
 //! Live cases: filters that the page itself runs, in a real browser, against the program.
 
 use std::fs;
-use std::path::Path;
+use std::io::{BufRead, BufReader, Write};
+use std::net::{TcpListener, TcpStream};
+use std::path::{Path, PathBuf};
 
 use frame::{Image, Raster};
+use metrics::Metric;
 use serde_json::{Value, json};
-use suite::Case;
+use suite::{Bench, Case};
 use tests::filter_folder::copy_folder;
+use tests::text::assert_contains;
 
 use crate::browser::Browser;
-use crate::sandbox::Sandbox;
+use crate::sandbox::{SCENE, Sandbox};
 use crate::{make_page, open_case};
 
 /// Place of the open case's panel.
-const LIVE: &str = "document.querySelector('article.open .live')";
+pub const LIVE: &str = "document.querySelector('article.open .live')";
 
 /// Largest difference of a pixel, and of a score of FLIP, between the browser's shader compiler and the program's.
 const APART: f32 = 1e-3;
@@ -21,12 +25,42 @@ const APART: f32 = 1e-3;
 const APART_PIXELS: f32 = 1e-3;
 
 /// Opens the panel of a case. Waits for its first picture, or the reason why there is none.
-fn open_panel(browser: &mut Browser, page: &Path, case: &str) {
+pub fn open_panel(browser: &mut Browser, page: &Path, case: &str) {
     open_case(browser, page, case);
     browser.click("article.open .live button");
     browser.until(&format!(
         "{LIVE}.dataset.version === '1' || !['Loading ..', ''].includes({LIVE}.querySelector('.said').textContent)"
     ));
+}
+
+/// Serves the folder of a page at 127.0.0.1, where a browser loads files by other rules; returns the page's address.
+fn serve(page: &Path) -> PathBuf {
+    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+    let address = listener.local_addr().unwrap();
+    let folder = page.parent().unwrap().to_owned();
+    // A browser may open a connection and not use it.
+    let answer = |mut stream: TcpStream, folder: PathBuf| {
+        let mut first = String::new();
+        BufReader::new(&stream).read_line(&mut first)?;
+        let path = first.split(' ').nth(1).unwrap_or("/");
+        let path = folder.join(path[1..].replace("%20", " "));
+        let is_script = path.extension().is_some_and(|ending| ending == "js");
+        let kind = ["text/html", "text/javascript"][usize::from(is_script)];
+        let body = fs::read(path)?;
+        let head = format!(
+            "HTTP/1.1 200 OK\r\nContent-Type: {kind}\r\nContent-Length: {}\r\nConnection: close\r\n\r\n",
+            body.len()
+        );
+        stream.write_all(&[head.into_bytes(), body].concat())
+    };
+    std::thread::spawn(move || {
+        for stream in listener.incoming().flatten() {
+            let folder = folder.clone();
+            std::thread::spawn(move || answer(stream, folder));
+        }
+    });
+    let name = page.file_name().unwrap().to_str().unwrap();
+    PathBuf::from(format!("http://{address}/{name}"))
 }
 
 /// Changes the panel by a script, and waits for the next picture.
@@ -110,15 +144,15 @@ fn compare(browser: &mut Browser, sandbox: &Sandbox, out: &str, case: &Case) -> 
     let stored = sandbox.read_color(&format!("{out}/{}/output.exr", case.folder.display()));
     let live = read_picture(browser, (stored.width, stored.height));
     let apart = find_apart(&live, &stored);
-    let mut score = |metric, name| match case.scores.get(metric) {
-        metrics::Measured::Score(stored) => (read_score(browser, name) - stored.value).abs(),
-        metrics::Measured::NotApplicable { reason } => panic!("no {name}: {reason}"),
+    let mut score = |metric, name| {
+        let stored = case.measured(metric).value().unwrap();
+        (read_score(browser, name) - stored).abs()
     };
     Differences {
         pixel: apart.iter().copied().fold(0.0, f32::max),
         share: count_apart(&apart),
-        flip: score(metrics::Metric::FLIP, "flip"),
-        psnr: score(metrics::Metric::PSNR, "psnr"),
+        flip: score(Metric::FLIP, "flip"),
+        psnr: score(Metric::PSNR, "psnr"),
     }
 }
 
@@ -131,12 +165,19 @@ fn find_case(sandbox: &Sandbox, name: &str) -> Case {
 #[test]
 fn a_page_runs_filters_as_the_program_does() {
     let sandbox = Sandbox::new();
-    // Passes with textures of tiles; exchanged textures; a vertex stage, a sampler, halves and velocity in another unit.
-    copy_folder(
-        &tests::root().join("examples/first_blur/bevy"),
-        &sandbox.path("bevy_blur"),
-    );
-    sandbox.measure("--filters kino:default,jump_flood:corrected,./bevy_blur");
+    // Passes with textures of tiles; exchanged textures; the mask; an include; a vertex stage, a sampler, halves and velocity in another
+    // unit.
+    let held =
+        "[object.held]\nmesh = \"plate.obj\"\nparent = \"camera\"\ntranslation = [0, -0.6, -2]\n";
+    sandbox.write("scene.toml", &format!("{SCENE}\n{held}"));
+    let body = "textureStore(output, pixel, textureLoad(color, pixel, 0) * (1.0 - textureLoad(exclusion, pixel, 0).x));";
+    sandbox.write_kernel("masked", "", &["exclusion"], body);
+    for name in ["unreal", "bevy"] {
+        let folder = tests::root().join("examples/first_blur").join(name);
+        copy_folder(&folder, &sandbox.path(&format!("{name}_blur")));
+    }
+    sandbox
+        .measure("--filters kino:default,jump_flood:corrected,./masked,./unreal_blur,./bevy_blur");
     let page = make_page(&sandbox);
     let mut browser = Browser::new(1280, 900);
     for case in sandbox.read_filter_cases() {
@@ -144,10 +185,94 @@ fn a_page_runs_filters_as_the_program_does() {
         let found = compare(&mut browser, &sandbox, "out", &case);
         assert!(found.are_small(&case.name()), "{}: {found:?}", case.name());
     }
+    the_times_of_a_page_are_a_bench_of_the_program(&mut browser, &sandbox);
+    a_translated_shader_can_be_changed_and_saved(&mut browser, &sandbox);
     // Left, it leaves nothing behind.
     browser.press("k");
     browser.until("!document.querySelector('.trying') && document.querySelector('[name=left]').value === 'truth'");
     assert_eq!(browser.complaints(), [""; 0]);
+}
+
+/// Clicks a button of the panel that saves a file; returns the file's path.
+fn save(browser: &mut Browser, sandbox: &Sandbox, button: &str, file: &str) -> PathBuf {
+    browser.save_to(&sandbox.path(""));
+    browser.value(&format!(
+        "[...document.querySelectorAll('.live button')].find(one => one.textContent === '{button}').click()"
+    ));
+    let path = sandbox.path(file);
+    while !path.is_file() {
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    path
+}
+
+fn a_translated_shader_can_be_changed_and_saved(browser: &mut Browser, sandbox: &Sandbox) {
+    let before = read_score(browser, "flip");
+    change(browser, &edit("+ 0.5f", "+ 0.25f"));
+    let tried = read_score(browser, "flip");
+    assert_ne!(tried, before);
+    let zip = save(browser, sandbox, "Download filter", "bevy_blur.zip");
+    unpack(&fs::read(zip).unwrap(), &sandbox.path("saved"));
+    sandbox.measure_into("again", "--filters ./saved/bevy_blur:tried");
+    let run: suite::Run = sandbox.read_json("again/run.json");
+    let case = run.cases.iter().find(|case| case.preset == "tried");
+    let score = case.unwrap().measured(Metric::FLIP).value().unwrap();
+    assert!((score - tried).abs() <= f64::from(APART), "{score} {tried}");
+}
+
+/// Writes a script that replaces a part of the shader in the panel.
+fn edit(from: &str, to: &str) -> String {
+    let [from, to] = [from, to].map(|text| json!(text));
+    let shader = format!("{LIVE}.querySelector('textarea')");
+    format!(
+        "{shader}.value = {shader}.value.replace({from}, {to}); {shader}.dispatchEvent(new Event('input'))"
+    )
+}
+
+fn the_times_of_a_page_are_a_bench_of_the_program(browser: &mut Browser, sandbox: &Sandbox) {
+    let path = save(browser, sandbox, "Download bench.json", "bench.json");
+    let mut bench = Bench::read(&path).unwrap();
+    assert_eq!((bench.width, bench.height, bench.rounds), (64, 32, 64));
+    assert_eq!(bench.scene.as_deref(), Some("plate"));
+    let [case] = &bench.cases[..] else {
+        panic!("{:?}", bench.cases);
+    };
+    let shipped = find_case(sandbox, "bevy_blur:default");
+    assert_eq!(
+        (&case.preset, &case.parameters),
+        (&shipped.preset, &shipped.parameters)
+    );
+    assert!(
+        case.seconds.lower_quartile > 0.0 && case.passes.len() == 1,
+        "{case:?}"
+    );
+    let kept = sandbox.path("kept");
+    let refused = bench.clone().keep(&kept).unwrap_err().to_string();
+    assert_contains(&refused, &["is a processor; only times of graphics cards"]);
+    // Times of another preset join those of the first.
+    bench.adapter.kind = "other".to_owned();
+    bench.adapter.name = "A Card (R)".to_owned();
+    let first = bench.clone().keep(&kept).unwrap();
+    assert!(first.ends_with("64x32_a_card_r_plate.json"), "{first:?}");
+    bench.cases[0].preset = "later".to_owned();
+    bench.clone().keep(&kept).unwrap();
+    assert_eq!(bench.clone().keep(&kept).unwrap(), first);
+    let presets = Bench::read(&first).unwrap().cases.into_iter();
+    let presets: Vec<String> = presets.map(|own| own.preset).collect();
+    assert_eq!(presets, [shipped.preset.clone(), "later".to_owned()]);
+    bench.rounds = 20;
+    let refused = bench.clone().keep(&kept).unwrap_err().to_string();
+    assert_contains(
+        &refused,
+        &[
+            "holds times of 64 rounds on the scene plate",
+            "not of 20 rounds",
+        ],
+    );
+    bench.format = 9;
+    fs::write(&path, json!(bench).to_string()).unwrap();
+    let refused = Bench::read(&path).unwrap_err().to_string();
+    assert_contains(&refused, &["bench.json: has format 9; allowed: 1"]);
 }
 
 #[test]
@@ -157,7 +282,7 @@ fn what_a_reader_changes_is_what_the_program_measures() {
     let page = make_page(&sandbox);
     sandbox.measure_into("moved", "--filters kino:default --set kino.samples=4");
     let mut browser = Browser::new(1280, 900);
-    open_panel(&mut browser, &page, "plate/kino:default");
+    open_panel(&mut browser, &serve(&page), "plate/kino:default");
     let field = format!("{LIVE}.querySelector('[type=number][aria-label^=\"samples\"]')");
     change(
         &mut browser,
@@ -168,13 +293,6 @@ fn what_a_reader_changes_is_what_the_program_measures() {
     let found = compare(&mut browser, &sandbox, "moved", moved.unwrap());
     assert!(found.are_small("kino"), "{found:?}");
 
-    let shader = format!("{LIVE}.querySelector('textarea')");
-    let edit = |from: &str, to: &str| {
-        let [from, to] = [from, to].map(|text| json!(text));
-        format!(
-            "{shader}.value = {shader}.value.replace({from}, {to}); {shader}.dispatchEvent(new Event('input'))"
-        )
-    };
     let before = read_score(&mut browser, "flip");
     browser.value(&edit("WINDOW - along", "WINDOW - alone"));
     browser.until(&format!("!!{LIVE}.querySelector('.errors button')"));
@@ -188,22 +306,13 @@ fn what_a_reader_changes_is_what_the_program_measures() {
     let tried = read_score(&mut browser, "flip");
     assert_ne!(tried, before);
 
-    browser.save_to(&sandbox.path(""));
-    let save = "[...document.querySelectorAll('.live button')].find(one => one.textContent === 'Download filter').click()";
-    browser.value(save);
-    let zip = sandbox.path("kino.zip");
-    while !zip.is_file() {
-        std::thread::sleep(std::time::Duration::from_millis(20));
-    }
+    let zip = save(&mut browser, &sandbox, "Download filter", "kino.zip");
     unpack(&fs::read(&zip).unwrap(), &sandbox.path(""));
     sandbox.measure("--filters ./kino:tried");
-    let metrics::Measured::Score(score) = find_case(&sandbox, "kino:tried")
-        .scores
-        .get(metrics::Metric::FLIP)
-    else {
-        panic!("the plate moves");
-    };
-    assert!((score.value - tried).abs() <= f64::from(APART));
+    let score = find_case(&sandbox, "kino:tried")
+        .measured(Metric::FLIP)
+        .value();
+    assert!((score.unwrap() - tried).abs() <= f64::from(APART));
     assert_eq!(browser.complaints(), [""; 0]);
 }
 

@@ -12,6 +12,7 @@ mod overview;
 #[path = "../command_line/sandbox.rs"]
 #[expect(dead_code, reason = "the tests of the command line need more of it")]
 mod sandbox;
+mod site;
 
 use std::path::{Path, PathBuf};
 

@@ -230,15 +230,7 @@ fn times_beyond_the_keys_are_refused() {
 #[test]
 fn names_that_are_no_rates_are_refused() {
     let folder = Folder::new();
-    for (variant, parts) in read_rows(
-        "
-        0fps => 0 frames per second; allowed: 1 to 1000
-        -24fps => -24 frames per second; allowed
-        2000fps => 2000 frames per second; allowed
-        24fps_1-0s => a shutter time of 1/0 s; allowed: 1/1 to 1/100000
-        24fps@24fps => variant \"24fps\" is unknown
-        slow@24fps => variant \"slow\" is unknown",
-    ) {
+    for (variant, parts) in read_rows(include_str!("refused_rates.txt")) {
         let refused = load_scene(&folder.path, Some(variant)).unwrap_err();
         assert_contains(&refused.to_string(), &parts);
     }

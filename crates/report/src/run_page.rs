@@ -12,7 +12,7 @@ use crate::pixels::report_files::{Place, folder_name};
 use crate::sequence::SEQUENCES_PAGE;
 
 /// Scripts in the order in which they run.
-const SCRIPTS: [&str; 12] = [
+const SCRIPTS: [&str; 14] = [
     include_str!("assets/planes.js"),
     include_str!("assets/paint.js"),
     include_str!("assets/pictures.js"),
@@ -20,9 +20,11 @@ const SCRIPTS: [&str; 12] = [
     include_str!("assets/readout.js"),
     include_str!("assets/keys.js"),
     include_str!("assets/live_run.js"),
+    include_str!("assets/live_bench.js"),
     include_str!("assets/live_flip.js"),
     include_str!("assets/live_folder.js"),
     include_str!("assets/live_panel.js"),
+    include_str!("assets/sort.js"),
     include_str!("assets/overview.js"),
     include_str!("assets/address.js"),
 ];

@@ -10,13 +10,12 @@ use tracer::SceneId;
 
 use crate::Error;
 use crate::inputs::border::wide;
+use crate::render::exclusion::EXCLUSION_FILE;
 
 /// Name of the file that marks a folder as ingested.
 pub const INGESTED_FILE: &str = "ingested.json";
 /// Name of the engine's own blurred picture in that folder.
 pub const BLURRED: &str = "blurred.exr";
-/// Name of the mask of what a blur leaves alone in that folder.
-pub const EXCLUSION_FILE: &str = "exclusion.exr";
 /// Version of the layout of the file.
 pub const INGESTED_FORMAT: u32 = 1;
 /// Halves of a truth, each a picture of the whole shutter.

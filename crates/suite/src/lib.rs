@@ -22,13 +22,12 @@ mod stats;
 mod verify;
 
 pub use bench::{
-    BASELINE, BENCH_FORMAT, Bench, BenchPlan, CaseCost, GROWTH_FROM, REACHES, ReachCost,
-    ReachPoint, Spread, bench,
+    BASELINE, Bench, BenchPlan, CaseCost, GROWTH_FROM, REACHES, ReachCost, ReachPoint, Spread,
+    bench,
 };
 pub use colors::{magma, velocity_wheel};
 pub use engine_scene::{
-    BLURRED, EXCLUSION_FILE, EngineScene, INGESTED_FILE, INGESTED_FORMAT, engine_name,
-    name_in_one_word,
+    BLURRED, EngineScene, INGESTED_FILE, INGESTED_FORMAT, engine_name, name_in_one_word,
 };
 pub use error::Error;
 pub use filter_choice::FilterChoice;
@@ -58,7 +57,7 @@ pub use monitor::{Monitor, Step};
 pub use pack::unpacked::{Unpacked, take_pack};
 pub use pack::write_pack;
 pub use random::Random;
-pub use render::exclusion::FilterFrame;
+pub use render::exclusion::{EXCLUSION_FILE, FilterFrame, read_exclusion};
 pub use render::ladders::{SHARP, sharp_picture};
 pub use render::merge::{Merged, merge};
 pub use render::rendering::Rendering;

@@ -215,6 +215,6 @@ fn a_judgement_of_another_run_is_refused() {
     let run = sandbox.path("out/run.json");
     let text = fs::read_to_string(&run).unwrap();
     fs::write(&run, text.replace("\"seed\": 1,", "\"seed\": 2,")).unwrap();
-    let row = " => judgement.json | about another run.json | shuttertruth check out/run.json";
-    sandbox.refuse_rows("report out --html page.html", row);
+    let parts = "judgement.json | about another run.json | shuttertruth check out/run.json";
+    sandbox.refuse("report out --html page.html", parts);
 }

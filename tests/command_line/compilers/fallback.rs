@@ -3,11 +3,11 @@
 use std::fs;
 
 use tests::root;
-use tests::text::{assert_contains, read_rows};
+use tests::text::assert_contains;
 
 use super::installed::install_glslang;
 use super::*;
-use crate::sandbox::{Sandbox, assert_done, read_below, split, stdout};
+use crate::sandbox::{Sandbox, assert_done, read_below, read_table, split, stdout};
 
 /// Writes a pass over HLSL, and the texture after it.
 fn write_hlsl(sandbox: &Sandbox, more: &str) {
@@ -64,12 +64,7 @@ fn a_pass_chooses_its_compiler() {
     fs::remove_file(sandbox.path("bin/dxc")).unwrap();
     let parts = ["HLSL needs dxc on the PATH", "install dxc from"];
     assert_contains(&refuse(&sandbox), &parts);
-    for (file, parts) in read_rows(
-        r#"
-        blur.hlsl => compiler = "gcc" | ; allowed for HLSL: slangc, dxc, glslangValidator
-        blur.comp => compiler = "slangc" | ; allowed for GLSL: glslangValidator
-        copy.wgsl => compiler = "slangc" | ; WGSL needs no compiler"#,
-    ) {
+    for (file, parts) in read_table("compilers of other languages") {
         write_pass(&sandbox, file, &format!("{}\n", parts[0]));
         let says = parts.concat();
         assert_contains(&refuse(&sandbox), &["translated/filter.toml:", &says]);

@@ -13,9 +13,9 @@ use std::process::Output;
 
 use tests::filter_folder::write_script;
 use tests::root;
-use tests::text::{assert_contains, read_rows};
+use tests::text::assert_contains;
 
-use crate::sandbox::{Sandbox, assert_done, stderr};
+use crate::sandbox::{Sandbox, assert_done, read_table, stderr};
 
 /// Writes a filter with one pass over a shader in that file.
 fn write_pass(sandbox: &Sandbox, file: &str, more: &str) {
@@ -77,13 +77,7 @@ const COPY: &str = include_str!("../../fixtures/shaders/copy.wgsl");
 #[test]
 fn a_language_without_its_compiler_names_the_way_out() {
     let sandbox = Sandbox::new();
-    for (file, parts) in read_rows(
-        "
-        blur.comp => GLSL needs glslangValidator on the PATH | apt-get install glslang-tools
-        blur.slang => Slang needs slangc on the PATH | or compile it to SPIR-V
-        blur.hlsl => HLSL needs slangc or dxc or glslangValidator on the PATH | apt-get install glslang-tools
-        blur.wesl => WESL needs wesl on the PATH | cargo install wesl-cli@0.4.0",
-    ) {
+    for (file, parts) in read_table("missing compilers") {
         write_pass(&sandbox, file, "");
         assert_contains(&refuse(&sandbox), &parts);
     }
@@ -94,19 +88,8 @@ fn a_language_without_its_compiler_names_the_way_out() {
 #[test]
 fn slang_hlsl_and_wesl_go_through_their_compilers() {
     let module = find_module().display().to_string();
-    for (file, compiler, words) in [
-        (
-            "blur.slang",
-            "slangc",
-            "*-lang?slang*-target?spirv*-entry?main*-stage?compute*-o?",
-        ),
-        ("blur.hlsl", "dxc", "*-spirv*-T?cs_6_0*-E?main*-Fo?"),
-        (
-            "blur.hlsl",
-            "slangc",
-            "*-target?spirv*-entry?main*-stage?compute*-o?",
-        ),
-    ] {
+    for (called, words) in read_table("calls of compilers") {
+        let ((file, compiler), words) = (called.split_once(' ').unwrap(), words[0]);
         let sandbox = Sandbox::new();
         write_pass(&sandbox, file, BINDINGS);
         sandbox.put("translated/copy.wgsl", COPY);

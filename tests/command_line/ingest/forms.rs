@@ -4,11 +4,11 @@ use std::fs;
 
 use frame::{ExrFile, Frame, Image, Plane, Raster, Vectors, read_exr, write_exr};
 use half::f16;
-use tests::text::{assert_contains, read_rows};
+use tests::text::assert_contains;
 
 use super::capture::{Capture, DESCRIPTION, HEIGHT, WIDTH};
 use super::{OUT, ingest};
-use crate::sandbox::{Sandbox, split, stderr};
+use crate::sandbox::{Sandbox, read_table, split, stderr};
 
 const INGEST: &str = "engine ingest capture -o out/engine/mine";
 /// Names of the buffers' files, and of Blender's passes.
@@ -99,16 +99,9 @@ fn raw_dumps_give_the_same_frame_and_need_their_layout() {
     }
     capture.write("capture.toml", &described);
     assert_eq!(show(&sandbox), expected);
-    for (change, parts) in read_rows(
-        "
-        height = 54/height = 53 => color.raw: has 31104 bytes; 96x53 pixels of 3 f16 have 30528 | its layout in capture.toml
-        components = 2/components = 5 => [raw.velocity] 96x54 pixels of 5 components; allowed: 16 to 16384 | 1 to 4
-        raw.depth/raw.normal => [raw.normal]; allowed: color, velocity, velocity_next, velocity_z, depth, object
-        raw.color/extra.color => capture.toml:5: unknown field `extra`
-        \"f32\"/\"f64\" => capture.toml: | unknown variant `f64`",
-    ) {
+    for (change, parts) in read_table("raw pictures") {
         let (from, to) = change.split_once('/').unwrap();
-        capture.write("capture.toml", &described.replace(from, to));
+        capture.write("capture.toml", described.replace(from, to));
         sandbox.refuse(INGEST, &parts);
     }
     capture.write("capture.toml", DESCRIPTION);
@@ -131,17 +124,7 @@ fn what_an_engine_drew_is_not_rendered_otherwise() {
     let sandbox = Sandbox::new();
     Capture::new(&sandbox).with_subframes(4);
     ingest(&sandbox);
-    for (words, parts) in read_rows(
-        "
-        run --scenes MINE --size 64x32 => was drawn at 96x54 | at its own size
-        run --scenes MINE --exposure 1 => --exposure | as Test Engine 1.2 drew it
-        run --scenes MINE --guard-band 8 => --guard-band | leave the option out
-        run --scenes MINE,./MINE => is named twice | rename
-        run --scenes MINE --filter mcguire => no filter is left | trailing shutter
-        run --scenes MINE --input defect=half,lag => defect=lag: needs the scene's own motion | zero, double, half, flip_y, jittered
-        truths render --scenes MINE => holds what an engine drew | `run` and `check`
-        limits calibrate --scenes MINE => does not change from run to run | bounds.toml",
-    ) {
+    for (words, parts) in read_table("settings of captures") {
         let words = words.replace("MINE", "out/engine/mine");
         let output = sandbox.shuttertruth(&split(&words));
         // Notes about omitted filters may come before the refusal.
@@ -159,7 +142,7 @@ fn files_of_two_captures_are_not_mixed() {
     let capture = Capture::new(&sandbox).with_subframes(4);
     ingest(&sandbox);
     // Renaming the scene makes no other capture; changing the exposure does.
-    capture.write("capture.toml", &DESCRIPTION.replace("0.5", "0.25"));
+    capture.write("capture.toml", DESCRIPTION.replace("0.5", "0.25"));
     sandbox.done("engine ingest capture --quiet -o out/engine/other");
     let words = "run --quiet --scenes out/engine/mine --filter identity";
     for name in ["frame.exr", "truth_trailing.exr"] {

@@ -3,11 +3,11 @@
 use std::fs;
 
 use frame::{ExrFile, Plane, display_srgb, read_exr, write_exr, write_png};
-use tests::text::{assert_contains, read_rows};
+use tests::text::assert_contains;
 
 use super::capture::{CONVENTION, Capture, DESCRIPTION};
 use super::ingest;
-use crate::sandbox::{Sandbox, split, stderr};
+use crate::sandbox::{Sandbox, read_table, split, stderr};
 
 const INGEST: &str = "engine ingest capture -o out/engine/mine";
 
@@ -36,29 +36,12 @@ fn folders_that_are_no_captures_are_refused() {
     sandbox.refuse(INGEST, &parts);
     let capture = Capture::new(&sandbox);
     let bench = (&sandbox, &capture);
-    for (name, parts) in read_rows(
-        "
-        capture.toml => capture.toml: there is no such file | engine =
-        engine.toml => engine.toml: there is no such file | name another file
-        color.exr => color.exr: there is no such file | radiance
-        velocity.exr => velocity.exr: there is no such file | save that buffer
-        depth.exr => depth.exr: there is no such file | save that buffer",
-    ) {
+    for (name, parts) in read_table("missing files") {
         let remove = || fs::remove_file(capture.path(name)).unwrap();
         refuse(bench, name, &parts, remove);
     }
-    for (text, parts) in read_rows(
-        r#"
-        engine = "" => capture.toml: engine = "" | allowed: a name
-        engine = ".." => capture.toml: engine = ".." | begins with a letter or a digit
-        name = 1 => capture.toml:1: unknown field `name` | `engine`
-        engine = "e";alignment = "late" => capture.toml:2: | `trailing`, `centred`, `leading`
-        engine = "e";exposure = 0.0 => exposure = 0 | capture.toml
-        engine = "e";scene = "../up" => capture.toml:2: scene "../up" | allowed: names of a folder
-        engine = "e";exposure = 0.5 => alignment = "trailing" | add it
-        engine = "e";alignment = "trailing" => exposure = 0.5 | add it"#,
-    ) {
-        let describe = || capture.write("capture.toml", &text.replace(';', "\n"));
+    for (text, parts) in read_table("descriptions") {
+        let describe = || capture.write("capture.toml", text.replace(';', "\n"));
         refuse(bench, "capture.toml", &parts, describe);
     }
     let parts = ["color.png", "remove one of them"];
@@ -66,12 +49,7 @@ fn folders_that_are_no_captures_are_refused() {
         capture.write("color.png", "")
     });
     sandbox.done(INGEST);
-    sandbox.refuse_rows(
-        "engine ingest capture -o",
-        "
-        capture => --out capture | is the capture itself
-        out/a@b => out/a@b: its last part | allowed: letters",
-    );
+    sandbox.refuse_table("engine ingest capture -o", "ingest");
 }
 
 #[test]
@@ -87,25 +65,14 @@ fn pictures_that_cannot_be_right_are_refused() {
         file.push_plane(channel, &plane);
         write_exr(&capture.path(name), &file).unwrap();
     };
-    for (place, parts) in read_rows(
-        r#"
-        color.exr G NaN => color.exr: channel "G" holds NaN at pixel (5, 1) | must be finite
-        velocity.exr R inf => velocity.exr: channel "R" holds inf at pixel (5, 1) | overflowed
-        depth.exr R NaN => depth.exr: channel "R" holds NaN at pixel (5, 1) | allows 0 to 1
-        depth.exr R 7.5 => depth.exr: channel "R" holds 7.5 | name the depth"#,
-    ) {
+    for (place, parts) in read_table("pixels") {
         let [name, channel, value] = split(place)[..] else {
             panic!("{place}");
         };
         let change = || change_pixel(name, channel, value.parse().unwrap());
         refuse(bench, name, &parts, change);
     }
-    for (file, parts) in read_rows(
-        r#"
-        velocity.exr XY 64 32 0.0 => velocity.exr: has 64x32 pixels, the colour 96x54 | without scaling
-        velocity.exr BQ 96 54 0.0 => velocity.exr: has the channels B, Q; needed: velocity.X and velocity.Y
-        object.exr R 96 54 0.5 => object.exr: channel "R" holds 0.5 at pixel (0, 0) | without blending"#,
-    ) {
+    for (file, parts) in read_table("files of other sizes") {
         let [name, channels, width, height, value] = split(file)[..] else {
             panic!("{file}");
         };
@@ -126,17 +93,13 @@ fn pictures_that_cannot_be_right_are_refused() {
 fn sub_frames_that_make_no_truth_are_refused() {
     let sandbox = Sandbox::new();
     let capture = Capture::new(&sandbox).with_subframes(5);
-    let refuse = |line: &str| {
-        for (_, parts) in read_rows(&format!("sub-frames => {line}")) {
-            sandbox.refuse(INGEST, &parts);
-        }
-    };
+    let refuse = |parts: &str| sandbox.refuse(INGEST, parts);
     let [second, fourth] = ["2", "4"].map(|at| capture.path(&format!("subframes/000{at}.exr")));
     refuse("subframes: holds 5 sub-frames | even numbers from 4 | capture 32");
     fs::remove_file(&second).unwrap();
     refuse("subframes/0003.exr: is in the place of 0002.exr | without a gap");
     fs::rename(fourth, &second).unwrap();
-    capture.write("capture.toml", &format!("{DESCRIPTION}subframes = 32\n"));
+    capture.write("capture.toml", format!("{DESCRIPTION}subframes = 32\n"));
     refuse("subframes: holds 4 sub-frames, capture.toml says 32 | capture all");
     capture.write("capture.toml", DESCRIPTION);
     fs::copy(capture.path("velocity.exr"), second).unwrap();

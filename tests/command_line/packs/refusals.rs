@@ -209,7 +209,7 @@ fn a_file_whose_header_has_another_hash_than_the_manifest_is_refused() {
             file.content_hash = other.content_hash;
         }
     });
-    write(&sandbox.path("forged.tar.zst"), &entries);
+    write(&sandbox.path("forged.tar.zst"), entries);
     let words = "run --filter identity --seed 2 --truths forged.tar.zst --out fresh";
     let found = ["has another content_hash than manifest.json says"];
     assert_refused(&quick(sandbox, words), 2, &found);

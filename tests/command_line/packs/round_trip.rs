@@ -329,14 +329,7 @@ fn truths_of_another_scene_are_no_truths_of_this_one() {
 #[test]
 fn what_holds_no_truth_is_refused() {
     let sandbox = packed();
-    sandbox.refuse_rows(
-        "truths verify",
-        r#"
-        nowhere => nowhere: there is no such file
-        scenes => scenes: holds no truth
-        --scenes fan => --scenes: no "fan" there; allowed: plate
-        --tiles 0 => '0' for '--tiles <N>': 0 is not in 1..=10000"#,
-    );
+    sandbox.refuse_table("truths verify", "verify");
     // A truth without ladder or frame, as `render` leaves it, is verified as far as possible.
     sandbox.done("truths render --quiet --scenes plate --samples-per-pixel 16 --out r");
     let printed = sandbox.done("truths verify r");

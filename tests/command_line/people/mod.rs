@@ -7,9 +7,11 @@ use study::{
     Answer, AnswerFile, Chosen, Clip, DisplayFacts, Question, SHARP_CLIP, ShownPair, Study,
     TRUTH_CLIP, draw_session,
 };
-use tests::text::{assert_contains, read_rows, squeeze};
+use tests::text::{assert_contains, squeeze};
 
-use crate::sandbox::{Sandbox, assert_refused, assert_same_files, files_below, read_below, split};
+use crate::sandbox::{
+    Sandbox, assert_refused, assert_same_files, files_below, read_below, read_table, split,
+};
 
 /// Filters of the trailing shutter, from the best to the worst.
 const FILTERS: &str = "jump_flood:paper,velocity_gather:fine,identity";
@@ -113,16 +115,7 @@ fn a_page_has_copies_of_the_pictures_and_refuses_what_people_cannot_compare() {
         Nobody has answered yet";
     assert_contains(&squeeze(&text), &parts);
     finish_half_a_page(&sandbox);
-    sandbox.refuse_rows(
-        "people ask --out new",
-        r#"
-        out --filters identity => this many filters of the trailing shutter: 1 | 2 to 64
-        out --filters bevy => "bevy" fits nothing in the run; it has | jump_flood:paper
-        out --scenes fan => "fan" fits nothing | plate, slow
-        out --pairs 2 => allows 2 pairs | 3 or more
-        out --question best => 'best' for '--question <QUESTION>' | better
-        none => no such file"#,
-    );
+    sandbox.refuse_table("people ask --out new", "questions");
     assert!(!sandbox.path("new").exists());
     let parts = ["page: holds 2 files or folders", "a new folder"];
     sandbox.refuse("people ask out --out page", &parts);
@@ -240,16 +233,7 @@ pub fn assert_answers_are_refused(sandbox: &Sandbox, study: &Study) {
     refuse(&[more], &["9 answers; allowed: 1 to 8"]);
     let parts = ["no scale of the trailing shutter exists", " | "];
     refuse(&[changed(|file| file.answers.truncate(1))], &parts);
-    for (change, parts) in read_rows(
-        r#"
-        /format 2 => answers_0.json: has format 2; allowed: 1
-        /seed 4 => answer 1 of 8 is about | the seed 4 shows
-        /seed 1152921504606846976 => allowed: 0 to 9007199254740991
-        /answers [] => 0 answers; allowed: 1 to 8
-        /answers/0/milliseconds -1.0 => answer 1 of 8 took -1 milliseconds
-        /study/shutters/0/filters ["identity:default"] => its page has this many filters
-        /study/shutters/0/telling_scenes [7] => differs from the sharp frame"#,
-    ) {
+    for (change, parts) in read_table("answers") {
         let mut file = serde_json::to_value(session(3)).unwrap();
         let (pointer, value) = change.split_once(' ').unwrap();
         *file.pointer_mut(pointer).unwrap() = serde_json::from_str(value).unwrap();

@@ -66,18 +66,9 @@ fn layers_equal_the_files_of_the_case() {
         let group = channel.name.rsplit_once('.').map_or("", |(group, _)| group);
         *groups.entry(group).or_default() += 1;
     }
-    let expected = [
-        ("", 3),
-        ("coverage", 2),
-        ("depth", 1),
-        ("instant", 3),
-        ("output", 3),
-        ("output_coverage", 2),
-        ("signed", 3),
-        ("truth", 3),
-        ("velocity", 2),
-    ];
-    assert_eq!(groups, BTreeMap::from(expected));
+    let found = (groups.iter()).map(|(group, count)| format!("{group} {count}"));
+    let due = " 3, coverage 2, depth 1, instant 3, output 3, output_coverage 2, signed 3, truth 3, velocity 2";
+    assert_eq!(found.collect::<Vec<_>>().join(", "), due);
 }
 
 #[test]

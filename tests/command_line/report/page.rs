@@ -194,8 +194,8 @@ fn costs_come_from_the_bench_beside_the_run() {
     assert_contains(costs, references);
     assert_contains(costs, adapter);
     sandbox.edit("out/bench.json", "\"format\": 1", "\"format\": 0");
-    let row = " => out/bench.json: has format 0; allowed: 1 | `shuttertruth bench`";
-    sandbox.refuse_rows(REPORT, row);
+    let parts = "out/bench.json: has format 0; allowed: 1 | `shuttertruth bench`";
+    sandbox.refuse(REPORT, parts);
 }
 
 #[test]

@@ -101,8 +101,8 @@ fn the_page_of_a_sensitivity_study_shows_intervals_and_slices() {
         own["indices"] = serde_json::Value::Null;
     }
     sandbox.put("tuned/sensitivity.json", old.to_string());
-    let row = " => tuned/sensitivity.json | no Sobol indices | `shuttertruth tune search`";
-    sandbox.refuse_rows(REPORT, row);
+    let parts = "tuned/sensitivity.json | no Sobol indices | `shuttertruth tune search`";
+    sandbox.refuse(REPORT, parts);
 }
 
 #[test]

@@ -5,9 +5,9 @@ mod same_bytes;
 use std::fs;
 
 use serde_json::Value;
-use tests::text::{Parts, read_rows};
+use tests::text::Parts;
 
-use crate::sandbox::Sandbox;
+use crate::sandbox::{Sandbox, read_table};
 
 /// Filters of both shutters, one of them with two presets.
 const FILTERS: &str = "velocity_gather:fine,velocity_gather:coarse,kino:default";
@@ -69,13 +69,7 @@ fn measure_other(sandbox: &Sandbox, more: &str) {
 #[test]
 fn runs_of_other_settings_are_refused() {
     let sandbox = parts();
-    for (more, found) in read_rows(
-        "
-        identity --seed 2 => plate/run.json | has the seed 1, other/run.json has 2
-        identity --velocity previous_frame => plate/run.json | has the velocity instantaneous
-        identity --frames 2 => plate/run.json | has the number of frames 1 at 60 per second
-        kino:default => plate/run.json | common shutter trailing | has centred | the same common shutter",
-    ) {
+    for (more, found) in read_table("parts of other runs") {
         measure_other(&sandbox, &format!("--scenes slow --filter {more}"));
         refuse(&sandbox, "plate other", &found);
     }
@@ -127,13 +121,7 @@ fn what_holds_no_run_is_refused() {
     let sandbox = parts();
     fs::create_dir(sandbox.path("empty")).unwrap();
     sandbox.put("damaged/run.json", "{");
-    sandbox.refuse_rows(
-        "truths merge --out whole plate",
-        "
-        empty => empty holds no replicates | or finished runs alone
-        damaged => damaged/run.json | no run of this program
-        nowhere => nowhere",
-    );
+    sandbox.refuse_table("truths merge --out whole plate", "folders to merge");
     assert!(!sandbox.path("whole").exists(), "nothing is written");
 }
 
@@ -161,13 +149,10 @@ fn nothing_behind_a_link_is_taken() {
 #[test]
 fn parts_without_all_of_their_pictures_are_refused() {
     let sandbox = parts();
-    for file in [
-        "slow/identity_default/output.exr",
-        "slow/identity_trailing/flip.png",
-        "slow/truth_trailing.exr",
-        "slow/velocity.png",
-    ] {
-        let path = sandbox.path("slow").join(file);
+    let files =
+        "identity_default/output.exr identity_trailing/flip.png truth_trailing.exr velocity.png";
+    for file in files.split(' ').map(|name| format!("slow/{name}")) {
+        let path = sandbox.path("slow").join(&file);
         let whole = fs::read(&path).unwrap();
         fs::remove_file(&path).unwrap();
         let found = format!("slow/run.json: no part holds {file}");

@@ -74,20 +74,9 @@ fn bad_tunings_are_refused_and_leave_no_files() {
     let still = SCENE.replace("translation = [-1.6,", "translation = [0,");
     sandbox.put("scenes/g/scene.toml", still);
     let search = format!("{SEARCH} --filter jump_flood --budget 2");
-    sandbox.refuse_rows(
-        &format!("{search} --objective flip"),
-        r#"
-        --scenes nowhere => no scene "nowhere" | allowed: a, b
-        --scenes a,a => a is named twice
-        --scenes a,b --held-out b --vary samples => scene b | proves nothing
-        --scenes a --vary sample => parameter sample: | no parameter | samples
-        --scenes a --vary samples=9..3 => parameter samples=9..3 | the range is empty
-        --scenes a --cost-at-most 1x => cost has a limit | objectives: flip,cost
-        --scenes a --from fastest => no preset "fastest" | paper
-        "#,
-    );
-    let rows = "--scenes a --objective speed => allowed: flip, bleed, cost";
-    sandbox.refuse_rows(&search, rows);
+    sandbox.refuse_table(&format!("{search} --objective flip"), "tunings");
+    let speed = format!("{search} --scenes a --objective speed");
+    sandbox.refuse(&speed, "allowed: flip, bleed, cost");
     assert!(!sandbox.path("out").exists(), "nothing is written");
     let parts = ["scene g: nothing moves", "leave the scene out"];
     sandbox.refuse(&format!("{search} --scenes g"), &parts);

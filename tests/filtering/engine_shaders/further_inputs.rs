@@ -5,7 +5,7 @@ use tests::filter_folder::write_kernel;
 use tests::near::assert_near;
 use tests::text::assert_contains;
 
-use super::{busy_picture, make};
+use super::{busy_picture, make_declared};
 use crate::filter_files::ready;
 
 /// Makes filters that show both: kernels bound by name, and a shader of an engine with a convention.
@@ -15,13 +15,11 @@ fn make_both() -> [Filter; 2] {
         textureStore(output, pixel, vec4<f32>(textureLoad(velocity_next, pixel, 0).xy, z, 1.0));";
     let named = folder.path().join("named");
     write_kernel(&named, "", &["velocity_next", "velocity_z"], shows);
-    let declarations = "[convention]\nvelocity = \"ndc\"\nvelocity_y = \"up\"\nvelocity_per = \"shutter\"\n\
-        velocity_format = \"rgba32float\"\ndepth = \"reversed\"\nnear = 0.1\n\
-        [[pass]]\nshader = \"seen.wgsl\"\n[[pass.binding]]\nbinding = 1\ntexture = \"velocity_next\"\n\
-        [[pass.binding]]\nbinding = 2\ntexture = \"velocity_z\"\n";
     [
         Filter::load(&named).unwrap(),
-        make("conventions", declarations).load().unwrap(),
+        make_declared("conventions", "further_inputs.toml")
+            .load()
+            .unwrap(),
     ]
 }
 

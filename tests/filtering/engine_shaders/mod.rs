@@ -7,7 +7,6 @@ mod fragment;
 mod further_inputs;
 mod guide;
 mod mips;
-mod refusals;
 mod resources;
 mod routes;
 mod texture_sizes;
@@ -33,6 +32,11 @@ fn make(folder: &str, declarations: &str) -> FilterFiles {
     let head = "name = \"made\"\nsummary = \"Made for a test.\"\nalignment = \"centred\"\n";
     let files = FilterFiles::fixture(&format!("filters/{folder}"));
     files.with("filter.toml", format!("{head}{declarations}"))
+}
+
+/// Makes a filter from the declarations in a file of such a folder.
+fn make_declared(folder: &str, file: &str) -> FilterFiles {
+    make(folder, &make(folder, "").text(file))
 }
 
 /// Makes a picture with two objects that move in front of a pattern, and one that turns.

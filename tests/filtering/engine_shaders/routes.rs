@@ -1,9 +1,11 @@
-//! One blur by every route, with equal pictures.
+//! One blur by every route, with equal pictures; wrong bindings and shaders, each refused with its place and the remedy.
 
 use std::fs;
 use std::process::Command;
 
-use super::{assert_as_documented, with_passes};
+use tests::text::assert_contains;
+
+use super::{assert_as_documented, make, with_passes};
 
 const PASSES: &str = include_str!("../../fixtures/shaders/passes.toml");
 
@@ -42,4 +44,36 @@ fn spir_v_of_slang_blurs_as_wgsl_does() {
         passes = passes.replacen("centre_blur.slang", &format!("slang_{name}.spv"), 1);
     }
     assert_as_documented(&with_passes(&passes).load().unwrap(), ROUNDING);
+}
+
+#[test]
+fn wrong_bindings_are_refused_with_place_and_reason() {
+    with_passes(PASSES).assert_refused("bindings");
+}
+
+#[test]
+fn wrong_shaders_are_refused_with_file_line_and_reason() {
+    with_passes(PASSES).assert_refused("shaders");
+}
+
+#[test]
+fn push_constants_that_are_too_large_are_refused() {
+    let declarations = "[[pass]]\nshader = \"large.comp\"\n[[pass.binding]]\nbinding = 0\ntexture = \"output\"\n\
+                        [[pass.binding]]\npush_constants = true\nvalues = { \"*\" = 0 }\n";
+    make("camera", declarations).assert_refused("push_constants");
+}
+
+#[test]
+fn a_module_that_is_cut_short_is_refused() {
+    let files = with_passes("[[pass]]\nshader = \"blur.spv\"\n");
+    let module = include_bytes!("../../fuzz/corpus/spirv/gather");
+    for (bytes, says) in [
+        (&module[..0], "no SPIR-V module"),
+        (&module[..1001], "cut short"),
+        (&module[..600], "blur.spv"),
+        (&b"#version 450 layout(set = 0)"[..], "begins with"),
+    ] {
+        let error = files.clone().with("blur.spv", bytes).load().unwrap_err();
+        assert_contains(&error.to_string(), &[says]);
+    }
 }

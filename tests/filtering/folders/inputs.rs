@@ -1,4 +1,6 @@
-//! Unsuitable names, settings, sizes, frames and adapters.
+//! Wrong folders, and unsuitable names, settings, sizes, frames and adapters.
+
+use std::path::Path;
 
 use filters::{Blur, Filter, FilterError, Gpu, Input, Value, list_adapters};
 use frame::Raster;
@@ -6,6 +8,7 @@ use tests::picture::{Picture, make_blur, white};
 use tests::shared_gpu;
 use tests::text::assert_contains;
 
+use super::documented;
 use crate::filter_files::ready;
 
 #[test]
@@ -103,4 +106,30 @@ fn an_index_or_a_name_selects_an_adapter_and_a_wrong_name_lists_them() {
     }
     let error = FilterError::NoAdapter.to_string();
     assert_contains(&error, &["mesa-vulkan-drivers"]);
+}
+
+#[test]
+fn a_wrong_folder_is_refused_with_place_and_reason() {
+    documented().assert_refused("folder");
+}
+
+#[test]
+fn a_missing_folder_names_the_file_it_looked_for() {
+    let error = Filter::load(Path::new("no/such/folder")).unwrap_err();
+    let parts = ["no/such/folder/filter.toml: cannot be read"];
+    assert_contains(&error.to_string(), &parts);
+}
+
+#[test]
+fn an_error_of_the_gpu_names_file_and_pass() {
+    let large = documented().changed(
+        "centre_blur.wgsl",
+        "@workgroup_size(8, 8)\nfn gather",
+        "@workgroup_size(999, 999)\nfn gather",
+    );
+    // Only the adapter knows the largest workgroup.
+    let error = ready(&large.load().unwrap(), (8, 8)).unwrap_err();
+    assert!(matches!(error, FilterError::Folder { .. }), "{error}");
+    let parts = ["centre_blur.wgsl:33: pass \"gather\": @workgroup_size(999, 999, 1)"];
+    assert_contains(&error.to_string(), &parts);
 }

@@ -2,7 +2,6 @@
 
 mod example;
 mod inputs;
-mod refusals;
 mod textures;
 
 use crate::filter_files::FilterFiles;

@@ -8,10 +8,9 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use frame::{Alignment, Truth};
 use glam::DVec3;
-use tests::shapes::*;
 use tracer::{Key, Scene, Turn};
 
-use crate::renders::{expect_near, render_truth, settings_of_two};
+use crate::renders::*;
 
 const WIDTH: u32 = 32;
 const HEIGHT: u32 = 12;

@@ -4,12 +4,11 @@ use std::f64::consts::PI;
 
 use frame::{Alignment, Frame};
 use glam::{DVec2, DVec3};
-use tests::shapes::*;
 use tracer::Scene;
 
 use super::with_lens;
 use crate::moving_shapes::*;
-use crate::renders::{expect_near, heights, render_frame, settings};
+use crate::renders::*;
 
 /// Apertures and focus distances in front of the shapes and behind them. The circle of confusion at the shapes has a diameter of
 /// aperture x |distance - focus| / focus = 5 metres, and a metre there is a pixel.

@@ -2,12 +2,10 @@
 
 use frame::Image;
 use glam::DVec3;
-use tests::shapes::*;
-use tests::unwatched;
 use tracer::{Defocus, RenderSettings, Scene, TraceError, trace_defocus};
 
 use super::with_lens;
-use crate::renders::{expect_near, mean_of, render_frame, rms_difference, settings};
+use crate::renders::*;
 
 const WIDTH: u32 = 48;
 const HEIGHT: u32 = 27;

@@ -2,8 +2,6 @@
 
 use frame::{Alignment, Picture, Truth};
 use glam::DVec3;
-use tests::shapes::*;
-use tests::unwatched;
 use tracer::{Background, Finish, LadderTracer, RenderSettings, Scene};
 
 use super::with_lens;

@@ -2,12 +2,10 @@
 
 use frame::{Alignment, AtInstant, Frame, Picture, Truth};
 use glam::{DQuat, DVec2, DVec3, EulerRot};
-use tests::shapes::*;
-use tests::unwatched;
 use tracer::{PixelGrid, Scene, trace_frame_part};
 
 use super::with_lens;
-use crate::renders::{expect_near, heights, render_frame, render_truth, settings_of_two, turned};
+use crate::renders::*;
 
 const SIZE: [u32; 2] = [20, 12];
 /// Focal length in pixels, at a vertical field of view of 90 degrees.

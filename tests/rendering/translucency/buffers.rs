@@ -2,11 +2,10 @@
 
 use frame::{Alignment, FAR_DEPTH, Frame, Truth, VelocityKind};
 use glam::{DVec3, Vec3};
-use tests::shapes::*;
 use tracer::{Material, Scene, Translucency};
 
 use super::{film, glass};
-use crate::renders;
+use crate::renders::{self, *};
 
 fn render_frame(scene: &Scene) -> Frame {
     let settings = renders::settings_with([32, 18], 32, VelocityKind::PreviousFrame);

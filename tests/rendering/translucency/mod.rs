@@ -4,10 +4,9 @@ mod buffers;
 mod panes;
 
 use glam::{DVec3, Vec3};
-use tests::shapes::*;
 use tracer::{Background, Material, Scene, Translucency};
 
-use crate::renders::{self, facing_up, heights, render_small_truth, sun};
+use crate::renders::{self, *};
 
 /// Makes an unlit film of an opacity, which lets `filter` of the rest pass.
 pub fn film(radiance: Vec3, opacity: f32, filter: Vec3) -> Material {

@@ -6,7 +6,6 @@ use frame::{Alignment, ColorSampling, Frame};
 use glam::{DQuat, DVec2, DVec3, Vec3};
 use tests::half_plane::half_plane;
 use tests::random::Random;
-use tests::shapes::*;
 use tests::statistics::{estimate_pixels, expect_agreement};
 use tracer::{Background, Scene};
 

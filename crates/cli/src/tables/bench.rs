@@ -1,6 +1,5 @@
 //! Tables of a bench.
 
-use filters::Clock;
 use suite::{BASELINE, Bench, CaseCost, GROWTH_FROM, REACHES, Spread};
 
 use super::{Table, cell};
@@ -8,13 +7,14 @@ use crate::output::push_wrapped;
 
 /// Makes the tables: cost per filter and pass, then cost against blur length.
 pub fn bench_table(bench: &Bench) -> String {
-    let clock = match bench.clock {
-        Clock::Timestamps => "the GPU's own clock",
-        Clock::WallClock => "wall clock around each pass: the adapter has no timestamps",
-    };
     let about = format!(
-        "{} ({}), {}x{}, median (quartiles) of {} rounds by {clock}",
-        bench.adapter.name, bench.adapter.backend, bench.width, bench.height, bench.rounds
+        "{} ({}), {}x{}, median (quartiles) of {} rounds by {}",
+        bench.adapter.name,
+        bench.adapter.backend,
+        bench.width,
+        bench.height,
+        bench.rounds,
+        bench.clock_text()
     );
     let mut text = String::new();
     push_wrapped(&mut text, 0, &about);
@@ -25,22 +25,24 @@ pub fn bench_table(bench: &Bench) -> String {
 }
 
 fn push_costs(text: &mut String, bench: &Bench) {
-    *text += &format!("panels that move {} pixels\n", bench.speed);
+    *text += &format!("{}\n", bench.frame_text());
     let mut table = Table::new("filter / pass", ["ms", "x baseline", "B/px", "of copy"]);
     for case in &bench.cases {
         let cells = [
             spread_text(&case.seconds, 1e3),
-            spread_text(&case.ratio, 1.0),
-            format!("{:.0}", case.bytes_per_pixel),
-            format!("{:.0}%", 100.0 * case.part_of_copy),
+            cell(case.ratio.as_ref(), |ratio| spread_text(ratio, 1.0)),
+            cell(case.bytes_per_pixel, |bytes| format!("{bytes:.0}")),
+            cell(case.part_of_copy, |part| format!("{:.0}%", 100.0 * part)),
         ];
         table.push(format!("{}:{}", case.filter, case.preset), cells);
         push_passes(&mut table, case);
     }
-    let copy = spread_text(&bench.copy.seconds, 1e3);
-    let speed = format!("{:.1} GB/s", bench.copy.bytes_per_second * 1e-9);
-    let none = String::new;
-    table.push("copy of a buffer", [copy, none(), none(), speed]);
+    if let Some(copy) = &bench.copy {
+        let speed = format!("{:.1} GB/s", copy.bytes_per_second * 1e-9);
+        let none = String::new;
+        let cells = [spread_text(&copy.seconds, 1e3), none(), none(), speed];
+        table.push("copy of a buffer", cells);
+    }
     *text += &format!("{}\n", table.text());
     let legend = format!(
         "baseline: {BASELINE}. B/px: every texture that a pass reads or writes, counted once per pass. of copy: those bytes per \
@@ -57,7 +59,7 @@ fn push_passes(table: &mut Table, case: &CaseCost) {
             iterations => format!(" x {iterations}"),
         };
         let time = spread_text(&pass.seconds, 1e3);
-        let bytes = format!("{:.0}", pass.bytes_per_pixel);
+        let bytes = cell(pass.bytes_per_pixel, |bytes| format!("{bytes:.0}"));
         let name = format!("  {}{times}", pass.entry);
         table.push(name, [time, String::new(), bytes, String::new()]);
     }

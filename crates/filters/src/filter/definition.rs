@@ -1,6 +1,6 @@
 //! Definition of a filter: everything that `filter.toml` and its kernels declare.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use frame::Alignment;
 
@@ -89,17 +89,6 @@ impl Filter {
     /// Finds the shader that a pass runs.
     pub(crate) fn shader(&self, pass: &Pass) -> &Shader {
         &self.shaders[pass.shaders[0]]
-    }
-
-    /// Lists its files, each once: filter.toml, then its shaders without what they include.
-    pub fn list_files(&self) -> Vec<&Path> {
-        let mut files = vec![&*self.lines.path];
-        for shader in &self.shaders {
-            if !files.contains(&&*shader.path) {
-                files.push(&shader.path);
-            }
-        }
-        files
     }
 
     /// Says which compiler made the shader of each pass that needs one, and why others failed: `blur.hlsl compiled by slangc`.

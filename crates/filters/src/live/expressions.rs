@@ -16,6 +16,29 @@ pub(super) fn describe(expression: &Expression) -> Value {
     }
 }
 
+/// Writes an expression for filter.toml.
+pub(super) fn write(expression: &Expression) -> Value {
+    match expression {
+        Expression::Number(number) => json!(number),
+        other => json!(text(other)),
+    }
+}
+
+fn text(expression: &Expression) -> String {
+    let (function, arguments) = match expression {
+        Expression::Number(number) => return number.to_string(),
+        Expression::Name(name) => return name.clone(),
+        Expression::Apply(function, arguments) => (function, arguments),
+    };
+    let parts: Vec<String> = arguments.iter().map(text).collect();
+    let is_word = function.starts_with(|letter: char| letter.is_alphabetic());
+    match &parts[..] {
+        parts if is_word => format!("{function}({})", parts.join(", ")),
+        [one] => format!("({function}{one})"),
+        parts => format!("({})", parts.join(&format!(" {function} "))),
+    }
+}
+
 /// Lists the names in an expression.
 pub(super) fn list_names(expression: &Expression) -> Vec<&str> {
     match expression {

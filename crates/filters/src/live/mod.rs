@@ -5,6 +5,7 @@ mod expressions;
 mod inputs;
 mod modules;
 mod passes;
+mod translated;
 
 use std::collections::BTreeMap;
 
@@ -18,6 +19,7 @@ use expressions::{describe, list_names};
 use inputs::list_inputs;
 use modules::list_modules;
 use passes::{describe_pass, list_features};
+use translated::rewrite;
 
 impl Filter {
     /// Describes the filter for pictures of a width, without their guard band; `as_written` leaves the presets' values in pixels unscaled.
@@ -39,14 +41,15 @@ impl Filter {
             if !as_written {
                 settings = settings.scaled_to(self, width);
             }
-            json!({ "name": preset.name, "doc": preset.doc, "values": settings.values })
+            let reference_width = settings.reference_width;
+            json!({
+                "name": preset.name, "doc": preset.doc, "values": settings.values, "reference_width": reference_width,
+            })
         };
-        let has_file = self.passes.iter().any(|pass| pass.shader.is_none());
         let in_pixels = |own: &Parameter| own.unit == Some(Unit::Pixels);
         Ok(json!({
             "name": self.name,
-            "file": has_file.then(|| format!("{}.wgsl", self.name)),
-            "toml": toml,
+            "toml": rewrite(self, toml),
             // What a new preset has to name, so that its values in pixels stay as they are.
             "reference_width": self.parameters.iter().any(in_pixels).then_some(width),
             "parameters": self.parameters,
@@ -61,6 +64,19 @@ impl Filter {
             "passes": passes,
             "modules": modules,
         }))
+    }
+
+    /// Lists the files of a folder that has the filter in WGSL, each with its text: filter.toml, then its modules.
+    ///
+    /// # Errors
+    /// As [`Filter::live`].
+    pub fn wgsl_files(&self) -> Result<Vec<(String, String)>, String> {
+        let live = self.live(0, true)?;
+        let text = |value: &Value, name: &str| value[name].as_str().map(str::to_owned);
+        let toml = text(&live, "toml").map(|text| ("filter.toml".to_owned(), text));
+        let modules = live["modules"].as_array().into_iter().flatten();
+        let modules = modules.filter_map(|own| Some((text(own, "file")?, text(own, "wgsl")?)));
+        Ok(toml.into_iter().chain(modules).collect())
     }
 
     /// Lists the numbers of a frame that the filter's data name, without the run of a pass. Fails for a frame that lacks one of them.

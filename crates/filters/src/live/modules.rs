@@ -1,4 +1,4 @@
-//! Modules of a filter as WGSL: `wgsl`, a line break and `appended` are compiled as one; a person may change the `editable` ones.
+//! Modules of a filter as WGSL: `wgsl`, a line break and `appended` are compiled as one; those with a `file` belong to the filter.
 
 use naga::Module;
 use naga::back::wgsl::{WriterFlags, write_string};
@@ -14,6 +14,21 @@ use crate::{Filter, Pass};
 /// Entry point of a translated module: naga would change some names.
 pub(super) const ENTRY: &str = "entry_point";
 
+/// Names the file of a module in the folder that a page saves.
+pub(super) fn file_name(filter: &Filter, index: usize) -> String {
+    let stem = filter.shaders[index].path.file_stem().unwrap_or_default();
+    let stem = stem.to_string_lossy();
+    let number = format!("_{index}");
+    match filter
+        .passes
+        .iter()
+        .any(|pass| pass.shader.is_some() && pass.shaders.contains(&index))
+    {
+        true => format!("{}{number}.wgsl", stem.trim_end_matches(&number)),
+        false => format!("{}.wgsl", filter.name),
+    }
+}
+
 /// Lists the modules, by their indices in the filter.
 pub(super) fn list_modules(filter: &Filter) -> Result<Vec<Value>, String> {
     let mut modules = Vec::new();
@@ -21,7 +36,7 @@ pub(super) fn list_modules(filter: &Filter) -> Result<Vec<Value>, String> {
         let pass = filter.passes.iter().find(|it| it.shaders.contains(&index));
         let Some(pass) = pass.filter(|pass| pass.shader.is_some()) else {
             let text = read_text(filter, &shader.path).map_err(|error| error.to_string())?;
-            modules.push(json!({ "wgsl": text.trim_end(), "appended": COMMON, "editable": true }));
+            modules.push(json!({ "file": file_name(filter, index), "wgsl": text.trim_end(), "appended": COMMON }));
             continue;
         };
         if shader.compiled.is_some() {
@@ -37,13 +52,16 @@ pub(super) fn list_modules(filter: &Filter) -> Result<Vec<Value>, String> {
         }
         module.entry_points.retain(|entry| entry.name == *kernel);
         module.entry_points[0].name = ENTRY.to_owned();
-        modules.push(translate(&module)?);
+        let text = translate(&module)?;
+        modules.push(
+            json!({ "file": file_name(filter, index), "wgsl": text.trim_end(), "appended": "" }),
+        );
     }
     Ok(modules)
 }
 
 /// Writes a module of naga as WGSL.
-fn translate(module: &Module) -> Result<Value, String> {
+fn translate(module: &Module) -> Result<String, String> {
     let mut validator = Validator::new(ValidationFlags::all(), Capabilities::all());
     let info = validator
         .validate(module)
@@ -51,12 +69,9 @@ fn translate(module: &Module) -> Result<Value, String> {
     let text = info.and_then(|info| {
         write_string(module, &info, WriterFlags::empty()).map_err(|error| error.to_string())
     });
-    match text {
-        Ok(text) => Ok(json!({ "wgsl": text, "appended": "", "editable": false })),
-        Err(reason) => Err(format!(
-            "This page cannot run the filter, because WGSL cannot say what its shader does: {reason}."
-        )),
-    }
+    text.map_err(|reason| {
+        format!("This page cannot run the filter, because WGSL cannot say what its shader does: {reason}.")
+    })
 }
 
 /// Describes the vertex stage of a fragment shader; the program's own triangle becomes another module. None for a kernel.
@@ -74,6 +89,7 @@ pub(super) fn describe_vertex(
         let bindings = list_bindings(shader, vertex);
         return Some(json!({ "module": pass.shaders[1], "entry": ENTRY, "bindings": bindings }));
     }
-    modules.push(translate(&make_triangle(&entry.inputs)).expect("the triangle is valid WGSL"));
+    let triangle = translate(&make_triangle(&entry.inputs)).expect("it is valid WGSL");
+    modules.push(json!({ "wgsl": triangle, "appended": "" }));
     Some(json!({ "module": modules.len() - 1, "entry": "triangle", "bindings": [] }))
 }

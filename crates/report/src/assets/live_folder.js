@@ -58,19 +58,21 @@
     return `${lines.join("\n")}\n`;
   };
 
-  // Saves the folder with the text of the shader. Returns what to run.
-  const save = (filter, values, text, scene) => {
-    const toml = `${filter.toml.trimEnd()}\n\n${presetOf(filter, values, scene)}`;
-    const files = [
-      [`${filter.name}/filter.toml`, toml],
-      [`${filter.name}/${filter.file}`, `${text.trimEnd()}\n`],
-    ];
+  const saveAs = (download, blob) => {
     const link = document.createElement("a");
-    Object.assign(link, { href: URL.createObjectURL(zip(files)), download: `${filter.name}.zip` });
+    Object.assign(link, { href: URL.createObjectURL(blob), download });
     link.click();
     setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+  };
+
+  // Saves the folder with the texts of the modules. Returns what to run.
+  const save = (filter, values, texts, scene) => {
+    const toml = `${filter.toml.trimEnd()}\n\n${presetOf(filter, values, scene)}`;
+    const shaders = filter.modules.map(({ file }, at) => [file, texts[at]]).filter(([file]) => file);
+    const files = [["filter.toml", toml], ...shaders].map(([file, text]) => [`${filter.name}/${file}`, `${text.trimEnd()}\n`]);
+    saveAs(`${filter.name}.zip`, zip(files));
     return `shuttertruth run --filter ./${filter.name}:${nameOf(filter)}`;
   };
 
-  pictures.folder = { presetOf, save };
+  pictures.folder = { presetOf, save, saveAs };
 }

@@ -2,7 +2,7 @@
 // "Try it" of a case: the parameters and the shader of its filter, which runs on the reader's graphics card.
 {
   const pictures = window.shuttertruth;
-  const { card, scores, folder, load, inflate, planes, put } = pictures;
+  const { card, bench, scores, folder, load, inflate, planes, put } = pictures;
   // Pictures that a panel adds to its case, with the numbers of their planes.
   const LAYERS = { live: [-1, -2, -3], live_flip: [-4] };
   // Differences from the stored scores up to these are those of graphics cards.
@@ -229,27 +229,28 @@
   const nameOfScene = ({ section }) => section.dataset.title.split(" / ")[0];
 
   const saveFolder = (mine) => {
-    const command = folder.save(mine.filter, mine.values, mine.texts[mine.module], nameOfScene(mine));
+    const command = folder.save(mine.filter, mine.values, mine.texts, nameOfScene(mine));
     say(`Unpack it, and run: ${command}`);
   };
 
-  // Numbers the lines of the shader, and lists what the compiler says about them.
-  const fillErrors = ({ errors, editor, module }) => {
-    const own = errors.filter((error) => error.module === module);
+  // Numbers the lines of the shader, and lists what the compiler says about all.
+  const fillErrors = (mine) => {
+    const { errors, editor, module } = mine;
     const lines = editor.text.value.split("\n").map((_, at) => {
-      const isBroken = own.some(({ line }) => line === at + 1);
+      const isBroken = errors.some((error) => error.module === module && error.line === at + 1);
       return element("span", { className: isBroken ? "broken" : "", textContent: `${at + 1}\n` });
     });
     editor.lines.replaceChildren(...lines);
-    const said = errors.map(({ line, message }) => element("li", {}, goTo(editor, line), ` ${message}`));
-    editor.errors.replaceChildren(...said);
+    editor.errors.replaceChildren(...errors.map((error) => element("li", {}, goTo(mine, error), ` ${error.message}`)));
     editor.text.setAttribute("aria-invalid", errors.length > 0);
   };
 
   // A button that selects a line of the shader.
-  const goTo = ({ text }, line) => {
+  const goTo = (mine, { line, module }) => {
     if (!line) return "In what is appended to the shader:";
     return button(`line ${line}`, () => {
+      if (module !== mine.module) mine.edits(module);
+      const { text } = mine.editor;
       const lines = text.value.split("\n");
       const start = lines.slice(0, line - 1).join("\n").length + (line > 1 ? 1 : 0);
       text.focus();
@@ -258,14 +259,21 @@
     });
   };
 
-  // An editor of the filter's kernels; none for shaders that the program translated.
+  // An editor of the filter's modules. Foreign shaders are the WGSL that the program translated them to.
   const shaderEditor = (mine) => {
     const { filter } = mine;
-    mine.module = filter.modules.findIndex(({ editable }) => editable);
-    if (mine.module < 0) return "";
-    const text = element("textarea", { spellcheck: false, wrap: "off", ariaLabel: "Shader", value: mine.texts[mine.module] });
+    const own = [...filter.modules.keys()].filter((at) => filter.modules[at].file);
+    const text = element("textarea", { spellcheck: false, wrap: "off", ariaLabel: "Shader" });
     const lines = element("pre", { ariaHidden: "true" });
-    mine.editor = { text, lines, errors: element("ul", { className: "errors", role: "alert" }) };
+    const menu = element("select", { ariaLabel: "File", hidden: own.length < 2 }, ...own.map((at) => new Option(filter.modules[at].file, at)));
+    mine.editor = { text, lines, menu, errors: element("ul", { className: "errors", role: "alert" }) };
+    mine.edits = (module) => {
+      mine.module = module;
+      menu.value = module;
+      text.value = mine.texts[module];
+      fillErrors(mine);
+    };
+    menu.addEventListener("change", () => mine.edits(Number(menu.value)));
     let waits = null;
     const edit = () => {
       mine.texts[mine.module] = text.value;
@@ -275,11 +283,12 @@
     };
     text.addEventListener("input", edit);
     text.addEventListener("scroll", () => (lines.scrollTop = text.scrollTop));
-    fillErrors(mine);
+    mine.edits(own[0]);
     return element(
       "details",
       { className: "shader" },
-      element("summary", { textContent: `Shader: ${filter.file}` }),
+      element("summary", { textContent: `Shader: ${own.map((at) => filter.modules[at].file).join(", ")}` }),
+      menu,
       element("div", { className: "code" }, lines, text),
       mine.editor.errors,
       button("Reset the shader", () => {
@@ -289,29 +298,49 @@
     );
   };
 
+  // Times of the passes, and a bench.json of all presets.
   const timeTable = (mine) => {
-    const said = element("p", { className: "note" });
+    const said = element("p", { className: "note", role: "status" });
     const table = element("table");
-    const measure = async () => {
-      const { device, name } = await openCard();
-      if (!device.features.has("timestamp-query")) return (said.textContent = "This browser does not measure the time of a pass.");
-      said.textContent = "Measuring ..";
+    const name = element("input", { ariaLabel: "Graphics card" });
+    const work = async (does) => {
       try {
-        const spent = await card.time(device, wordsOf(mine));
-        const all = spent.reduce((sum, [, time]) => sum + time, 0);
-        const rows = [...spent, ["all passes", all]].map(([entry, time]) => {
-          const cell = element("td", { textContent: `${time.toFixed(3)} ms` });
-          return element("tr", {}, element("th", { scope: "row", textContent: entry }), cell);
-        });
-        table.replaceChildren(...rows);
-        said.textContent = `Median of 64 runs on ${name}, ${mine.scene.width}x${mine.scene.height}. Most browsers round it to 0.1 ms.`;
+        const opened = await openCard();
+        name.value ||= opened.name;
+        const canMeasure = opened.device.features.has("timestamp-query");
+        said.textContent = canMeasure ? "Measuring .." : "This browser does not measure the time of a pass.";
+        if (canMeasure) said.textContent = await does(opened);
       } catch (error) {
         said.textContent = error.message;
       }
-      return null;
     };
+    const { width, height } = mine.scene;
+    const measure = async ({ device, name: model }) => {
+      const { seconds, passes, step } = await bench.time(device, wordsOf(mine));
+      const rows = [...passes, { entry: "all passes", seconds }].map(({ entry, seconds: { median } }) => {
+        const cell = element("td", { textContent: `${(1e3 * median).toFixed(3)} ms` });
+        return element("tr", {}, element("th", { scope: "row", textContent: entry }), cell);
+      });
+      table.replaceChildren(...rows);
+      const steps = step ? `This browser's clock has steps of ${(1e3 * step).toFixed(3)} ms, so short passes were repeated.` : "";
+      return `Median of ${bench.TURNS} runs on ${model}, ${width}x${height}. ${steps}`;
+    };
+    const saveAll = async ({ device, kind }) => {
+      const { filter, scene, data } = mine;
+      const { passes } = await card.compile(device, filter, filter.modules.map(({ wgsl }) => wgsl));
+      const words = (values) => ({ filter, scene, passes, texels: mine.texels, numbers: numbersOf({ filter, values, data }) });
+      const adapter = { name: name.value.trim(), driver: navigator.userAgent, backend: "webgpu", kind };
+      const about = { filter, adapter, program: data.program, scene: { name: nameOfScene(mine), width, height } };
+      const text = await bench.measureAll(device, about, words, (sentence) => (said.textContent = sentence));
+      folder.saveAs("bench.json", new Blob([text], { type: "application/json" }));
+      return "Saved bench.json, with the stored shader and the card's name above.";
+    };
+    const buttons = [button("Measure", () => work(measure)), button("Download bench.json", () => work(saveAll))];
+    openCard().then((opened) => (name.value ||= opened.name), () => {});
+    buttons[1].title = "Times of every preset";
     const title = element("summary", { textContent: "Time per pass" });
-    return element("details", { className: "times" }, title, button("Measure", measure), table, said);
+    const row = element("div", { className: "presets" }, "Card ", name, ...buttons);
+    return element("details", { className: "times" }, title, row, table, said);
   };
 
   const resetAll = (mine) => {
@@ -319,7 +348,7 @@
     set(mine, mine.before);
     if (!isEdited) return;
     mine.texts = mine.filter.modules.map(({ wgsl }) => wgsl);
-    mine.editor.text.value = mine.texts[mine.module];
+    mine.edits(mine.module);
     recompile(mine);
   };
 
@@ -327,9 +356,7 @@
     mine.table = element("table", { className: "compared" });
     const reset = button("Reset", () => resetAll(mine));
     reset.title = "Values and shader of the stored run";
-    const buttons = [reset, button("Copy as preset", () => copyPreset(mine))];
-    // Shaders that the program translated are no files of the folder.
-    if (mine.filter.modules.every(({ editable }) => editable)) buttons.push(button("Download filter", () => saveFolder(mine)));
+    const buttons = [reset, button("Copy as preset", () => copyPreset(mine)), button("Download filter", () => saveFolder(mine))];
     const head = element("div", { className: "head" }, element("h3", { textContent: "Try it" }), button("Close", leave));
     mine.place.replaceChildren(
       element("div", { className: "top" }, head, mine.table, mine.said),

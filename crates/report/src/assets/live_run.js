@@ -62,8 +62,10 @@
     device.lost.then(({ reason }) => reason !== "destroyed" && lost());
     // Whoever waits for a scope gets the errors; the console needs none.
     device.addEventListener("uncapturederror", (event) => event.preventDefault());
-    const { vendor, architecture, device: model, description } = adapter.info;
-    return { device, name: description || model || `${vendor} ${architecture}` };
+    const { vendor, architecture, device: model, description, isFallbackAdapter } = adapter.info;
+    const name = description || model || `${vendor} ${architecture}`.trim() || "unknown card";
+    const isSoftware = isFallbackAdapter || /swiftshader|llvmpipe|basic render/i.test(`${architecture} ${name}`);
+    return { device, name, kind: isSoftware ? "software" : "other" };
   };
 
   // Runs `work` after all earlier work; fails with what the card's driver says against it.
@@ -288,10 +290,9 @@
     }
   };
 
-  // Adds a dispatch to the commands of an encoder, with timestamps if `querySet` is there.
-  const encodeDispatch = (encoder, one, index, querySet) => {
+  // Adds a dispatch to the commands of an encoder, with `timestampWrites` if they are there.
+  const encodeDispatch = (encoder, one, timestampWrites) => {
     for (const [from, to] of one.copies) copyLevels(encoder, from, to);
-    const timestampWrites = querySet && { querySet, beginningOfPassWriteIndex: 2 * index, endOfPassWriteIndex: 2 * index + 1 };
     // A fragment that is discarded leaves what was there.
     const colorAttachments = one.attachments.map((attached) => ({ view: attached, loadOp: "load", storeOp: "store" }));
     const pass = one.isFragment
@@ -373,37 +374,5 @@
       }
     });
 
-  // Measures every pass by the card's clock: names with the median of `times` runs in milliseconds, the runs of a pass added up.
-  const time = (device, words, times = 64) =>
-    caught(device, async () => {
-      const run = prepare(device, words);
-      const stamps = 2 * run.dispatches.length;
-      const querySet = device.createQuerySet({ type: "timestamp", count: stamps });
-      const row = Math.ceil((8 * stamps) / ROW) * ROW;
-      const resolved = device.createBuffer({ size: row * times, usage: GPUBufferUsage.QUERY_RESOLVE | GPUBufferUsage.COPY_SRC });
-      const buffer = device.createBuffer({ size: row * times, usage: GPUBufferUsage.COPY_DST | GPUBufferUsage.MAP_READ });
-      for (let turn = 0; turn < times; turn++) {
-        const encoder = device.createCommandEncoder();
-        run.dispatches.forEach((one, index) => encodeDispatch(encoder, one, index, querySet));
-        encoder.resolveQuerySet(querySet, 0, stamps, resolved, turn * row);
-        if (turn === times - 1) encoder.copyBufferToBuffer(resolved, 0, buffer, 0, row * times);
-        device.queue.submit([encoder.finish()]);
-      }
-      await buffer.mapAsync(GPUMapMode.READ);
-      const clock = new BigUint64Array(buffer.getMappedRange());
-      const spent = new Map();
-      run.dispatches.forEach(({ entry }, index) => {
-        const all = spent.get(entry) ?? Array(times).fill(0);
-        all.forEach((_, turn) => {
-          const start = (turn * row) / 8 + 2 * index;
-          all[turn] += Number(clock[start + 1] - clock[start]) / 1e6;
-        });
-        spent.set(entry, all);
-      });
-      destroy(run);
-      buffer.destroy();
-      return [...spent].map(([entry, all]) => [entry, all.sort((a, b) => a - b)[times >> 1]]);
-    });
-
-  pictures.card = { open, findObstacle, compile, blur, time };
+  pictures.card = { open, findObstacle, compile, blur, caught, prepare, destroy, encodeDispatch };
 }

@@ -1,39 +1,7 @@
 "use strict";
-// The overview: one score at a time, rows that are searched for, sorting, settings in the address, and a look at the worst place of
-// a case.
+// The overview: one score at a time, rows that are searched for, settings in the address, and a look at the worst place of a case.
 {
-  const value = (row, column) => {
-    const cell = row.cells[column];
-    return column === 0 ? cell.textContent.trim() : parseFloat(cell.dataset.value);
-  };
-  const compare = (a, b, sign) => {
-    if (typeof a === "string") return sign * a.localeCompare(b);
-    if (Number.isNaN(a) || Number.isNaN(b)) return Number.isNaN(a) - Number.isNaN(b);
-    return sign * (a - b);
-  };
-  // Each group of rows sorts by itself; a second press turns the order around. A row without a number comes last.
-  const sort = (heading) => {
-    const table = heading.closest("table");
-    const column = heading.cellIndex;
-    const first = column === 0 ? "ascending" : table.dataset.first;
-    const other = first === "ascending" ? "descending" : "ascending";
-    const order = heading.ariaSort === first ? other : first;
-    for (const one of heading.parentElement.cells) one.ariaSort = null;
-    heading.ariaSort = order;
-    const sign = order === "ascending" ? 1 : -1;
-    for (const group of table.tBodies) {
-      if (group.classList.contains("group")) continue;
-      const rows = [...group.rows];
-      rows.sort((a, b) => compare(value(a, column), value(b, column), sign));
-      group.append(...rows);
-    }
-  };
   const overview = document.getElementById("overview");
-  overview.addEventListener("click", (event) => {
-    const button = event.target.closest(".sortable thead button");
-    if (button) sort(button.closest("th"));
-  });
-
   const panels = [...document.querySelectorAll(".panel")];
   // The page holds every thumbnail once.
   const thumbnails = [...panels[0].querySelectorAll("th.scene img")].map((image) => image.src);

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use filters::{EXCLUSION, Filter, Input};
 use metrics::{Measured, Metric};
 use serde_json::json;
-use suite::{Case, Error, FilterFrame, InputFormat, MEASURED_FILTERS, Run, filter_input};
+use suite::{Case, Error, FilterFrame, InputFormat, MEASURED_FILTERS, PROGRAM, Run, filter_input};
 
 use crate::pixels::report_files::write_script;
 
@@ -81,7 +81,9 @@ impl<'a> LiveFiles<'a> {
         let Some(filter) = found.filter(|_| case.command.is_none()) else {
             let reason = match case.command {
                 Some(_) => "A browser cannot run this filter: it is a program.",
-                None => "This page cannot run the filter: the run's folder does not hold it.",
+                None => {
+                    "This page cannot run the filter: the run's folder does not hold it in WGSL."
+                }
             };
             return Ok(Err(reason.to_owned()));
         };
@@ -156,6 +158,7 @@ fn describe_case(
         "parameters": case.parameters,
         "values": filter.frame_values(&input)?,
         "alignment": case.alignment,
+        "program": PROGRAM,
         "stored": {
             "flip": value(Metric::FLIP),
             "psnr": value(Metric::PSNR),

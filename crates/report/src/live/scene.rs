@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use frame::Frame;
+use filters::EXCLUSION;
 use serde_json::{Map, json};
+use suite::FilterFrame;
 
 use crate::pixels::planes::deflate;
 use crate::pixels::scene_files::SceneFiles;
@@ -36,7 +37,7 @@ pub fn scene_json(files: &mut SceneFiles) -> String {
 }
 
 /// Packs the inputs as 32-bit floats: halves would change velocities by up to 0.015 pixels and depths by 0.05 %, which moves taps.
-fn list_inputs(frame: &Frame) -> BTreeMap<&'static str, String> {
+fn list_inputs(frame: &FilterFrame) -> BTreeMap<&'static str, String> {
     let next = frame.velocity_next.as_ref();
     let z = frame.velocity_z.as_ref();
     let color = ("color", frame.color.pixels.as_flattened());
@@ -44,7 +45,9 @@ fn list_inputs(frame: &Frame) -> BTreeMap<&'static str, String> {
     let further = next.map(|next| ("velocity_next", next.pixels.as_flattened()));
     let z = z.map(|z| ("velocity_z", &z.pixels[..]));
     let all = [color, velocity, ("depth", &frame.depth.pixels[..])].into_iter();
-    let all = all.chain(further).chain(z);
+    let mask = frame.exclusion.as_ref();
+    let mask = mask.map(|mask| (EXCLUSION, &mask.pixels[..]));
+    let all = all.chain(further).chain(z).chain(mask);
     all.map(|(name, numbers)| (name, compress(numbers)))
         .collect()
 }

@@ -4,71 +4,18 @@ use std::path::Path;
 
 use filters::Value;
 use maud::{Markup, html};
-use store::read_text;
-use suite::{BENCH_FORMAT, Bench, CaseCost, Error, FilterId, REACHES, SIDES, Spread};
+use suite::{Bench, CaseCost, Error, FilterId, Spread};
 
 use crate::case_table::CaseTable;
 use crate::numbers::three_digits;
 
 /// Name of the file that `shuttertruth bench` writes.
 const BENCH_FILE: &str = "bench.json";
-/// Longest duration in a bench, in seconds: a day.
-const LONGEST: f64 = 86_400.0;
 
 /// Reads the bench in a run's folder; none if there is no such file.
 pub fn read_bench(folder: &Path) -> Result<Option<Bench>, Error> {
     let path = folder.join(BENCH_FILE);
-    if !path.exists() {
-        return Ok(None);
-    }
-    let parsed = serde_json::from_str(&read_text(&path)?);
-    let checked = parsed
-        .map_err(|error| format!("no bench of this program: {error}"))
-        .and_then(check);
-    checked.map(Some).map_err(|reason| {
-        Error::Usage(format!(
-            "{}: {reason}; `shuttertruth bench` writes one; delete it to have a report without costs",
-            path.display()
-        ))
-    })
-}
-
-/// Refuses another version, impossible times and sizes, and reaches that were not timed: charts take logarithms.
-fn check(bench: Bench) -> Result<Bench, String> {
-    if bench.format != BENCH_FORMAT {
-        let format = bench.format;
-        return Err(format!("has format {format}; allowed: {BENCH_FORMAT}"));
-    }
-    let sides = [bench.width, bench.height];
-    if !sides.iter().all(|side| SIDES.contains(side)) {
-        return Err(format!(
-            "has pictures of {}x{} pixels; allowed: {SIDES:?} columns and rows",
-            bench.width, bench.height
-        ));
-    }
-    let cases = bench.cases.iter();
-    let passes = (cases.clone().flat_map(|own| &own.passes)).map(|pass| &pass.seconds);
-    let points = bench.reaches.iter().flat_map(|reach| &reach.points);
-    let times = (cases.map(|own| &own.seconds).chain(passes))
-        .chain(points.filter_map(|point| point.seconds.as_ref()))
-        .flat_map(|own| [own.median, own.lower_quartile, own.upper_quartile]);
-    for seconds in times {
-        if !(0.0..=LONGEST).contains(&seconds) {
-            return Err(format!(
-                "holds a time of {seconds} s; allowed: 0 to {LONGEST}"
-            ));
-        }
-    }
-    for reach in &bench.reaches {
-        let pixels: Vec<u32> = reach.points.iter().map(|point| point.pixels).collect();
-        if pixels != REACHES {
-            return Err(format!(
-                "{}:{} was timed at the reaches {pixels:?}; allowed: {REACHES:?}",
-                reach.filter, reach.preset
-            ));
-        }
-    }
-    Ok(bench)
+    path.exists().then(|| Bench::read(&path)).transpose()
 }
 
 /// Formats a time in milliseconds: `1.23`.

@@ -1,6 +1,5 @@
 //! Section on the cost of filters, from the run's bench.json.
 
-use filters::Clock;
 use maud::{Markup, html};
 use metrics::Metric;
 use suite::{BASELINE, Bench, CaseCost, FilterId, GROWTH_FROM, REACHES};
@@ -41,17 +40,14 @@ pub fn costs(table: &CaseTable) -> Markup {
 }
 
 fn provenance(bench: &Bench) -> String {
-    let clock = match bench.clock {
-        Clock::Timestamps => "by the GPU's own clock",
-        Clock::WallClock => "by the wall clock around each pass: the adapter has no timestamps",
-    };
     format!(
-        "Timed on {} at {}x{}, on panels that move {} pixels: median of {} rounds {clock}. Quality is from this run's pictures.",
+        "Timed on {} at {}x{}, on {}: median of {} rounds by {}. Quality is from this run's pictures.",
         adapter_text(&bench.adapter),
         bench.width,
         bench.height,
-        bench.speed,
-        bench.rounds
+        bench.frame_text(),
+        bench.rounds,
+        bench.clock_text()
     )
 }
 
@@ -96,8 +92,8 @@ fn passes(timed: &[(&FilterId, &CaseCost)]) -> Markup {
                 tr.group {
                     th scope="row" { (filter.to_string()) }
                     (spread(&cost.seconds))
-                    td { (format!("{:.2}", cost.ratio.median)) }
-                    td { (format!("{:.0}", cost.bytes_per_pixel)) }
+                    td { (cost.ratio.map_or("-".to_owned(), |ratio| format!("{:.2}", ratio.median))) }
+                    td { (bytes_text(cost.bytes_per_pixel)) }
                 }
                 @for pass in &cost.passes {
                     tr.pass {
@@ -106,7 +102,7 @@ fn passes(timed: &[(&FilterId, &CaseCost)]) -> Markup {
                         }
                         (spread(&pass.seconds))
                         td {}
-                        td { (format!("{:.0}", pass.bytes_per_pixel)) }
+                        td { (bytes_text(pass.bytes_per_pixel)) }
                     }
                 }
             }
@@ -118,6 +114,10 @@ fn passes(timed: &[(&FilterId, &CaseCost)]) -> Markup {
             Plain("filter / pass"), Plain("ms"), Plain("quartiles"), Plain("x baseline"), Plain("bytes per pixel"),
         ], &bodies))
     }
+}
+
+fn bytes_text(bytes: Option<f64>) -> String {
+    bytes.map_or("-".to_owned(), |bytes| format!("{bytes:.0}"))
 }
 
 fn reaches(bench: &Bench) -> Markup {

@@ -8,7 +8,9 @@ use frame::{
 };
 use metrics::{Side, object_sides};
 use store::RenderFile;
-use suite::{ACCUMULATE, Case, Error, ErrorMaps, FilterFrame, Run, read_further_velocities};
+use suite::{
+    ACCUMULATE, Case, Error, ErrorMaps, FilterFrame, Run, read_exclusion, read_further_velocities,
+};
 
 use super::layer::Layer;
 use super::planes::Planes;
@@ -21,7 +23,7 @@ pub type Layers = Vec<(Layer, Vec<usize>)>;
 pub struct SceneFiles {
     /// Without its guard band.
     pub frame: Frame,
-    /// With it, and with all velocities that filters got, but without coverage.
+    /// With it, and with all velocities and the mask that filters got, but without coverage.
     pub whole: FilterFrame,
     /// Truths by alignment.
     pub truths: BTreeMap<Alignment, TruthFile>,
@@ -76,7 +78,9 @@ impl SceneFiles {
         let mut whole = Frame::read(&path)?;
         let frame = whole.cropped();
         whole.coverage.clear();
-        read_further_velocities(&mut whole, path.parent().unwrap_or(folder))?;
+        let own = path.parent().unwrap_or(folder);
+        read_further_velocities(&mut whole, own)?;
+        let exclusion = read_exclusion(&whole, own)?;
         check_size(&path, frame.size(), (run.render.width, run.render.height))?;
         let mut accumulations = BTreeMap::new();
         for case in cases.iter().filter(|case| is_in_profiles(case)) {
@@ -105,7 +109,7 @@ impl SceneFiles {
             frame,
             whole: FilterFrame {
                 frame: whole,
-                exclusion: None,
+                exclusion,
             },
             planes,
         })

@@ -25,10 +25,10 @@ pub fn case_cost(
         parameters: choice.settings.values.clone(),
         reference_width: choice.settings.reference_width,
         seconds,
-        ratio: ratio(runs, baseline),
-        bytes_per_pixel: bytes / pixels,
-        bytes_per_second,
-        part_of_copy: bytes_per_second / copy.bytes_per_second,
+        ratio: Some(ratio(runs, baseline)),
+        bytes_per_pixel: Some(bytes / pixels),
+        bytes_per_second: Some(bytes_per_second),
+        part_of_copy: Some(bytes_per_second / copy.bytes_per_second),
         passes: pass_costs(runs, pixels),
     }
 }
@@ -45,7 +45,7 @@ pub fn pass_costs(runs: &[Times], pixels: f64) -> Vec<PassCost> {
                 entry: iterations[0].entry.clone(),
                 iterations: iterations.len(),
                 seconds: Spread::of(runs.iter().map(|run| total_seconds(&run[range.clone()]))),
-                bytes_per_pixel: count_bytes(iterations) as f64 / pixels,
+                bytes_per_pixel: Some(count_bytes(iterations) as f64 / pixels),
             }
         })
         .collect()

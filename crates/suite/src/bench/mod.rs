@@ -1,6 +1,7 @@
 //! Bench of filters: the time of every pass, its memory traffic, and how both grow with the reach.
 
 mod costs;
+mod file;
 mod panels;
 mod spread;
 mod timing;
@@ -42,18 +43,22 @@ pub struct Bench {
     pub adapter: AdapterDescription,
     /// Clock of the durations.
     pub clock: Clock,
+    /// Steps of the clock in seconds, if a browser rounds it.
+    pub clock_step: Option<f64>,
     /// Pixels per row.
     pub width: u32,
     /// Rows.
     pub height: u32,
     /// Rounds of timing.
     pub rounds: u32,
-    /// Exposure in frames.
-    pub exposure: f64,
-    /// Motion of `cases`, in pixels per frame.
-    pub speed: u32,
-    /// Speed of the adapter's memory.
-    pub copy: CopyCost,
+    /// Scene with the frame that a browser timed; none for the moving panels.
+    pub scene: Option<String>,
+    /// Exposure of the panels, in frames.
+    pub exposure: Option<f64>,
+    /// Motion of the panels of `cases`, in pixels per frame.
+    pub speed: Option<u32>,
+    /// Speed of the adapter's memory; a browser does not measure it, nor the traffic.
+    pub copy: Option<CopyCost>,
     /// Costs of every filter preset, with the preset's own parameters.
     pub cases: Vec<CaseCost>,
     /// Costs of every filter preset by reach.
@@ -86,14 +91,14 @@ pub struct CaseCost {
     pub reference_width: Option<u32>,
     /// Time of all passes.
     pub seconds: Spread,
-    /// Ratio to the time of [`BASELINE`] in the same round.
-    pub ratio: Spread,
+    /// Ratio to the time of [`BASELINE`] in the same round, if that was timed.
+    pub ratio: Option<Spread>,
     /// Memory traffic of all passes; see [`filters::PassTime::bytes`].
-    pub bytes_per_pixel: f64,
+    pub bytes_per_pixel: Option<f64>,
     /// Bytes over median time.
-    pub bytes_per_second: f64,
+    pub bytes_per_second: Option<f64>,
     /// Bytes per second, relative to the copy's.
-    pub part_of_copy: f64,
+    pub part_of_copy: Option<f64>,
     /// Passes in the order of their runs.
     pub passes: Vec<PassCost>,
 }
@@ -108,7 +113,7 @@ pub struct PassCost {
     /// Time of all iterations.
     pub seconds: Spread,
     /// Memory traffic of all iterations.
-    pub bytes_per_pixel: f64,
+    pub bytes_per_pixel: Option<f64>,
 }
 
 /// The cost of one filter preset at every reach.

@@ -10,29 +10,25 @@ use crate::Error;
 /// Folder of the copies in the folder of a run; each is a filter folder.
 pub const MEASURED_FILTERS: &str = "measured_filters";
 
-/// Copies filter.toml and the shaders of each filter of a plan that is neither built in nor a program. Removes the copy of another filter of
-/// the same name. A shader outside of the filter's folder is left out.
+/// Writes each filter of a plan that is neither built in nor a program, in WGSL: without a compiler, and without what its shaders include.
+/// Removes the copy of another filter of the same name.
 pub(crate) fn copy_filters(plan: &RunPlan) -> Result<(), Error> {
     for choice in &plan.filters {
         let filter = &choice.filter;
         let copy = plan.out.join(MEASURED_FILTERS).join(&filter.name);
-        let manifest = copy.join("filter.toml");
         if filter.command.is_some() {
             continue;
         }
-        let Some(folder) = &filter.folder else {
-            if manifest.is_file() {
-                fs::remove_file(&manifest)
-                    .map_err(|source| FileError::io(&manifest, "remove", source))?;
-            }
+        let manifest = copy.join("filter.toml");
+        if manifest.is_file() {
+            fs::remove_file(&manifest)
+                .map_err(|source| FileError::io(&manifest, "remove", source))?;
+        }
+        if filter.folder.is_none() {
             continue;
-        };
-        for path in filter.list_files() {
-            let Ok(below) = path.strip_prefix(folder) else {
-                continue;
-            };
-            let bytes = fs::read(path).map_err(|source| FileError::io(path, "read", source))?;
-            write_atomically(&copy.join(below), &bytes)?;
+        }
+        for (file, text) in filter.wgsl_files().unwrap_or_default() {
+            write_atomically(&copy.join(file), text.as_bytes())?;
         }
     }
     Ok(())

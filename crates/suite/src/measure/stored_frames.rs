@@ -7,7 +7,7 @@ use super::plan::RunPlan;
 use super::run_scene::RunScene;
 use crate::Error;
 use crate::inputs::input_format::InputFormat;
-use crate::render::exclusion::{FilterFrame, draw_exclusion};
+use crate::render::exclusion::{FilterFrame, draw_exclusion, write_exclusion};
 use crate::render::velocities::write_further_velocities;
 
 /// A frame in one of the forms that filters get.
@@ -40,7 +40,7 @@ pub(super) fn store_frames(
         let exclusion = mask.transpose()?.flatten();
         Ok::<_, Error>(FilterFrame { frame, exclusion })
     };
-    (formats.iter())
+    let stored: Vec<StoredFrame> = (formats.iter())
         .map(|format| {
             let before = before.as_ref();
             let before = before.map(|(scene, frame)| store(format, frame, RunScene::Traced(scene)));
@@ -50,7 +50,16 @@ pub(super) fn store_frames(
                 before: before.transpose()?,
             })
         })
-        .collect()
+        .collect::<Result<_, Error>>()?;
+    let mut usual = stored
+        .iter()
+        .filter(|own| own.format == InputFormat::default());
+    if let (Some(StoredFrame { frame, .. }), 0) = (usual.next(), scene.id().frame) {
+        let folder = plan.out.join(scene.id().folder());
+        let mask = frame.exclusion.as_ref();
+        mask.map_or(Ok(()), |mask| write_exclusion(mask, frame, &folder))?;
+    }
+    Ok(stored)
 }
 
 /// Reads the frame with the velocities that few filters read; none if no filter of the plan does, and of an engine's scene.
