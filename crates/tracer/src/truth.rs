@@ -24,7 +24,7 @@ use crate::scene::Scene;
 use crate::settings::RenderSettings;
 use crate::stage::Stage;
 
-/// One sample in so many is shaded at the instant, too. With one in eight the noise floors of frozen shading double.
+/// One sample in so many is shaded at the instant, too. One in eight would make the noise floor of frozen shading 2.5 times as high.
 const ONE_RECALLED_IN: u32 = 4;
 
 /// A scene prepared to render the replicates of its truths, for one alignment or several.
