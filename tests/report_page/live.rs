@@ -108,10 +108,7 @@ fn count_apart(apart: &[f32]) -> f32 {
 /// Presets, or filters, that magnify the last bits of a number, in which adapters differ; each with what it does.
 const MAGNIFYING: [(&str, &str); 2] = [
     ("dagor:", "rounds the direction of motion to seven bits"),
-    (
-        "mcguire:motion_blur_demo",
-        "takes noise from sines of large numbers",
-    ),
+    ("mcguire:motion_blur_demo", "has sines of large numbers"),
 ];
 
 /// Differences of the open panel from a case.
