@@ -60,7 +60,7 @@ pub(crate) struct Estimate {
     pub bounces: f64,
     /// Samples that saw each object, by id; a sample that sees through translucent surfaces is shared out.
     pub seen: Vec<f64>,
-    /// Means at the instant; zero without a view of it.
+    /// Means at the instant; without a view of it, frozen shading is the radiance and the rest 0.
     pub at_instant: InstantMeans,
 }
 
@@ -153,7 +153,7 @@ impl<'a> Film<'a> {
         };
         for index in 0..samples {
             let sampler = Sampler::new(seed, index);
-            let instant = self.instant.as_ref().filter(|_| index < recalled);
+            sample.is_recalled = index < recalled;
             let [x, y, part, _] = sampler.camera();
             let place = match self.color {
                 ColorSampling::Antialiased => [x, y],
@@ -163,7 +163,7 @@ impl<'a> Film<'a> {
             for (times, sums) in self.times.iter().zip(&mut sums) {
                 let time = times.at(part, row, self.canvas.height);
                 if traced_at != Some(time) {
-                    self.trace((eye, instant), pixel, place, time, &sampler, &mut sample);
+                    self.trace(eye, pixel, place, time, &sampler, &mut sample);
                     traced_at = Some(time);
                 }
                 sums.add(&sample);
@@ -175,7 +175,7 @@ impl<'a> Film<'a> {
     /// Traces one sample of a pixel.
     fn trace(
         &self,
-        (eye, instant): (&mut Eye, Option<&InstantView>),
+        eye: &mut Eye,
         pixel: u32,
         within: [f64; 2],
         time: f64,
@@ -187,14 +187,13 @@ impl<'a> Film<'a> {
         let stage = self.integrator.stage;
         let then = &mut eye.instant;
         sample.clear(self.canvas.place(pixel, [0.5; 2]));
-        sample.is_recalled = instant.is_some();
         visit_layers(stage, &mut eye.poses, &ray, |poses, layer| {
             let (radiance, bounces) = self.integrator.follow_path(poses, ray, layer.stop, sampler);
             sample.radiance += layer.weight * radiance;
             sample.bounces += bounces;
             let hit = layer.stop.map(|stop| stop.hit);
-            let place = match (instant, &self.instant) {
-                (Some(instant), _) => {
+            let place = match &self.instant {
+                Some(instant) if sample.is_recalled => {
                     let point = instant.look_back(stage, (poses, then), &own, hit.as_ref());
                     sample.unknowable += layer.share * f64::from(!point.is_shown);
                     if let Some(stop) = layer.stop {
@@ -205,8 +204,8 @@ impl<'a> Film<'a> {
                     }
                     point.place
                 }
-                (None, Some(instant)) => instant.find_place(stage, then, &own, hit.as_ref()),
-                (None, None) => None,
+                Some(instant) => instant.find_place(stage, then, &own, hit.as_ref()),
+                None => None,
             };
             sample.seen.push(SeenPoint {
                 object_id: hit.map_or(0, |hit| hit.object + 1),
@@ -221,7 +220,7 @@ impl<'a> Film<'a> {
 #[derive(Clone, Default)]
 struct FilmSample {
     radiance: Vec3,
-    /// True if it was also looked up at the instant.
+    /// True if it is also looked up at the instant.
     is_recalled: bool,
     /// Share of it that the frame of the instant does not show.
     unknowable: f64,
@@ -246,7 +245,7 @@ struct SeenPoint {
 }
 
 impl FilmSample {
-    /// Makes an empty sample.
+    /// Empties the sample for another ray.
     fn clear(&mut self, centre: [f64; 2]) {
         self.radiance = Vec3::ZERO;
         self.unknowable = 0.0;
