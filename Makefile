@@ -1,11 +1,11 @@
-# `make run` does the main job, and `make site` makes a site of its results; `make test` proves that the program is right, and `make prove` repeats it at full breadth within an
-# hour: CONTRIBUTING.md. `make archive` makes the release archive; `make action` and `make image` try it in a bare Debian and in two
-# images: docs/release.md.
+# `make run` does the main job, and `make site` makes a site of its results. `make test` proves that the program is right, and
+# `make prove` repeats it at full breadth within an hour: CONTRIBUTING.md. `make archive` makes the release archive; `make action` and
+# `make image` try it in a bare Debian and in two images: docs/release.md.
 #
 # All look for a Vulkan driver first and, on Debian and Ubuntu, install the software one where there is none. The tests need Python:
 # Optuna drives the tuning service, Snakemake runs the jobs of a plan, and numpy and OpenEXR compare presets with their originals.
 # They need Chromium to open reports and to draw scenes with three.js, node to install three.js and to drive it, and glslang to compile
-# shaders in GLSL. `make prove` needs Blender, too.
+# shaders in GLSL. `make prove` needs Blender and mdBook, too.
 # On macOS and Windows plain cargo commands work.
 
 .PHONY: run site test prove breadth guides fuzz mutants growth archive action image publish vulkan software_vulkan python chromium node glslang blender mdbook

@@ -113,9 +113,7 @@ def copy_case(case, scene, name, numbers):
 def place_files(source, part, cases, copies):
     """Gives the pictures of cases, and the files of their scene, second names below a part."""
     pairs = [(case["folder"], copy["folder"]) for case, copy in zip(cases, copies)]
-    scenes = (cases[0]["scene"], copies[0]["scene"])
-    ladders = [f"/{folder.name}" for folder in (source / scenes[0]).glob("ladder_*")]
-    pairs += [tuple(scene + below for scene in scenes) for below in ["", *ladders]]
+    pairs.append((cases[0]["scene"], copies[0]["scene"]))
     for old, new in pairs:
         (part / new).mkdir(parents=True, exist_ok=True)
         for file in (source / old).iterdir():

@@ -3,6 +3,7 @@
 //! below `results/bench/`. Without a file it only writes the page. With `--site FOLDER` it keeps nothing, and writes the source of the
 //! site with live cases of one run: `make site`.
 
+mod engines;
 mod page;
 mod site;
 
@@ -14,7 +15,8 @@ use judge::Results;
 use report::{write_case_strip, write_report};
 use suite::{ACCUMULATE, Bench, Case, Error, Run};
 
-use crate::page::{list_engines, main_results, picture_name, results_page};
+use crate::engines::list_engines;
+use crate::page::{main_results, picture_name, results_page};
 use crate::site::{Site, read};
 
 const FOLDER: &str = "results";

@@ -4,57 +4,12 @@ use cli::{markdown_table, range_text};
 use frame::Alignment;
 use judge::{RANK_RULE, RankedFilter, ResultScores, Results, SizeComparison, compare_sizes};
 use metrics::Metric;
-use serde::Deserialize;
 use suite::{Bench, Error, IDENTITY};
 
-/// Engines' shipped presets, without scores.
-const ENGINES: &str = include_str!("../../results/engines.toml");
+use super::engines::{Change, Engine, Measured, list_engines, measured};
 
 /// Characters of a line of the page.
 const WIDTH: usize = 135;
-
-/// An engine with its shipped preset.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Engine {
-    pub name: String,
-    /// Preset that equals the engine's default.
-    pub ships: String,
-    /// Its mistake, in one sentence.
-    wrong: String,
-    /// The smallest measured change that improves most.
-    change: Option<Change>,
-    /// Page below results/findings with its code.
-    finding: Option<String>,
-}
-
-impl Engine {
-    /// Names its page on the site, below results: `engines/unity_hdrp_quality_medium.md`.
-    pub fn page_name(&self) -> String {
-        let name = self.name.to_lowercase();
-        let words = name.split(|letter: char| !letter.is_ascii_alphanumeric());
-        let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
-        format!("engines/{}.md", words.join("_"))
-    }
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Change {
-    preset: String,
-    /// The change, as the beginning of a sentence.
-    by: String,
-}
-
-/// Lists the engines of results/engines.toml.
-pub fn list_engines() -> Vec<Engine> {
-    #[derive(Deserialize)]
-    struct File {
-        engine: Vec<Engine>,
-    }
-    let file: File = toml::from_str(ENGINES).expect("engines.toml lists engines");
-    file.engine
-}
 
 /// Finds the results for the page: those with most scenes, without seals.
 pub fn main_results(all: &[Results]) -> Option<&Results> {
@@ -332,38 +287,6 @@ These commands make the scores, the pictures and this page. Each run announces t
 Flax's licence forbids a port, so that it has no row: [its finding](findings/flax.md). To add a filter, put its folder into `shaders/` and run them with `--filter` and its name. The JSON files next to this page hold every
 score, and [one in bench](bench/1920x1080_nvidia_h100_80gb_hbm3.json) the times; [engines.toml](engines.toml) holds the sentences about engines. [What the scores mean](../crates/metrics/README.md).
 ";
-
-/// An engine with its scores.
-struct Measured<'a> {
-    engine: Engine,
-    shipped: &'a RankedFilter,
-    /// Mean FLIP of no blur, under the same shutter.
-    none: f64,
-    /// Mean FLIP after the change.
-    changed: Option<f64>,
-}
-
-/// Finds the scores of the engines, the worst against no blur first.
-fn measured(groups: &[Vec<RankedFilter>]) -> Vec<Measured<'_>> {
-    let find = |name: &str| groups.iter().flatten().find(|own| own.name == name);
-    let measure = |engine: Engine| {
-        let shipped = find(&engine.ships)?;
-        let group = (groups.iter()).find(|group| group[0].alignment == shipped.alignment)?;
-        let none = group.iter().find(|own| own.filter == IDENTITY)?.mean;
-        let change = engine.change.as_ref();
-        let changed = change.and_then(|change| Some(find(&change.preset)?.mean));
-        Some(Measured {
-            engine,
-            shipped,
-            none,
-            changed,
-        })
-    };
-    let mut all: Vec<Measured> = list_engines().into_iter().filter_map(measure).collect();
-    let badness = |own: &Measured| own.shipped.mean / own.none;
-    all.sort_by(|a, b| badness(b).total_cmp(&badness(a)));
-    all
-}
 
 /// Makes the table of the times that readers' browsers measured; nothing without any.
 fn times(cards: &[&Bench]) -> String {

@@ -1,5 +1,7 @@
 //! Kept results: files of scores, and the page made from them.
 
+#[path = "../../examples/results/engines.rs"]
+mod engines;
 #[path = "../../examples/results/page.rs"]
 mod page;
 #[path = "../../examples/results/site.rs"]
@@ -19,7 +21,8 @@ use tests::root;
 use tests::text::assert_contains;
 use tracer::{Location, SceneId, Seal, list_scenes};
 
-use self::page::{list_engines, main_results, picture_name, results_page};
+use self::engines::{Engine, list_engines};
+use self::page::{main_results, picture_name, results_page};
 use self::site::Site;
 use crate::links::find_pages;
 use crate::sandbox::Sandbox;
@@ -68,7 +71,7 @@ fn the_page_of_results_is_made_from_the_files_beside_it() {
 fn the_pictures_show_what_each_engine_ships_at_its_worst() {
     let results = Results::read_all(&folder()).unwrap();
     let main = main_results(&results).unwrap();
-    let worst = |engine: page::Engine| main.worst_of(&engine.ships).map(picture_name).unwrap();
+    let worst = |engine: Engine| main.worst_of(&engine.ships).map(picture_name).unwrap();
     let due: BTreeSet<String> = list_engines().into_iter().map(worst).collect();
     let files = fs::read_dir(folder().join("pictures")).unwrap();
     let found = files.map(|file| file.unwrap().file_name().into_string().unwrap());

@@ -3,9 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::exr::{
-    ExrFile, FIRST_RUNG, read_alone, read_exr, write_small_exr, write_without_common,
-};
+use crate::exr::{ExrFile, read_exr, write_small_exr};
 use crate::shutter::{get_shutter, set_shutter};
 use crate::{Alignment, FileError, Picture, Provenance, Shutter, ShutterProfile};
 
@@ -41,14 +39,8 @@ impl Ladder {
     /// Writes the ladder as OpenEXR: layers `n<N>.A` and `n<N>.B` per rung. Consumes the ladder, because a copy would
     /// double the memory of measuring.
     pub fn write(self, path: &Path) -> Result<(), FileError> {
-        // Away from motion all rungs are equal.
-        let first = path.with_file_name(FIRST_RUNG);
-        let is_other = path != first && self.rungs.len() == 1;
-        let other = is_other.then(|| read_alone(&first).ok()).flatten();
-        match other {
-            Some(other) => write_without_common(path, self.into_exr(), (FIRST_RUNG, &other)),
-            None => write_small_exr(path, self.into_exr()),
-        }
+        // Away from motion all rungs equal the truth's mean.
+        write_small_exr(path, self.into_exr())
     }
 
     /// Makes the content of the file that [`Ladder::write`] writes.

@@ -95,7 +95,7 @@ pub fn trace_frame_part(
         color: settings.options.color,
         times: &[Times::Instant],
         instant: None,
-        shaded_again: 1,
+        one_recalled_in: 1,
         replicates,
         samples,
         seed: settings.seed,

@@ -25,8 +25,8 @@ use crate::scene::Scene;
 use crate::settings::RenderSettings;
 use crate::stage::Stage;
 
-/// Distance between samples that are shaded once more, as at the instant.
-const SHADED_AGAIN: u32 = 4;
+/// One sample in so many is shaded at the instant, too. One in eight would make the noise floor of frozen shading 2.5 times as high.
+const ONE_RECALLED_IN: u32 = 4;
 
 /// A scene prepared to render the replicates of its truths, for one alignment or several.
 ///
@@ -151,7 +151,7 @@ impl<'a> TruthTracer<'a> {
             color: ColorSampling::Antialiased,
             times,
             instant: Some(InstantView::new(&self.stage, canvas)),
-            shaded_again: SHADED_AGAIN,
+            one_recalled_in: ONE_RECALLED_IN,
             replicates,
             samples,
             seed: self.settings.seed,
@@ -206,7 +206,7 @@ impl<'a> TruthTracer<'a> {
             let times: Vec<Times> = self.family.iter().map(AlignedShutter::times).collect();
             let uniform = SampleCounts::Uniform(PILOT_SAMPLES);
             let pilot = Film {
-                shaded_again: 1,
+                one_recalled_in: 1,
                 ..self.film(&times, &uniform, 0..PILOT_REPLICATES, Stream::TruthPilot)
             };
             let moving: Vec<bool> = (0..self.stage.scene.objects.len() + 1)

@@ -63,7 +63,7 @@ fn uncovered_background_and_pixels_beyond_the_border_are_unknowable() {
     let cases = [(2.0, 0.0, 5.0), (2.0, 13.0, 8.0), (1e-5, 0.0, 5.0)];
     for ((gap, at, half), alignment) in cases.into_iter().zip(Alignment::ALL) {
         let scene = panel_over_wall(gap, at, 2.0 * half as f32);
-        let known = render(&scene, alignment, 1024).at_instant_mean();
+        let known = render(&scene, alignment, 4096).at_instant_mean();
         for_each_column(|left, pixel| {
             let expected = mean_over(left, alignment, |x, t| {
                 let covered = |x: f64, t: f64| (x - at - SPEED * t).abs() < half;

@@ -100,9 +100,9 @@ fn every_layer_of_a_truth_is_the_mean_of_shifted_pinhole_truths() {
         let settings = settings_of_two(SIZE, samples);
         render_truth(scene, &settings, Alignment::Trailing)
     };
-    let own = render(&with_lens(panels(DVec2::ZERO), APERTURE, FOCUS), 2048);
+    let own = render(&with_lens(panels(DVec2::ZERO), APERTURE, FOCUS), 8192);
     let pinholes: Vec<Truth> = lens_points(64)
-        .map(|point| render(&panels(point), 64))
+        .map(|point| render(&panels(point), 256))
         .collect();
     let pictures: Vec<Picture> = pinholes.iter().map(Truth::mean).collect();
     expect_same(&own.mean(), &Picture::mean(&pictures));

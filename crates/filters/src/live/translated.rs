@@ -28,7 +28,7 @@ pub(super) fn rewrite(filter: &Filter, text: String) -> String {
     for (entry, pass) in passes.into_iter().flatten().zip(&filter.passes) {
         let entry = entry.as_table_mut().expect("a pass is a table");
         if pass.shader.is_some() {
-            entry.retain(|key, _| !LEFT_OUT.iter().any(|own| *own == key));
+            entry.retain(|key, _| !LEFT_OUT.contains(&key));
             entry.extend(describe_pass(filter, pass));
         }
     }

@@ -73,7 +73,7 @@ impl ExrFile {
     }
 
     /// Refuses altered content.
-    pub(super) fn expect_checksum(&self) -> Result<(), FileError> {
+    fn expect_checksum(&self) -> Result<(), FileError> {
         let found: String = self.get(CHECKSUM)?;
         if found == self.compute_checksum() {
             return Ok(());

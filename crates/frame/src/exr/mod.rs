@@ -4,15 +4,10 @@ mod check;
 mod file;
 mod header;
 mod reading;
-mod shared;
 mod writing;
 
 pub(crate) use file::in_layer;
 pub use file::{Channel, ExrFile, Samples};
 pub use header::{LARGEST_EXR_RATIO, LARGEST_EXR_SIDE, MAX_EXR_BYTES, MAX_EXR_CHANNELS};
-pub(crate) use reading::read_alone;
 pub use reading::{read_attribute, read_exr, read_exr_header};
-pub(crate) use shared::FIRST_RUNG;
-pub use shared::FRAME_OF_CASE;
-pub(crate) use writing::write_small_exr;
-pub use writing::{write_exr, write_half_exr, write_without_common};
+pub use writing::{write_exr, write_half_exr, write_small_exr};

@@ -12,16 +12,8 @@ use crate::FileError;
 use crate::file::open_regular;
 
 /// Reads a single-part OpenEXR file; refuses one that is cut short, has several parts, or claims more pixels, channels or
-/// bytes than [`MAX_EXR_BYTES`](crate::MAX_EXR_BYTES) and its neighbours allow. Half floats are widened. What
-/// [`write_without_common`](crate::write_without_common) left out is read from the other file.
+/// bytes than [`MAX_EXR_BYTES`](crate::MAX_EXR_BYTES) and its neighbours allow. Half floats are widened.
 pub fn read_exr(path: &Path) -> Result<ExrFile, FileError> {
-    let mut file = read_alone(path)?;
-    file.fill_in()?;
-    Ok(file)
-}
-
-/// Reads no other file than this one.
-pub(crate) fn read_alone(path: &Path) -> Result<ExrFile, FileError> {
     let (handle, bytes) = open_regular(path, u64::MAX)?;
     let broken = |error: exr::error::Error| match error {
         exr::error::Error::NotSupported(reason) => {

@@ -25,24 +25,12 @@ pub fn write_exr(path: &Path, file: &ExrFile) -> Result<(), FileError> {
         compression: Compression::RLE,
         ..Encoding::SMALL_LOSSLESS
     };
-    write_encoded(path, (file.clone(), None), quick, FlatSamples::F32)
+    write_encoded(path, file.clone(), quick, FlatSamples::F32)
 }
 
 /// Writes as [`write_exr`] does, smaller (ZIP16) and slower: for files that are made once, or that repeat themselves. A channel
 /// of floats that are all halves, such as a mask, is written as halves.
-pub(crate) fn write_small_exr(path: &Path, file: ExrFile) -> Result<(), FileError> {
-    write_encoded(path, (file, None), Encoding::SMALL_LOSSLESS, shorten)
-}
-
-/// Writes as [`write_exr`] does, smaller (ZIP16) and without the pixels that equal those of another file, bit for bit: these are NaN, and
-/// [`read_exr`](crate::read_exr) takes them from there. `name` names the other file as the folder of this one sees it, and is one of the
-/// few that it may be: [`FRAME_OF_CASE`](crate::FRAME_OF_CASE), or a rung whose mean `other` is. Filters leave most of a picture as it is in the frame.
-pub fn write_without_common(
-    path: &Path,
-    file: ExrFile,
-    (name, other): (&str, &ExrFile),
-) -> Result<(), FileError> {
-    let file = (file, Some((name, other)));
+pub fn write_small_exr(path: &Path, file: ExrFile) -> Result<(), FileError> {
     write_encoded(path, file, Encoding::SMALL_LOSSLESS, shorten)
 }
 
@@ -71,7 +59,7 @@ pub fn write_half_exr(path: &Path, mut file: ExrFile) -> Result<(), FileError> {
             }
         }
     }
-    write_encoded(path, (file, None), Encoding::SMALL_LOSSLESS, |samples| {
+    write_encoded(path, file, Encoding::SMALL_LOSSLESS, |samples| {
         FlatSamples::F16(samples.into_iter().map(round_to_half).collect())
     })
 }
@@ -80,10 +68,10 @@ fn round_to_half(value: f32) -> f16 {
     f16::from_f32(value.clamp(f16::MIN.to_f32(), f16::MAX.to_f32()))
 }
 
-/// Encodes floats as `floats` does, and writes the file, without what it has in common with another.
+/// Encodes floats as `floats` does, and writes the file.
 fn write_encoded(
     path: &Path,
-    (mut file, other): (ExrFile, Option<(&str, &ExrFile)>),
+    file: ExrFile,
     encoding: Encoding,
     floats: fn(Vec<f32>) -> FlatSamples,
 ) -> Result<(), FileError> {
@@ -91,9 +79,6 @@ fn write_encoded(
     // No checksum for files handed to other programs, which may change them.
     let checksum = (file.attributes.contains_key("kind"))
         .then(|| (CHECKSUM.to_owned(), file.compute_checksum()));
-    if let Some((name, other)) = other {
-        file.leave_out(name, other);
-    }
     let channels = file.channels.into_iter().map(|channel| {
         let samples = match channel.samples {
             Samples::F32(samples) => floats(samples),

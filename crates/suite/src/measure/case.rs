@@ -7,7 +7,6 @@ use frame::{Frame, Ladder, Picture, Vectors};
 use metrics::{
     ColorReference, ImageScores, Jitter, MeasureError, Measurement, Metric, ProbeScores, Reference,
 };
-use store::RenderFile;
 use tracer::Defocus;
 
 use super::dilated_velocity::read_dilated_velocity;
@@ -240,15 +239,9 @@ impl CaseContext<'_> {
             CommonTruth::Missing => ImageScores::not_applicable(OTHER_SHUTTER),
         };
         let folder = planned.id.folder();
-        let rung = match planned.source {
-            PictureSource::Accumulation(subframes) => {
-                Some(RenderFile::Rung(planned.id.alignment, subframes))
-            }
-            _ => None,
-        };
         let files = write_case(
             &self.scene.plan.out.join(&folder),
-            (self.frame, rung),
+            self.frame,
             (picture, measured.dilated_velocity.as_ref()),
             measurement,
         )?;

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use frame::{
-    Alignment, Display, ExrFile, FRAME_OF_CASE, FileError, Frame, Image, Picture, Truth, Vectors,
-    display_srgb, write_half_exr, write_png, write_without_common,
+    Alignment, Display, ExrFile, FileError, Frame, Image, Picture, Truth, Vectors, display_srgb,
+    write_half_exr, write_png, write_small_exr,
 };
 use metrics::Measurement;
 use store::{LADDER, RenderFile};
@@ -52,11 +52,10 @@ pub fn write_truth(
     Ok(files)
 }
 
-/// Writes a case: the output, the dilated velocity if the filter has one, and the error maps; returns the files' names. `rung` is the
-/// file of the rung that the output is the mean of, if it is one.
+/// Writes a case: the output, the dilated velocity if the filter has one, and the error maps; returns the files' names.
 pub fn write_case(
     folder: &Path,
-    (frame, rung): (&Frame, Option<RenderFile>),
+    frame: &Frame,
     (output, dilated_velocity): (&Picture, Option<&Vectors>),
     measurement: &Measurement,
 ) -> Result<Vec<String>, FileError> {
@@ -68,13 +67,7 @@ pub fn write_case(
     write_png(&label_tv, &magma(&maps.label_total_variation))?;
     write_png(&bleed, &magma(&maps.bleed))?;
     let file = output_file(&frame.objects, output, dilated_velocity);
-    let (name, shown) = match rung {
-        Some(rung) => (format!("../{rung}"), output.clone()),
-        None => (FRAME_OF_CASE.to_owned(), frame.picture()),
-    };
-    let mut other = ExrFile::new(shown.color.width, shown.color.height);
-    shown.push(&mut other, "", &frame.objects);
-    write_without_common(&output_exr, file, (&name, &other))?;
+    write_small_exr(&output_exr, file)?;
     write_half_exr(&errors, errors_file(measurement))?;
     Ok(CASE_FILES.map(str::to_owned).into())
 }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use filters::{EXCLUSION, Filter};
-use frame::{Alignment, Frame, write_exr};
+use frame::{Alignment, Frame, write_small_exr};
 use store::{RenderFile, refuse_scene, scene_folder};
 use tracer::{PixelGrid, RenderSettings, Scene};
 
@@ -74,7 +74,7 @@ impl Rendering<'_> {
         let frame = self.frame_with_further_velocities()?;
         let mut file = frame.to_exr();
         file.push_plane(EXCLUSION, &draw_exclusion(&frame, self.scene));
-        Ok(write_exr(&self.path(RenderFile::Frame), &file)?)
+        Ok(write_small_exr(&self.path(RenderFile::Frame), file)?)
     }
 
     /// Names a file of the scene.

@@ -11,7 +11,7 @@ use tracer::{
 
 /// Quads along each side of the ground.
 const GROUND_SIDE: u32 = 300;
-/// Rows of quads from pole to pole of a sphere; twice as many around.
+/// Rows of quads from pole to pole of a sphere.
 const SPHERE_ROWS: u32 = 60;
 /// Spheres along each side of their square.
 const SPHERES_SIDE: u32 = 5;
@@ -52,7 +52,7 @@ pub fn made_scene() -> Scene {
         },
         background: Background::Constant(Vec3::ONE),
         sun: None,
-        meshes: vec![ground(), sphere()],
+        meshes: vec![ground(), bumpy_sphere(SPHERE_ROWS)],
         textures: Vec::new(),
         materials: vec![Material {
             diffuse: Vec3::splat(0.5),
@@ -102,8 +102,9 @@ fn ground() -> Mesh {
     })
 }
 
-fn sphere() -> Mesh {
-    grid(SPHERE_ROWS, 2 * SPHERE_ROWS, |u, v| {
+/// A displaced unit sphere with rows of quads from pole to pole, and twice as many around.
+pub fn bumpy_sphere(rows: u32) -> Mesh {
+    grid(rows, 2 * rows, |u, v| {
         let (polar_sine, polar_cosine) = (PI * u).sin_cos();
         let (sine, cosine) = (TAU * v).sin_cos();
         let bump = 1.0 + 0.04 * (12.0 * PI * u).sin() * (16.0 * PI * v).sin();

@@ -3,6 +3,7 @@
 
 mod frames;
 mod made_scene;
+mod written_scenes;
 
 use std::f64::consts::TAU;
 use std::hint::black_box;

@@ -40,9 +40,9 @@ pub(crate) struct InstantPoint {
 /// Sums over the samples of a pixel.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct InstantSums {
-    live: DVec3,
+    /// Samples that were looked up at the instant.
+    recalled: u32,
     shift: DVec3,
-    shifts: u32,
     unknowable: f64,
     placed: f64,
     offset: DVec2,
@@ -94,8 +94,7 @@ impl InstantView {
             return self.look_at_infinity(stage, then, ray.direction, *from);
         };
         let mesh = &stage.scene.meshes[stage.scene.objects[hit.object].mesh];
-        let own = mesh.at(0.0).point(hit.triangle, hit.weights);
-        let point = then.pose(hit.object).to_world.transform_point3(own);
+        let point = find_point(stage, then, hit);
         let side = |poses: &mut Poses, time: f64, direction: DVec3| {
             let to_world = &poses.pose(hit.object).to_world;
             let normal = mesh.at(time).area_normal(hit.triangle, to_world);
@@ -154,6 +153,21 @@ impl InstantView {
                 && !self.is_blocked(stage, then, &ray, f64::INFINITY, true),
             ray: None,
         }
+    }
+
+    /// Finds the place that [`InstantView::look_back`] finds, and nothing else.
+    pub fn find_place(
+        &self,
+        stage: &Stage,
+        then: &mut Poses,
+        EyeRay { ray, from }: &EyeRay,
+        hit: Option<&Hit>,
+    ) -> Option<DVec2> {
+        let target = match hit {
+            Some(hit) => Target::Point(find_point(stage, then, hit)),
+            None => Target::Infinity(ray.direction),
+        };
+        self.view.project_through(target, *from)
     }
 
     /// Shades a sample's point at the instant; returns the radiance then minus the radiance of the sample's own path from
@@ -220,37 +234,40 @@ impl InstantView {
     }
 }
 
+/// Finds the point of a hit as it was at the instant, in the world.
+fn find_point(stage: &Stage, then: &mut Poses, hit: &Hit) -> DVec3 {
+    let mesh = &stage.scene.meshes[stage.scene.objects[hit.object].mesh];
+    let own = mesh.at(0.0).point(hit.triangle, hit.weights);
+    then.pose(hit.object).to_world.transform_point3(own)
+}
+
 impl InstantSums {
-    /// Adds the radiance of a sample, and its change from its own time to the instant, if it was shaded again.
-    pub fn add_radiance(&mut self, radiance: Vec3, shift: Option<Vec3>) {
-        self.live += radiance.as_dvec3();
-        if let Some(shift) = shift {
-            self.shift += shift.as_dvec3();
-            self.shifts += 1;
-        }
+    /// Adds a sample that was looked up at the instant: the share of it that the frame does not show, and the change of its radiance.
+    pub fn add_recalled(&mut self, unknowable: f64, shift: Vec3) {
+        self.recalled += 1;
+        self.unknowable += unknowable;
+        self.shift += shift.as_dvec3();
     }
 
-    /// Adds a point that a sample saw, with its share of the sample, to the pixel with this centre.
-    pub fn add_point(&mut self, point: &InstantPoint, share: f64, centre: [f64; 2]) {
-        self.unknowable += share * f64::from(!point.is_shown);
-        if let Some(place) = point.place {
-            let offset = place - DVec2::from(centre);
-            self.placed += share;
-            self.offset += share * offset;
-            self.spread += share * (offset * offset);
-        }
+    /// Adds the place of a point that a sample saw, with its share of the sample, to the pixel with this centre.
+    pub fn add_place(&mut self, place: DVec2, share: f64, centre: [f64; 2]) {
+        let offset = place - DVec2::from(centre);
+        self.placed += share;
+        self.offset += share * offset;
+        self.spread += share * (offset * offset);
     }
 
-    /// The means over `samples`.
+    /// The means over the pixel's samples, of which there are `samples` with the mean radiance `live`.
     ///
-    /// Frozen shading is the live shading of all samples plus the mean shift of those that were shaded again. Most samples
-    /// shift little or not at all, so that a part of them suffices. If few shift much, the estimate may fall below 0; it
-    /// must not be clamped, or its mean would be too high.
-    pub fn means(&self, samples: u32) -> InstantMeans {
+    /// Frozen shading is the live shading plus the mean shift. Most samples shift little or not at all, so that a part of them suffices.
+    /// If few shift much, the estimate may fall below 0; it must not be clamped, or its mean would be too high.
+    pub fn means(&self, samples: u32, live: DVec3) -> InstantMeans {
         let samples = f64::from(samples);
+        // Without any, their sums are 0.
+        let recalled = f64::from(self.recalled.max(1));
         InstantMeans {
-            frozen: self.live / samples + self.shift / f64::from(self.shifts),
-            unknowable: self.unknowable / samples,
+            frozen: live + self.shift / recalled,
+            unknowable: self.unknowable / recalled,
             placed: self.placed / samples,
             offset: self.offset / samples,
             spread: self.spread / samples,

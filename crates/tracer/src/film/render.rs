@@ -3,11 +3,11 @@
 use std::ops::Range;
 
 use frame::{ColorSampling, Image, Picture, Plane, Tile};
-use glam::{DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec3};
 use rayon::prelude::*;
 
 use crate::error::TraceError;
-use crate::film::at_instant::{InstantMeans, InstantPoint, InstantSums, InstantView};
+use crate::film::at_instant::{InstantMeans, InstantSums, InstantView};
 use crate::film::canvas::Canvas;
 use crate::film::eye::Eye;
 use crate::film::sample_counts::SampleCounts;
@@ -42,8 +42,8 @@ pub(crate) struct Film<'a> {
     pub times: &'a [Times<'a>],
     /// View of the instant, if samples are looked up there; the stage must then hold `t = 0`.
     pub instant: Option<InstantView>,
-    /// Distance between samples that are shaded once more, as at the instant.
-    pub shaded_again: u32,
+    /// The first of a pixel's samples are shaded at the instant, too: one in so many, but at least one.
+    pub one_recalled_in: u32,
     /// Independent, complete sets of samples, by the numbers that seed them.
     pub replicates: Range<u32>,
     /// Samples per pixel of each.
@@ -60,7 +60,7 @@ pub(crate) struct Estimate {
     pub bounces: f64,
     /// Samples that saw each object, by id; a sample that sees through translucent surfaces is shared out.
     pub seen: Vec<f64>,
-    /// Means at the instant; zero without a view of it.
+    /// Means at the instant; without a view of it, frozen shading is the radiance and the rest 0.
     pub at_instant: InstantMeans,
 }
 
@@ -146,8 +146,14 @@ impl<'a> Film<'a> {
         };
         let mut sums = vec![unseen; self.times.len()];
         let mut sample = FilmSample::default();
-        for index in 0..self.samples.of(pixel) {
+        let samples = self.samples.of(pixel);
+        let recalled = match self.instant {
+            Some(_) => (samples / self.one_recalled_in).max(1),
+            None => 0,
+        };
+        for index in 0..samples {
             let sampler = Sampler::new(seed, index);
+            sample.is_recalled = index < recalled;
             let [x, y, part, _] = sampler.camera();
             let place = match self.color {
                 ColorSampling::Antialiased => [x, y],
@@ -180,28 +186,31 @@ impl<'a> Film<'a> {
         let ray = own.ray;
         let stage = self.integrator.stage;
         let then = &mut eye.instant;
-        let shades_again =
-            self.instant.is_some() && sampler.index.is_multiple_of(self.shaded_again);
         sample.clear(self.canvas.place(pixel, [0.5; 2]));
-        sample.shift = shades_again.then_some(Vec3::ZERO);
         visit_layers(stage, &mut eye.poses, &ray, |poses, layer| {
             let (radiance, bounces) = self.integrator.follow_path(poses, ray, layer.stop, sampler);
             sample.radiance += layer.weight * radiance;
             sample.bounces += bounces;
             let hit = layer.stop.map(|stop| stop.hit);
-            let point = self.instant.as_ref().map(|instant| {
-                let point = instant.look_back(stage, (poses, then), &own, hit.as_ref());
-                if let (Some(shift), Some(stop)) = (&mut sample.shift, layer.stop) {
-                    let path = (radiance, bounces);
-                    let own = instant.shift(&self.integrator, then, (&point, stop), path, sampler);
-                    *shift += layer.weight * own;
+            let place = match &self.instant {
+                Some(instant) if sample.is_recalled => {
+                    let point = instant.look_back(stage, (poses, then), &own, hit.as_ref());
+                    sample.unknowable += layer.share * f64::from(!point.is_shown);
+                    if let Some(stop) = layer.stop {
+                        let path = (radiance, bounces);
+                        let own =
+                            instant.shift(&self.integrator, then, (&point, stop), path, sampler);
+                        sample.shift += layer.weight * own;
+                    }
+                    point.place
                 }
-                point
-            });
+                Some(instant) => instant.find_place(stage, then, &own, hit.as_ref()),
+                None => None,
+            };
             sample.seen.push(SeenPoint {
                 object_id: hit.map_or(0, |hit| hit.object + 1),
                 share: layer.share,
-                at_instant: point,
+                place,
             });
         });
     }
@@ -211,8 +220,12 @@ impl<'a> Film<'a> {
 #[derive(Clone, Default)]
 struct FilmSample {
     radiance: Vec3,
-    /// Change of the radiance from its own time to the instant, if it was shaded again.
-    shift: Option<Vec3>,
+    /// True if it is also looked up at the instant.
+    is_recalled: bool,
+    /// Share of it that the frame of the instant does not show.
+    unknowable: f64,
+    /// Change of the radiance from its own time to the instant.
+    shift: Vec3,
     bounces: u32,
     /// All that it saw: more than one point through translucent surfaces.
     seen: Vec<SeenPoint>,
@@ -227,15 +240,16 @@ struct SeenPoint {
     object_id: usize,
     /// Share of the sample.
     share: f64,
-    /// The point as it was at the instant, if the film looks there.
-    at_instant: Option<InstantPoint>,
+    /// Its place at the instant, if it had one and the film looks there.
+    place: Option<DVec2>,
 }
 
 impl FilmSample {
-    /// Makes an empty sample.
+    /// Empties the sample for another ray.
     fn clear(&mut self, centre: [f64; 2]) {
         self.radiance = Vec3::ZERO;
-        self.shift = None;
+        self.unknowable = 0.0;
+        self.shift = Vec3::ZERO;
         self.bounces = 0;
         self.seen.clear();
         self.centre = centre;
@@ -249,7 +263,7 @@ struct PixelSums {
     radiance: DVec3,
     bounces: u32,
     seen: Vec<f64>,
-    at_instant: Option<InstantSums>,
+    at_instant: InstantSums,
 }
 
 impl PixelSums {
@@ -259,23 +273,23 @@ impl PixelSums {
         self.bounces += sample.bounces;
         for point in &sample.seen {
             self.seen[point.object_id] += point.share;
-            if let Some(at_instant) = &point.at_instant {
-                let sums = self.at_instant.get_or_insert_default();
-                sums.add_point(at_instant, point.share, sample.centre);
+            if let Some(place) = point.place {
+                (self.at_instant).add_place(place, point.share, sample.centre);
             }
         }
-        if let Some(sums) = &mut self.at_instant {
-            sums.add_radiance(sample.radiance, sample.shift);
+        if sample.is_recalled {
+            self.at_instant
+                .add_recalled(sample.unknowable, sample.shift);
         }
     }
 
     fn estimate(&self) -> Estimate {
-        let means = self.at_instant.map(|sums| sums.means(self.count));
+        let radiance = self.radiance / f64::from(self.count);
         Estimate {
-            radiance: self.radiance / f64::from(self.count),
+            radiance,
             bounces: f64::from(self.bounces) / f64::from(self.count),
             seen: self.seen.clone(),
-            at_instant: means.unwrap_or_default(),
+            at_instant: self.at_instant.means(self.count, radiance),
         }
     }
 }

@@ -22,6 +22,8 @@ const MAX_BOUNCES: u32 = 64;
 pub(crate) struct Integrator<'a> {
     pub stage: &'a Stage<'a>,
     pub emitters: Emitters,
+    /// True if light comes from points on the sun's disc or on emitters.
+    draws_points: bool,
 }
 
 /// Density with which a ray's direction was sampled; none for rays of the camera and of mirrors, which no light could have
@@ -31,9 +33,13 @@ type RayDensity = Option<f64>;
 impl<'a> Integrator<'a> {
     /// Prepares the emitters with their weights at `time` (frames).
     pub fn new(stage: &'a Stage<'a>, time: f64) -> Self {
+        let emitters = Emitters::new(stage.scene, stage.poses().at(time));
+        let mut suns = stage.scene.sun.iter();
         Self {
             stage,
-            emitters: Emitters::new(stage.scene, stage.poses().at(time)),
+            draws_points: !emitters.triangles.is_empty()
+                || suns.any(|sun| sun.angular_radius > 0.0),
+            emitters,
         }
     }
 
@@ -123,7 +129,10 @@ impl<'a> Integrator<'a> {
         let [sky_u, sky_v, lobe_choice, _] = sky_numbers;
         let mut light = [Vec3::ZERO; 2];
         if self.stage.scene.sun.is_some() || !self.emitters.triangles.is_empty() {
-            let points = sampler.lights(depth);
+            let points = match self.draws_points {
+                true => sampler.lights(depth),
+                false => [0.0; 4],
+            };
             light[0] = self.direct_light(poses, start, brdf, choice, points);
         }
         if let Some(sky) = self.stage.sky.sample([sky_u, sky_v]) {
