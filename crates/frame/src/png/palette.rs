@@ -1,7 +1,7 @@
 //! Palettes of PNG files.
 
 /// Upper limit on the colours of a palette.
-const MAX_COLORS: usize = 256;
+pub const MAX_COLORS: usize = 256;
 
 /// Refuses a PNG with a palette that is not a list of whole colours, at which the decoder would panic. The error's text follows
 /// the file's name. The decoder reports all other faults.
