@@ -239,7 +239,9 @@ impl Browser {
             };
             let heard: Value = serde_json::from_str(&text).unwrap();
             if heard["id"] == self.calls {
-                assert!(heard.get("error").is_none(), "{method}: {heard}");
+                // A page that is being left has no value, and `until` asks the next one.
+                let was_left = heard["error"]["message"] == "Inspected target navigated or closed";
+                assert!(was_left || heard.get("error").is_none(), "{method}: {heard}");
                 return heard["result"].clone();
             }
             if heard["method"] == "Page.javascriptDialogOpening" {

@@ -5,7 +5,9 @@ use frame::{Frame, Image, Plane};
 /// Shows an error in [0, 1] in the colours of magma; no error is black.
 pub fn magma(error: &Plane) -> Image {
     error.map(|value| {
-        let color = colorous::MAGMA.eval_continuous(f64::from(value.clamp(0.0, 1.0)));
+        // In 256 steps, so that a PNG of it has a palette.
+        let step = (value.clamp(0.0, 1.0) * 255.0).round() / 255.0;
+        let color = colorous::MAGMA.eval_continuous(f64::from(step));
         color.as_array().map(|byte| f32::from(byte) / 255.0)
     })
 }

@@ -30,7 +30,7 @@ const INTERVALS: f64 = 2.0;
 /// Cases that need as much time as the start of a process and its truth.
 const START_CASES: f64 = 2.0;
 /// Bytes on disk per pixel of a picture: a frame, a replicate, or a case with its part of the report.
-const PICTURE_BYTES: u64 = 36;
+const PICTURE_BYTES: u64 = 22;
 /// Pictures with the disk space of a truth and its ladder, without replicates.
 const PICTURES_OF_TRUTH: u64 = 5;
 
