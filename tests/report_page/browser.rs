@@ -239,9 +239,12 @@ impl Browser {
             };
             let heard: Value = serde_json::from_str(&text).unwrap();
             if heard["id"] == self.calls {
-                // A page that is being left has no value, and `until` asks the next one.
-                let was_left = heard["error"]["message"] == "Inspected target navigated or closed";
-                assert!(was_left || heard.get("error").is_none(), "{method}: {heard}");
+                // A page that is being left has no value; `until` asks the next one.
+                let error = heard["error"]["message"].as_str().unwrap_or_default();
+                assert!(
+                    ["", "Inspected target navigated or closed"].contains(&error),
+                    "{method}: {heard}"
+                );
                 return heard["result"].clone();
             }
             if heard["method"] == "Page.javascriptDialogOpening" {

@@ -349,9 +349,7 @@ fn mistakes_in_the_data_of_a_filter_change_its_picture() {
     const FILTERS: [&str; 2] = ["kino:default", "jump_flood:corrected"];
     type Mistake = fn(&mut Value);
     let mistakes: [(usize, Mistake); 4] = [
-        (0, |data| {
-            data["passes"].as_array_mut().unwrap().swap(2, 3);
-        }),
+        (0, |data| data["passes"].as_array_mut().unwrap().swap(2, 3)),
         (0, |data| {
             let bindings = data["passes"][4]["bindings"].as_array_mut().unwrap();
             let mut blocks = bindings.iter_mut().filter(|it| it["role"] == "block");

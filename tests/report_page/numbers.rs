@@ -47,11 +47,8 @@ fn files_of(sandbox: &Sandbox, case: &Case) -> [ExrFile; 4] {
     ]
     .map(|path| read_exr(&path).unwrap());
     let [truth, output] = [0, 1].map(|at: usize| files[at].color("").unwrap());
-    let viewing = Frame::read(&scene.join("frame.exr"))
-        .unwrap()
-        .display
-        .into();
-    files[3].push_plane("flip", &flip_ldr(&truth, &output, &viewing));
+    let frame = Frame::read(&scene.join("frame.exr")).unwrap();
+    files[3].push_plane("flip", &flip_ldr(&truth, &output, &frame.display.into()));
     files
 }
 

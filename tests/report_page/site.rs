@@ -35,15 +35,13 @@ fn attributes<'t>(text: &'t str, name: &str) -> Vec<&'t str> {
 
 /// Lists the links of all pages below a folder that lead to no file, or to no place on its page; counts all links.
 fn find_dead_links(folder: &Path) -> (Vec<String>, usize) {
-    let pages: BTreeMap<PathBuf, String> = find_pages(folder)
-        .into_iter()
-        .map(|path| {
-            (
-                path.canonicalize().unwrap(),
-                fs::read_to_string(path).unwrap(),
-            )
-        })
-        .collect();
+    let read = |path: PathBuf| {
+        (
+            path.canonicalize().unwrap(),
+            fs::read_to_string(&path).unwrap(),
+        )
+    };
+    let pages: BTreeMap<_, _> = find_pages(folder).into_iter().map(read).collect();
     let places: BTreeMap<&PathBuf, BTreeSet<&str>> = pages
         .iter()
         .map(|(path, text)| (path, attributes(text, "id").into_iter().collect()))
