@@ -241,10 +241,8 @@ impl Browser {
             if heard["id"] == self.calls {
                 // A page that is being left has no value; `until` asks the next one.
                 let error = heard["error"]["message"].as_str().unwrap_or_default();
-                assert!(
-                    ["", "Inspected target navigated or closed"].contains(&error),
-                    "{method}: {heard}"
-                );
+                let is_known = ["", "Inspected target navigated or closed"].contains(&error);
+                assert!(is_known, "{method}: {heard}");
                 return heard["result"].clone();
             }
             if heard["method"] == "Page.javascriptDialogOpening" {

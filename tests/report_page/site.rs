@@ -22,10 +22,8 @@ fn find_pages(folder: &Path) -> Vec<PathBuf> {
 
 /// Finds the values of an attribute in the tags of a page.
 fn attributes<'t>(text: &'t str, name: &str) -> Vec<&'t str> {
-    let tags = text
-        .split('<')
-        .skip(1)
-        .filter_map(|rest| rest.split('>').next());
+    let tags = text.split('<').skip(1);
+    let tags = tags.filter_map(|rest| rest.split('>').next());
     let start = format!(" {name}=\"");
     let values = tags.filter_map(|tag| tag.split_once(&start));
     values

@@ -179,7 +179,7 @@ fn costs_come_from_the_bench_beside_the_run() {
     let bench = "bench --quiet --size 64x32 --out out --filters";
     sandbox.done(&format!("{bench} {filters}"));
     let page = make_page(&sandbox);
-    let timed: suite::Bench = sandbox.read_json("out/bench.json");
+    let mut timed: suite::Bench = sandbox.read_json("out/bench.json");
     let mut costs = timed.cases.iter();
     let timing = costs.find(|cost| cost.filter == "identity").unwrap();
     // Every table of scores has one cell for the filter both run and timed. Those only timed, or run with other parameters, have none.
@@ -196,6 +196,9 @@ fn costs_come_from_the_bench_beside_the_run() {
     sandbox.edit("out/bench.json", "\"format\": 1", "\"format\": 0");
     let parts = "out/bench.json: has format 0; allowed: 1 | `shuttertruth bench`";
     sandbox.refuse(REPORT, parts);
+    timed.cases[0].seconds.lower_quartile = 0.0;
+    sandbox.put("out/bench.json", serde_json::to_vec(&timed).unwrap());
+    sandbox.refuse(REPORT, "holds a time of 0 s; allowed: 0.000000001 to");
 }
 
 #[test]
