@@ -18,8 +18,7 @@ use crate::file::write_atomically;
 /// Writes single-part, lossless OpenEXR under a temporary name and renames it: the path has the whole file or its old
 /// content. A file of a `kind` gets a checksum of its content.
 ///
-/// Run lengths make noise up to a third larger than deflate does, in a sixth to a fourteenth of its time, which was a fifth
-/// of the time to measure a picture.
+/// Run lengths make noise up to a third larger than deflate does, in a sixth to a fourteenth of its time.
 pub fn write_exr(path: &Path, file: &ExrFile) -> Result<(), FileError> {
     let quick = Encoding {
         compression: Compression::RLE,
