@@ -35,7 +35,7 @@ fn part(whole: &Replicate, tile: Tile) -> Replicate {
         samples: whole.samples.part(tile),
         support: whole.support.part(tile),
         at_instant: AtInstant {
-            frozen: all.frozen.part(tile),
+            shift: all.shift.part(tile),
             unknowable: all.unknowable.part(tile),
             placed: all.placed.part(tile),
             offset: all.offset.part(tile),

@@ -71,7 +71,7 @@ fn remap(
             unknowable: take(&truth.support.unknowable, width, height, &source),
         },
         at_instant: truth.at_instant.each_ref().map(|half| AtInstant {
-            frozen: take(&half.frozen, width, height, &source),
+            shift: take(&half.shift, width, height, &source),
             unknowable: take(&half.unknowable, width, height, &source),
             placed: take(&half.placed, width, height, &source),
             offset: take(&half.offset, width, height, &source).map(|v| turn(*v)),
@@ -171,7 +171,7 @@ fn brighter_pictures_seen_through_a_darker_exposure_have_the_same_scores() {
     let truth = Truth {
         halves: truth.halves.each_ref().map(picture),
         at_instant: truth.at_instant.each_ref().map(|half| AtInstant {
-            frozen: brighter(&half.frozen),
+            shift: brighter(&half.shift),
             ..half.clone()
         }),
         ..truth

@@ -61,13 +61,13 @@ fn moving_shading_is_separated_from_visibility() {
     let (frame, mut truth) = frame_and_truth();
     // At the instant everything was darker: a shadow that left.
     for half in &mut truth.at_instant {
-        half.frozen = half.frozen.map(|color| color.map(|c| c - 0.1));
+        half.shift = half.shift.map(|shift| shift.map(|c| c - 0.1));
     }
     let output = |color: &Image| Picture {
         color: color.clone(),
         ..truth.mean()
     };
-    let frozen = measure_scores(&output(&truth.at_instant_mean().frozen), &frame, &truth);
+    let frozen = measure_scores(&output(&truth.frozen_mean()), &frame, &truth);
     let right = measure_scores(&truth.mean(), &frame, &truth);
     for (scores, against_truth, against_frozen) in [(&frozen, 0.01, 0.0), (&right, 0.0, 0.01)] {
         let expected = [

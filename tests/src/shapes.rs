@@ -131,6 +131,12 @@ pub fn spin(at: DVec3, axis: DVec3, rate: f64) -> Motion {
     through([start, end])
 }
 
+/// Makes the camera zoom by far less than a pixel. Everything then moves on screen, so that everything belongs to the moving region.
+pub fn zoom_slightly(scene: &mut Scene) {
+    let fov = scene.camera.vertical_fov[0].1;
+    scene.camera.vertical_fov = vec![(-1.0, (1.0 - 1e-8) * fov), (1.0, fov)];
+}
+
 /// Makes a pose that never changes.
 pub fn placed(at: DVec3) -> Motion {
     Motion::still(key(0.0, at))

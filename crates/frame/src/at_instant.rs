@@ -1,6 +1,6 @@
 //! Surfaces that the open shutter sees, as they were at the frame's instant.
 
-use exr::prelude::f16;
+use half::f16;
 
 use crate::exr::{ExrFile, in_layer};
 use crate::raster::{mean_plane, mean_vectors};
@@ -10,23 +10,23 @@ use crate::{FileError, Image, Plane, Raster, Vectors};
 /// samples of the shutter and the pixel's area, so that means of several renders are exact. All rasters have the same size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AtInstant {
-    /// Radiance if each visible point sent what it sent at `t = 0`: visibility changes, shading does not. It lacks shadows,
-    /// reflections and lights that move, which no frame of the instant shows. It is the truth plus an unbiased estimate of a
-    /// difference, so noise may push it below 0.
-    pub frozen: Image,
+    /// Change of the radiance if each visible point sends what it sent at `t = 0`: see [`AtInstant::frozen`]. Zero outside
+    /// [`shaded_region`](crate::shaded_region). A replicate stores half floats: see [`AtInstant::rounded`].
+    pub shift: Image,
     /// Fraction with a visible point that the instant's frame does not show: it was outside the picture, hidden, or
-    /// showed its other side.
+    /// showed its other side. Zero outside the same region.
     pub unknowable: Plane,
     /// Fraction with a visible point that has a place at the instant: all that was not behind the
     /// camera. Divide the next fields by it to get means over that fraction.
     pub placed: Plane,
     /// Offset from the pixel's centre to the visible point's place at the instant, in pixels, +x right, +y down; zero for a point
-    /// without a place, and outside the moving region. A replicate stores half floats: see [`AtInstant::rounded`].
+    /// without a place, and outside the moving region. A replicate stores half floats.
     pub offset: Vectors,
     /// Squares xx and yy of that offset, in square pixels; the same applies.
     pub spread: Vectors,
 }
 
+const OFFSET: [&str; 2] = ["x", "y"];
 const SPREAD: [&str; 2] = ["xx", "yy"];
 
 impl AtInstant {
@@ -34,7 +34,7 @@ impl AtInstant {
     pub fn unknown(width: u32, height: u32) -> AtInstant {
         let nothing = Plane::filled(width, height, 0.0);
         AtInstant {
-            frozen: Raster::filled(width, height, [0.0; 3]),
+            shift: Raster::filled(width, height, [0.0; 3]),
             unknowable: nothing.clone(),
             placed: nothing,
             offset: Raster::filled(width, height, [0.0; 2]),
@@ -42,11 +42,20 @@ impl AtInstant {
         }
     }
 
-    /// Rounds offsets and their squares to half floats, which have 11 significant bits: the error is at most 1 part in
-    /// 4096, far below the noise of a replicate, and its file shrinks by a third. Values larger than any half float stay.
-    /// Means of replicates are not rounded.
+    /// Makes the picture with shading frozen at the instant from the picture of the open shutter: visibility changes, shading does not. It
+    /// lacks shadows, reflections and lights that move, which no frame of the instant shows. The change is an unbiased estimate, so its
+    /// noise may push the picture below 0.
+    pub fn frozen(&self, color: &Image) -> Image {
+        color.zip(&self.shift, |color, shift| {
+            std::array::from_fn(|component| color[component] + shift[component])
+        })
+    }
+
+    /// Rounds all but fractions to half floats, which have 11 significant bits: the error is at most 1 part in 4096, far below the noise
+    /// of a replicate, and its file shrinks by half. Values larger than any half float stay. Means of replicates are not rounded.
     pub fn rounded(self) -> AtInstant {
         AtInstant {
+            shift: self.shift.map(|shift| shift.map(nearest_half)),
             offset: self.offset.map(|offset| offset.map(nearest_half)),
             spread: self.spread.map(|spread| spread.map(nearest_half)),
             ..self
@@ -68,7 +77,7 @@ impl AtInstant {
     pub fn mean<'a>(all: impl IntoIterator<Item = &'a AtInstant>) -> AtInstant {
         let all: Vec<&AtInstant> = all.into_iter().collect();
         AtInstant {
-            frozen: mean_vectors(all.iter().map(|one| &one.frozen)),
+            shift: mean_vectors(all.iter().map(|one| &one.shift)),
             unknowable: mean_plane(all.iter().map(|one| &one.unknowable)),
             placed: mean_plane(all.iter().map(|one| &one.placed)),
             offset: mean_vectors(all.iter().map(|one| &one.offset)),
@@ -76,32 +85,29 @@ impl AtInstant {
         }
     }
 
-    /// Adds `frozen.R/G/B`, `unknowable`, `reference.placed`, `reference.x/y` and `reference.xx/yy`.
+    /// Adds `shift.R/G/B`, `unknowable`, `reference.placed`, `reference.x/y` and `reference.xx/yy`.
     pub(crate) fn push(&self, file: &mut ExrFile, layer: &str) {
         let name = |name: &str| in_layer(layer, name);
-        file.push_color(&name("frozen"), &self.frozen);
+        file.push_color(&name("shift"), &self.shift);
         file.push_plane(&name("unknowable"), &self.unknowable);
         file.push_plane(&name("reference.placed"), &self.placed);
-        for (component, axis) in ["x", "y"].into_iter().enumerate() {
-            let plane = self.offset.map(|offset| offset[component]);
-            file.push_plane(&name(&format!("reference.{axis}")), &plane);
-        }
-        for (component, square) in SPREAD.into_iter().enumerate() {
-            let plane = self.spread.map(|spread| spread[component]);
-            file.push_plane(&name(&format!("reference.{square}")), &plane);
+        for (axes, pairs) in [(OFFSET, &self.offset), (SPREAD, &self.spread)] {
+            for (component, axis) in axes.into_iter().enumerate() {
+                let plane = pairs.map(|pair| pair[component]);
+                file.push_owned_plane(&name(&format!("reference.{axis}")), plane);
+            }
         }
     }
 
     pub(crate) fn from_exr(file: &ExrFile, layer: &str) -> Result<Self, FileError> {
-        let plane = |name: &str| file.plane(&in_layer(layer, name));
-        let [x, y] = [plane("reference.x")?, plane("reference.y")?];
-        let [xx, yy] = SPREAD.map(|square| plane(&format!("reference.{square}")));
+        let name = |name: &str| in_layer(layer, name);
+        let pair = |axes: [&str; 2]| file.join(axes.map(|axis| name(&format!("reference.{axis}"))));
         Ok(Self {
-            frozen: file.color(&in_layer(layer, "frozen"))?,
-            unknowable: plane("unknowable")?,
-            placed: plane("reference.placed")?,
-            offset: x.zip(&y, |x, y| [*x, *y]),
-            spread: xx?.zip(&yy?, |xx, yy| [*xx, *yy]),
+            shift: file.color(&name("shift"))?,
+            unknowable: file.plane(&name("unknowable"))?,
+            placed: file.plane(&name("reference.placed"))?,
+            offset: pair(OFFSET)?,
+            spread: pair(SPREAD)?,
         })
     }
 }

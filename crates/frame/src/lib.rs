@@ -75,4 +75,6 @@ pub use shutter::{
 };
 pub use support::Support;
 pub use tile::Tile;
-pub use truth::{Truth, TruthError, motion_margin, moving_region, regions, truth_hash};
+pub use truth::{
+    Truth, TruthError, motion_margin, moving_region, regions, shaded_region, truth_hash,
+};

@@ -92,24 +92,27 @@ impl Regions {
 /// Marks every pixel with its centre within `radius` pixels of the centre of a pixel of `set`.
 pub(crate) fn dilate(set: &Raster<bool>, radius: u32) -> Raster<bool> {
     let mut disc = Raster::filled(set.width, set.height, false);
-    let rows: Vec<&[bool]> = set.pixels.chunks_exact(set.width as usize).collect();
+    let rows = set.pixels.chunks_exact(set.width as usize);
+    let rows: Vec<Vec<usize>> = rows
+        .map(|row| (0..row.len()).filter(|column| row[*column]).collect())
+        .collect();
     for y in 0..set.height {
         for row in y.saturating_sub(radius)..=(y + radius).min(set.height - 1) {
             let half_width = (radius * radius - y.abs_diff(row).pow(2)).isqrt();
-            widen(rows[row as usize], half_width, &mut disc, y);
+            widen(&rows[row as usize], half_width, &mut disc, y);
         }
     }
     disc
 }
 
-/// Marks in row `y` of `disc` the pixels within `half_width` columns of a pixel of `source`.
-fn widen(source: &[bool], half_width: u32, disc: &mut Raster<bool>, y: u32) {
-    let start = y as usize * disc.width as usize;
-    let target = &mut disc.pixels[start..start + source.len()];
+/// Marks in row `y` of `disc` the pixels within `half_width` columns of one of `columns`, which rise.
+fn widen(columns: &[usize], half_width: u32, disc: &mut Raster<bool>, y: u32) {
+    let width = disc.width as usize;
+    let target = &mut disc.pixels[y as usize * width..][..width];
     let mut free = 0;
-    for column in (0..source.len()).filter(|column| source[*column]) {
+    for column in columns {
         let from = column.saturating_sub(half_width as usize).max(free);
-        free = (column + half_width as usize + 1).min(source.len());
+        free = (column + half_width as usize + 1).min(width);
         target[from..free.max(from)].fill(true);
     }
 }

@@ -106,9 +106,11 @@ impl Truth {
             }
         }
         let half = |first: usize| replicates.iter().skip(first).step_by(2);
-        let halves = [0, 1].map(|first| Picture::mean(half(first).map(|own| &own.picture)));
-        let at_instant =
-            [0, 1].map(|first| AtInstant::mean(half(first).map(|own| &own.at_instant)));
+        let pictures = || [0, 1].map(|first| Picture::mean(half(first).map(|own| &own.picture)));
+        let at_instant = |first| AtInstant::mean(half(first).map(|own| &own.at_instant));
+        let (halves, (at_instant, standard_error)) = rayon::join(pictures, || {
+            ([0, 1].map(at_instant), estimate_error(replicates))
+        });
         let count = replicates.len() as u32;
         Ok(Self {
             provenance: Provenance {
@@ -122,7 +124,7 @@ impl Truth {
             alignment: first.alignment,
             objects: first.objects.clone(),
             motion: sum_motion(&Picture::mean(&halves), &first.moving),
-            standard_error: estimate_error(replicates),
+            standard_error,
             samples: first.samples.map(|samples| samples * count as f32),
             support: first.support.clone(),
             halves,
@@ -138,6 +140,16 @@ impl Truth {
     /// Averages the state at the instant over all replicates.
     pub fn at_instant_mean(&self) -> AtInstant {
         AtInstant::mean(&self.at_instant)
+    }
+
+    /// Makes the mean with shading frozen at the instant: see [`AtInstant::frozen`].
+    pub fn frozen_mean(&self) -> Image {
+        self.at_instant_mean().frozen(&self.mean().color)
+    }
+
+    /// Makes the halves with shading frozen at the instant.
+    pub fn frozen_halves(&self) -> [Image; 2] {
+        [0, 1].map(|half| self.at_instant[half].frozen(&self.halves[half].color))
     }
 
     /// Averages all replicates.
@@ -231,6 +243,14 @@ pub fn regions(truth: &Truth) -> Regions {
 /// Marks the pixels of [`Region::Moving`].
 pub fn moving_region(support: &Support) -> Raster<bool> {
     dilate(&support.moving, motion_margin(support.moving.height))
+}
+
+/// Marks the pixels whose shading at the instant scores look at: those of [`Region::Moving`], and those that FLIP filters together
+/// with them.
+pub fn shaded_region(support: &Support) -> Raster<bool> {
+    const FLIP_REACH: u32 = 10;
+    let margin = motion_margin(support.moving.height) + FLIP_REACH;
+    dilate(&support.moving, margin)
 }
 
 /// Returns the margin around motion that is searched for blur, in pixels: a fifteenth of a picture's height, because bleed

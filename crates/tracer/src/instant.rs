@@ -95,7 +95,7 @@ pub fn trace_frame_part(
         color: settings.options.color,
         times: &[Times::Instant],
         instant: None,
-        one_recalled_in: 1,
+        recalled: &[],
         replicates,
         samples,
         seed: settings.seed,

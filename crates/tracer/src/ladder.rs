@@ -109,7 +109,7 @@ impl<'a> LadderTracer<'a> {
             color: ColorSampling::Antialiased,
             times: &[Times::Midpoints(&shutter_sampler, subframes)],
             instant: None,
-            one_recalled_in: 1,
+            recalled: &[],
             replicates: 0..REPLICATES,
             samples: &SampleCounts::Uniform(self.samples_per_replicate),
             seed: self.seed,

@@ -5,8 +5,9 @@ use std::sync::OnceLock;
 
 use frame::{
     Alignment, AtInstant, ColorSampling, Raster, Replicate, Support, Tile, Truth, motion_margin,
-    moving_region,
+    moving_region, shaded_region,
 };
+use rayon::prelude::*;
 
 use crate::aligned_shutter::{AlignedShutter, list_family};
 use crate::content_hash::{provenance, replicate_hash};
@@ -25,9 +26,6 @@ use crate::scene::Scene;
 use crate::settings::RenderSettings;
 use crate::stage::Stage;
 
-/// One sample in so many is shaded at the instant, too. One in eight would make the noise floor of frozen shading 2.5 times as high.
-const ONE_RECALLED_IN: u32 = 4;
-
 /// A scene prepared to render the replicates of its truths, for one alignment or several.
 ///
 /// Alignments of one exposure overlap. The common part of their intervals is traced once. A replicate has the same bytes
@@ -42,7 +40,17 @@ pub struct TruthTracer<'a> {
     /// Samples per pixel of a replicate, from the pilot.
     samples: OnceLock<SampleCounts>,
     /// Objects seen per pixel, for each of the truths, probed with the first replicate.
-    supports: OnceLock<Vec<Support>>,
+    supports: OnceLock<Vec<ProbedSupport>>,
+}
+
+/// The means of all pixels of a replicate, in row-major order.
+type Means = (Vec<PixelMean>, Vec<InstantMeans>);
+
+/// The support of a truth, and its regions of motion and of frozen shading.
+struct ProbedSupport {
+    support: Support,
+    moving: Raster<bool>,
+    shaded: Raster<bool>,
 }
 
 /// Renders the picture that a camera with an open shutter would have taken, and measures its noise.
@@ -118,16 +126,26 @@ impl<'a> TruthTracer<'a> {
         let film = self.film(&times, samples, index..index + 1, Stream::Truth);
         let meter = Meter::new(watch, film.work(&pixels));
         let supports = self.supports(&film, &meter)?;
+        let recalled: Vec<&Raster<bool>> = supports.iter().map(|own| &own.shaded).collect();
+        let film = Film {
+            recalled: &recalled,
+            ..film
+        };
         let rendered = film.render(&pixels, &meter, |replicates| {
             let estimates = replicates[0].iter();
             let means = estimates.map(|estimate| (PixelMean::of([estimate]), estimate.at_instant));
             means.collect::<Vec<(PixelMean, InstantMeans)>>()
         })?;
-        (self.shutters.iter().zip(supports).enumerate())
-            .map(|(number, (shutter, support))| {
-                let pixels = rendered.iter().map(|means| means[number].clone());
-                let (means, instant_means): (Vec<PixelMean>, Vec<InstantMeans>) = pixels.unzip();
-                self.replicate((index, tile), shutter, support, &means, instant_means)
+        let mut each: Vec<Means> = vec![Means::default(); self.shutters.len()];
+        for pixel in rendered {
+            for ((means, instant_means), own) in each.iter_mut().zip(pixel) {
+                means.push(own.0);
+                instant_means.push(own.1);
+            }
+        }
+        (self.shutters.par_iter().zip(supports).zip(each))
+            .map(|((shutter, support), means)| {
+                self.replicate((index, tile), shutter, support, means)
             })
             .collect()
     }
@@ -151,7 +169,7 @@ impl<'a> TruthTracer<'a> {
             color: ColorSampling::Antialiased,
             times,
             instant: Some(InstantView::new(&self.stage, canvas)),
-            one_recalled_in: ONE_RECALLED_IN,
+            recalled: &[],
             replicates,
             samples,
             seed: self.settings.seed,
@@ -164,18 +182,16 @@ impl<'a> TruthTracer<'a> {
         &self,
         (index, tile): (u32, Tile),
         shutter: &AlignedShutter,
-        support: &Support,
-        means: &[PixelMean],
-        instant_means: Vec<InstantMeans>,
+        support: &ProbedSupport,
+        (means, instant_means): Means,
     ) -> Result<Replicate, TraceError> {
         let scene = self.stage.scene;
         let canvas = self.canvas();
         let settings = &self.settings;
-        let picture = assemble_picture(tile, means);
-        let moving = moving_region(support).part(tile);
+        let picture = assemble_picture(tile, &means);
         let at_instant = assemble_at_instant(tile, instant_means)
             .rounded()
-            .within(&moving);
+            .within(&support.moving.part(tile));
         check_picture(scene, &picture)?;
         check_at_instant(scene, &at_instant)?;
         let samples = self.samples.get().expect("the replicate was traced by it");
@@ -196,7 +212,7 @@ impl<'a> TruthTracer<'a> {
             picture,
             at_instant,
             samples: samples.to_plane(canvas).part(tile),
-            support: support.part(tile),
+            support: support.support.part(tile),
         })
     }
 
@@ -206,7 +222,7 @@ impl<'a> TruthTracer<'a> {
             let times: Vec<Times> = self.family.iter().map(AlignedShutter::times).collect();
             let uniform = SampleCounts::Uniform(PILOT_SAMPLES);
             let pilot = Film {
-                one_recalled_in: 1,
+                instant: None,
                 ..self.film(&times, &uniform, 0..PILOT_REPLICATES, Stream::TruthPilot)
             };
             let moving: Vec<bool> = (0..self.stage.scene.objects.len() + 1)
@@ -219,11 +235,17 @@ impl<'a> TruthTracer<'a> {
     }
 
     /// The supports of all truths, which are the same for every replicate.
-    fn supports(&self, film: &Film, meter: &Meter) -> Result<&[Support], TraceError> {
+    fn supports(&self, film: &Film, meter: &Meter) -> Result<&[ProbedSupport], TraceError> {
         let supports = get_or_try_init(&self.supports, || {
             let shutters = self.shutters.iter();
             let moving: Vec<&[bool]> = shutters.map(|shutter| &shutter.moving[..]).collect();
-            trace_supports(film, &moving, meter)
+            let supports = trace_supports(film, &moving, meter)?;
+            let probed = supports.into_iter().map(|support| ProbedSupport {
+                moving: moving_region(&support),
+                shaded: shaded_region(&support),
+                support,
+            });
+            Ok(probed.collect::<Vec<ProbedSupport>>())
         })?;
         Ok(supports)
     }
@@ -251,7 +273,7 @@ fn assemble_at_instant(tile: Tile, pixels: Vec<InstantMeans>) -> AtInstant {
         pixels,
     };
     AtInstant {
-        frozen: pixels.map(|pixel| pixel.frozen.as_vec3().to_array()),
+        shift: pixels.map(|pixel| pixel.shift.as_vec3().to_array()),
         unknowable: pixels.map(|pixel| pixel.unknowable as f32),
         placed: pixels.map(|pixel| pixel.placed as f32),
         offset: pixels.map(|pixel| pixel.offset.as_vec2().to_array()),

@@ -103,7 +103,7 @@ pub fn a_frame() -> Frame {
 
 fn at_instant(salt: u32) -> AtInstant {
     AtInstant {
-        frozen: image(salt),
+        shift: image(salt),
         unknowable: plane(salt + 3),
         placed: plane(salt + 4),
         offset: pairs(salt + 5),

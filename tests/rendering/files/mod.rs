@@ -85,7 +85,7 @@ fn halves_come_back_bit_for_bit_from_a_smaller_file_and_larger_numbers_too() {
     for at_instant in &mut small.at_instant {
         let [x, y] = [&at_instant.unknowable, &at_instant.placed];
         at_instant.offset = x.zip(y, |x, y| [noise(*x), noise(*y)]);
-        at_instant.spread = (at_instant.frozen).map(|[red, green, _]| [noise(*red), noise(*green)]);
+        at_instant.spread = (at_instant.shift).map(|[red, green, _]| [noise(*red), noise(*green)]);
     }
     let long = written(&small);
     small.at_instant = small.at_instant.map(AtInstant::rounded);

@@ -31,7 +31,7 @@ fn velocity_depth_and_objects_of_a_frame_are_the_pinhole_s() {
 }
 
 #[test]
-fn where_nothing_moves_everything_is_known_and_in_its_place() {
+fn where_next_to_nothing_moves_everything_is_known_and_in_its_place() {
     let mut scene = empty_scene("still");
     scene.background = Background::Constant(glam::Vec3::splat(0.4));
     let floor = placed(DVec3::new(0.0, 0.0, -6.0));
@@ -41,17 +41,26 @@ fn where_nothing_moves_everything_is_known_and_in_its_place() {
     glossy.finish = Finish::Conductor { roughness: 0.2 };
     let near = placed(DVec3::new(0.2, 0.1, -2.0));
     add(&mut scene, icosphere(0.5, 2), glossy, near);
+    zoom_slightly(&mut scene);
     let scene = with_lens(scene, 0.5, 4.0);
     let truth = render_truth(&scene, &settings(256), Alignment::Trailing);
     let known = truth.at_instant_mean();
-    let mean = truth.mean();
+    let [live, frozen] = [truth.mean().color, truth.frozen_mean()];
     for pixel in 0..known.unknowable.pixels.len() {
         assert_eq!(known.unknowable.pixels[pixel], 0.0);
-        // Only the sample's own position in the pixel would remain.
-        let places = [known.offset.pixels[pixel], known.spread.pixels[pixel]];
-        assert_eq!(places, [[0.0; 2]; 2]);
+        // Only the samples' own positions in the pixel remain, which are spread evenly.
+        let places = [
+            (known.offset.pixels[pixel], 0.0),
+            (known.spread.pixels[pixel], 1.0 / 12.0),
+        ];
+        for (axis, expected) in places
+            .into_iter()
+            .flat_map(|(axes, expected)| axes.map(|axis| (axis, expected)))
+        {
+            expect_near("place", f64::from(axis), expected, 0.01);
+        }
         // Shading from the same point of the lens is the same, except for rounding of the ray.
-        let [frozen, live] = [known.frozen.pixels[pixel][0], mean.color.pixels[pixel][0]];
+        let [frozen, live] = [frozen.pixels[pixel][0], live.pixels[pixel][0]];
         assert!((frozen - live).abs() < 1e-4, "{frozen} {live}");
     }
     assert!(!truth.support.unknowable.pixels.contains(&true));

@@ -117,7 +117,7 @@ fn every_layer_of_a_truth_is_the_mean_of_shifted_pinhole_truths() {
             let what = format!("{what} of pixel {pixel}");
             expect_near(&what, found, expected, tolerance);
         };
-        compare("frozen", 0.025, &|it| it.frozen.pixels[pixel][0]);
+        compare("shift", 0.025, &|it| it.shift.pixels[pixel][0]);
         compare("unknowable", 0.03, &|it| it.unknowable.pixels[pixel]);
         compare("placed", 1e-5, &|it| it.placed.pixels[pixel]);
         // The panels move by 2 and 1.9 pixels while the shutter is open.

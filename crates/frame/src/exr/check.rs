@@ -41,6 +41,10 @@ impl ExrFile {
             let Samples::F32(samples) = &channel.samples else {
                 continue;
             };
+            // Without an early end, this is a few instructions for many values.
+            if (samples.iter()).fold(true, |finite, value| finite & value.is_finite()) {
+                continue;
+            }
             if let Some(at) = samples.iter().position(|value| !value.is_finite()) {
                 let (x, y) = (at % self.width as usize, at / self.width as usize);
                 return Err(self.foreign(format!(
@@ -92,24 +96,19 @@ fn update_with_text(hasher: &mut blake3::Hasher, text: &str) {
 }
 
 fn update_with_samples(hasher: &mut blake3::Hasher, samples: &Samples) {
-    // Rows at a time: one call per sample would take as long as encoding the file.
-    const CHUNK: usize = 4096;
-    let mut bytes = Vec::with_capacity(4 * CHUNK);
-    let mut update = |words: &mut dyn Iterator<Item = u32>| {
-        bytes.clear();
-        bytes.extend(words.flat_map(u32::to_le_bytes));
-        hasher.update(&bytes);
-    };
     match samples {
-        Samples::F32(samples) => {
-            for chunk in samples.chunks(CHUNK) {
-                update(&mut chunk.iter().map(|sample| sample.to_bits()));
-            }
+        Samples::F32(samples) => update_with_words(hasher, samples, |sample| sample.to_bits()),
+        Samples::U32(samples) => update_with_words(hasher, samples, |sample| sample),
+    }
+}
+
+/// Adds words, lowest byte first, many at a time: one call per word would take as long as encoding the file.
+fn update_with_words<T: Copy>(hasher: &mut blake3::Hasher, samples: &[T], word: fn(T) -> u32) {
+    let mut bytes = [[0; 4]; 4096];
+    for samples in samples.chunks(bytes.len()) {
+        for (bytes, sample) in bytes.iter_mut().zip(samples) {
+            *bytes = word(*sample).to_le_bytes();
         }
-        Samples::U32(samples) => {
-            for chunk in samples.chunks(CHUNK) {
-                update(&mut chunk.iter().copied());
-            }
-        }
+        hasher.update(bytes[..samples.len()].as_flattened());
     }
 }

@@ -148,12 +148,7 @@ impl ExrFile {
 
     /// Reads a channel of floats.
     pub fn plane(&self, name: &str) -> Result<Plane, FileError> {
-        match self.samples(name)? {
-            Samples::F32(pixels) => Ok(self.raster(pixels.clone())),
-            Samples::U32(_) => Err(self.foreign(format!(
-                "channel \"{name}\" holds integers; 32-bit floats are needed"
-            ))),
-        }
+        Ok(self.raster(self.floats(name)?.to_vec()))
     }
 
     /// Takes a channel of floats out of the file, which leaves it without samples.
@@ -180,15 +175,26 @@ impl ExrFile {
 
     /// Reads `R G B`, of a named layer or at the top.
     pub fn color(&self, layer: &str) -> Result<Image, FileError> {
-        let [r, g, b] = ["R", "G", "B"].map(|name| self.plane(&in_layer(layer, name)));
-        let red_green = r?.zip(&g?, |r, g| [*r, *g]);
-        Ok(red_green.zip(&b?, |[r, g], b| [*r, *g, *b]))
+        self.join(["R", "G", "B"].map(|name| in_layer(layer, name)))
     }
 
     /// Reads `X Y`, of a named layer.
     pub fn vectors(&self, layer: &str) -> Result<Vectors, FileError> {
-        let [x, y] = ["X", "Y"].map(|name| self.plane(&in_layer(layer, name)));
-        Ok(x?.zip(&y?, |x, y| [*x, *y]))
+        self.join(["X", "Y"].map(|name| in_layer(layer, name)))
+    }
+
+    /// Reads channels of floats as the components of one raster.
+    pub(crate) fn join<const N: usize>(
+        &self,
+        names: [String; N],
+    ) -> Result<Raster<[f32; N]>, FileError> {
+        let mut pixels = vec![[0.0; N]; self.width as usize * self.height as usize];
+        for (component, name) in names.iter().enumerate() {
+            for (pixel, value) in pixels.iter_mut().zip(self.floats(name)?) {
+                pixel[component] = *value;
+            }
+        }
+        Ok(self.raster(pixels))
     }
 
     /// Reads what a file may have; none where it lacks a channel.
@@ -235,6 +241,15 @@ impl ExrFile {
             .get(name)
             .ok_or_else(|| self.foreign(format!("lacks the attribute \"{name}\"")))?;
         Ok(text)
+    }
+
+    fn floats(&self, name: &str) -> Result<&[f32], FileError> {
+        match self.samples(name)? {
+            Samples::F32(pixels) => Ok(pixels),
+            Samples::U32(_) => Err(self.foreign(format!(
+                "channel \"{name}\" holds integers; 32-bit floats are needed"
+            ))),
+        }
     }
 
     fn samples(&self, name: &str) -> Result<&Samples, FileError> {

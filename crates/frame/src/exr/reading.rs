@@ -5,6 +5,7 @@ use std::path::Path;
 
 use exr::meta::attribute::{AttributeValue, Text};
 use exr::prelude::{FlatSamples, ReadChannels, ReadLayers};
+use half::slice::HalfFloatSliceExt;
 
 use super::file::{Channel, ExrFile, Samples};
 use super::header::{check_header, describe_padding, from_exr};
@@ -47,7 +48,9 @@ pub fn read_exr(path: &Path) -> Result<ExrFile, FileError> {
             FlatSamples::F32(samples) => Samples::F32(samples),
             FlatSamples::U32(samples) => Samples::U32(samples),
             FlatSamples::F16(samples) => {
-                Samples::F32(samples.iter().map(|half| half.to_f32()).collect())
+                let mut widened = vec![0.0; samples.len()];
+                samples.convert_to_f32_slice(&mut widened);
+                Samples::F32(widened)
             }
         };
         file.channels.push(Channel { name, samples });

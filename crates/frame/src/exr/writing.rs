@@ -6,8 +6,10 @@ use std::path::Path;
 use exr::meta::attribute::AttributeValue;
 use exr::prelude::{
     AnyChannel, AnyChannels, Compression, Encoding, FlatSamples, Layer, LayerAttributes,
-    WritableImage, f16,
+    WritableImage,
 };
+use half::f16;
+use half::slice::HalfFloatSliceExt;
 
 use super::check::CHECKSUM;
 use super::file::{ExrFile, Samples};
@@ -33,19 +35,22 @@ pub fn write_small_exr(path: &Path, file: ExrFile) -> Result<(), FileError> {
     write_encoded(path, file, Encoding::SMALL_LOSSLESS, shorten)
 }
 
-/// Shortens floats to halves if that loses nothing.
+/// Shortens floats to halves if that loses nothing: widened again, each has the same bits.
 fn shorten(floats: Vec<f32>) -> FlatSamples {
-    let halves: Option<Vec<f16>> = floats.iter().map(|value| to_half(*value)).collect();
-    match halves {
-        Some(halves) => FlatSamples::F16(halves),
-        None => FlatSamples::F32(floats),
+    const CHUNK: usize = 1024;
+    let mut halves = vec![f16::ZERO; floats.len()];
+    let mut widened = [0.0; CHUNK];
+    let is_lossless =
+        (floats.chunks(CHUNK).zip(halves.chunks_mut(CHUNK))).all(|(floats, halves)| {
+            let widened = &mut widened[..floats.len()];
+            halves.convert_from_f32_slice(floats);
+            halves.convert_to_f32_slice(widened);
+            (floats.iter().zip(widened)).all(|(own, widened)| own.to_bits() == widened.to_bits())
+        });
+    match is_lossless {
+        true => FlatSamples::F16(halves),
+        false => FlatSamples::F32(floats),
     }
-}
-
-/// Returns the half that is equal to a float, bit for bit once it is widened; none if there is no such half.
-fn to_half(value: f32) -> Option<f16> {
-    let half = f16::from_f32(value);
-    (half.to_f32().to_bits() == value.to_bits()).then_some(half)
 }
 
 /// Writes floats rounded to halves (ZIP16), which is not lossless: for maps that people look at. Larger values become the

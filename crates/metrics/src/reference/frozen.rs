@@ -22,7 +22,7 @@ pub struct FrozenReference {
 impl FrozenReference {
     /// Prepares the frozen-shading truth with this mean.
     pub fn new(truth: &Truth, mean: &Image, regions: &Regions, viewing: &Viewing) -> Self {
-        let halves = truth.at_instant.each_ref().map(|half| half.frozen.clone());
+        let halves = truth.frozen_halves();
         let seen = SeenExposures::of_display(&Displayed::new(mean, viewing));
         let squared = squared_error(&halves[0], [mean; 2], viewing.scale());
         let flip = seen.map_errors(&Displayed::new(&halves[0], viewing).linear);

@@ -90,11 +90,12 @@ impl<'a> Reference<'a> {
         let displayed = Displayed::new(&half.color, viewing);
         let noise = ErrorMaps::new((half, &displayed), [&mean.color; 2], &mean, &seen);
         let at_instant = truth.at_instant_mean();
+        let frozen = at_instant.frozen(&mean.color);
         let mut reference = Self {
             noise: Pooled::of_noise(&noise, &masks, &windows),
             ends: None,
             windows,
-            frozen: FrozenReference::new(truth, &at_instant.frozen, &masks, viewing),
+            frozen: FrozenReference::new(truth, &frozen, &masks, viewing),
             origins: OriginReference::new(truth, &at_instant, &masks),
             objects: (1..truth.objects.len())
                 .into_par_iter()

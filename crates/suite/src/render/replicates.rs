@@ -3,11 +3,16 @@
 use std::ops::Range;
 
 use frame::{Alignment, Replicate, Truth, read_attribute, truth_hash};
+use rayon::prelude::*;
 use store::RenderFile;
 use tracer::TruthTracer;
 
 use super::rendering::Rendering;
 use crate::Error;
+
+/// The tracers of a scene's truths, by their alignments. Each is made for its first replicate, and keeps its pilot and its supports.
+#[derive(Default)]
+pub(super) struct Tracers<'a>(Vec<(Vec<Alignment>, TruthTracer<'a>)>);
 
 /// The files of one truth, and the hash of their inputs.
 pub(crate) struct TruthFiles<'a> {
@@ -32,6 +37,16 @@ impl<'a> Rendering<'a> {
     /// Samples are traced once where the two shutters overlap. Both truths together need three quarters of the time of rendering one after
     /// the other, and have the same bytes.
     pub fn shared(&self, alignments: &[Alignment], indices: Range<u32>) -> Result<(), Error> {
+        self.share(alignments, indices, &mut Tracers::default())
+    }
+
+    /// Does the work of [`Rendering::shared`].
+    pub(super) fn share(
+        &self,
+        alignments: &[Alignment],
+        indices: Range<u32>,
+        tracers: &mut Tracers<'a>,
+    ) -> Result<(), Error> {
         const SHARED: [Alignment; 2] = [Alignment::Trailing, Alignment::Centred];
         if !SHARED.iter().all(|shared| alignments.contains(shared)) {
             return Ok(());
@@ -45,10 +60,9 @@ impl<'a> Rendering<'a> {
         }
         // Each pair is written before the next is traced.
         self.check_memory(SHARED.len() as u32)?;
-        let mut tracer = None;
         for index in indices {
-            if files.iter().all(|files| files.read(index).is_none()) {
-                render_replicate(&files, index, &mut tracer)?;
+            if !files.iter().any(|files| files.has_replicate(index)) {
+                render_replicate(&files, index, tracers)?;
             }
         }
         Ok(())
@@ -66,10 +80,10 @@ impl<'a> TruthFiles<'a> {
     }
 
     /// Averages the replicates, and renders missing ones.
-    pub fn average(&self) -> Result<Truth, Error> {
+    pub(super) fn average(&self, tracers: &mut Tracers<'a>) -> Result<Truth, Error> {
         let count = self.rendering.settings.replicates;
         self.rendering.check_memory(count)?;
-        Ok(Truth::of(&self.replicates(0..count)?)?)
+        Ok(Truth::of(&self.replicates_by(0..count, tracers)?)?)
     }
 
     /// Writes the truth.
@@ -80,12 +94,22 @@ impl<'a> TruthFiles<'a> {
     /// Returns replicates by their indices. Reads existing ones; renders the others and writes each as soon as it is complete. Replaces a
     /// file that is broken or was made from other inputs.
     pub fn replicates(&self, indices: Range<u32>) -> Result<Vec<Replicate>, Error> {
+        self.replicates_by(indices, &mut Tracers::default())
+    }
+
+    fn replicates_by(
+        &self,
+        indices: Range<u32>,
+        tracers: &mut Tracers<'a>,
+    ) -> Result<Vec<Replicate>, Error> {
         self.rendering.check_truth(self.alignment)?;
-        let mut tracer = None;
         let own = std::slice::from_ref(self);
-        let each = indices.map(|index| match self.read(index) {
+        let found: Vec<Option<Replicate>> = (indices.clone().into_par_iter())
+            .map(|index| self.read(index))
+            .collect();
+        let each = indices.zip(found).map(|(index, found)| match found {
             Some(found) => Ok(found),
-            None => Ok(render_replicate(own, index, &mut tracer)?.remove(0)),
+            None => Ok(render_replicate(own, index, tracers)?.remove(0)),
         });
         each.collect()
     }
@@ -94,6 +118,12 @@ impl<'a> TruthFiles<'a> {
     fn has_truth(&self, replicates: u32) -> bool {
         let path = self.rendering.path(RenderFile::Truth(self.alignment));
         read_attribute(&path, "content_hash") == Some(truth_hash(&self.hash, replicates))
+    }
+
+    /// Returns whether the header of a replicate's file names these inputs.
+    fn has_replicate(&self, index: u32) -> bool {
+        let file = RenderFile::Replicate(self.alignment, index);
+        read_attribute(&self.rendering.path(file), "content_hash").as_ref() == Some(&self.hash)
     }
 
     /// Reads a replicate; none if it is missing, broken or made from other inputs.
@@ -105,26 +135,42 @@ impl<'a> TruthFiles<'a> {
     }
 }
 
-/// Traces one replicate of each of several truths of a scene together, and writes each to its file. `tracer` is made for the first
-/// replicate.
+impl<'a> Tracers<'a> {
+    /// Returns the tracer of some truths of the rendering's scene, size, seed and samples per replicate.
+    fn of(
+        &mut self,
+        rendering: &Rendering<'a>,
+        alignments: &[Alignment],
+    ) -> Result<&TruthTracer<'a>, Error> {
+        let Self(tracers) = self;
+        let at = match tracers.iter().position(|(of, _)| of == alignments) {
+            Some(at) => at,
+            None => {
+                let made = TruthTracer::new(rendering.scene, &rendering.settings, alignments)?;
+                tracers.push((alignments.to_vec(), made));
+                tracers.len() - 1
+            }
+        };
+        Ok(&tracers[at].1)
+    }
+}
+
+/// Traces one replicate of each of several truths of a scene together, and writes each to its file.
 fn render_replicate<'a>(
     files: &[TruthFiles<'a>],
     index: u32,
-    tracer: &mut Option<TruthTracer<'a>>,
+    tracers: &mut Tracers<'a>,
 ) -> Result<Vec<Replicate>, Error> {
     let alignments: Vec<Alignment> = files.iter().map(|files| files.alignment).collect();
     let names: Vec<&str> = alignments.iter().map(|own| own.name()).collect();
     let own = files[0].rendering;
-    let tracer = match tracer {
-        Some(tracer) => tracer,
-        none => none.insert(TruthTracer::new(own.scene, &own.settings, &alignments)?),
-    };
+    let tracer = tracers.of(&own, &alignments)?;
     let names = names.join(" and ");
     let label = format!("{} {names}, replicate {index}", own.scene.id);
     let replicates = (own.monitor).watch(&label, |watch| tracer.trace(index, watch))?;
-    for replicate in &replicates {
+    replicates.par_iter().try_for_each(|replicate| {
         let file = RenderFile::Replicate(replicate.alignment, index);
-        replicate.write(&own.path(file))?;
-    }
+        replicate.write(&own.path(file))
+    })?;
     Ok(replicates)
 }

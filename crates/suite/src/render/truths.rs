@@ -6,9 +6,10 @@ use frame::{Alignment, Region, Truth};
 use store::{MAX_REPLICATES, refuse_scene, scene_folder};
 
 use super::rendering::Rendering;
+use super::replicates::Tracers;
 use crate::Error;
 
-impl Rendering<'_> {
+impl<'a> Rendering<'a> {
     /// Renders and writes the truth over the shutter of an alignment. Reads the truth, or some of its replicates, if their inputs are the
     /// same.
     pub fn truth(&self, alignment: Alignment) -> Result<Truth, Error> {
@@ -16,7 +17,7 @@ impl Rendering<'_> {
         if let Some(found) = files.read_truth() {
             return Ok(found);
         }
-        let truth = files.average()?;
+        let truth = files.average(&mut Tracers::default())?;
         files.write(&truth)?;
         Ok(truth)
     }
@@ -34,15 +35,16 @@ impl Rendering<'_> {
         mut ended: impl FnMut(&Truth, bool) -> Result<(), Error>,
     ) -> Result<(), Error> {
         let mut open = alignments.to_vec();
+        let mut tracers = Tracers::default();
         while !open.is_empty() {
             let count = self.settings.replicates;
             let mut next = count + 2;
-            self.shared(&open, 0..count)?;
+            self.share(&open, 0..count, &mut tracers)?;
             for alignment in std::mem::take(&mut open) {
                 let files = self.files(alignment);
                 let found = files.read_truth();
                 let is_new = found.is_none();
-                let truth = found.map_or_else(|| files.average(), Ok)?;
+                let truth = found.map_or_else(|| files.average(&mut tracers), Ok)?;
                 let (_, floor) = deciding_floor(&truth);
                 if floor > target && count + 2 <= most {
                     next = next.max(predict_replicates(count, floor / target));

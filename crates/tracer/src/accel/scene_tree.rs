@@ -18,7 +18,7 @@ use crate::scene::Scene;
 /// A limit before every crossing: it ends a traversal.
 const NOWHERE: f64 = f64::NEG_INFINITY;
 /// Movers up to which a test of each is shorter than a traversal of the world tree.
-const FEW_MOVERS: usize = 8;
+const FEW_MOVERS: usize = 24;
 
 /// The meshes of a scene, and the world tree above them.
 ///

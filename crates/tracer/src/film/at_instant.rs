@@ -52,7 +52,8 @@ pub(crate) struct InstantSums {
 /// Means over the samples of a pixel.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct InstantMeans {
-    pub frozen: DVec3,
+    /// Radiance at the instant minus radiance over the shutter.
+    pub shift: DVec3,
     pub unknowable: f64,
     pub placed: f64,
     pub offset: DVec2,
@@ -102,8 +103,9 @@ impl InstantView {
         };
         let eye = self.view.eye(*from);
         let way = point - eye;
-        let seen = side(poses, hit.time, ray.direction);
-        let same_side = side(then, 0.0, way) == seen;
+        let stands_still = self.camera_stands_still && stage.object_stands_still(hit.object);
+        let same_side =
+            stands_still || side(then, 0.0, way) == side(poses, hit.time, ray.direction);
         // If the camera saw the other side then, this ray meets the side that is seen now, in the same direction as now
         // in the object's own space.
         let direction = if same_side {
@@ -257,16 +259,16 @@ impl InstantSums {
         self.spread += share * (offset * offset);
     }
 
-    /// The means over the pixel's samples, of which there are `samples` with the mean radiance `live`.
+    /// The means over the pixel's samples, of which there are `samples`.
     ///
-    /// Frozen shading is the live shading plus the mean shift. Most samples shift little or not at all, so that a part of them suffices.
-    /// If few shift much, the estimate may fall below 0; it must not be clamped, or its mean would be too high.
-    pub fn means(&self, samples: u32, live: DVec3) -> InstantMeans {
+    /// Most samples shift little or not at all, so that a part of them suffices. If few shift much, radiance and shift may sum to less than
+    /// 0; they must not be clamped, or their mean would be too high.
+    pub fn means(&self, samples: u32) -> InstantMeans {
         let samples = f64::from(samples);
         // Without any, their sums are 0.
         let recalled = f64::from(self.recalled.max(1));
         InstantMeans {
-            frozen: live + self.shift / recalled,
+            shift: self.shift / recalled,
             unknowable: self.unknowable / recalled,
             placed: self.placed / samples,
             offset: self.offset / samples,

@@ -15,7 +15,7 @@ pub(crate) fn check_picture(scene: &Scene, picture: &Picture) -> Result<(), Trac
 
 /// Refuses layers of the instant with a pixel that is not a finite number.
 pub(crate) fn check_at_instant(scene: &Scene, at_instant: &AtInstant) -> Result<(), TraceError> {
-    check_layer(scene, "frozen", &at_instant.frozen)?;
+    check_layer(scene, "shift", &at_instant.shift)?;
     check_layer(scene, "offset", &at_instant.offset)?;
     check_layer(scene, "spread", &at_instant.spread)
 }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use frame::{ColorSampling, Image, Picture, Plane, Tile};
+use frame::{ColorSampling, Image, Picture, Plane, Raster, Tile};
 use glam::{DVec2, DVec3, Vec3};
 use rayon::prelude::*;
 
@@ -20,6 +20,9 @@ use crate::stage::Stage;
 
 /// Pixels that a thread takes at a time; between two tasks it reports progress.
 const PIXELS_PER_TASK: usize = 32;
+/// One sample of a recalled pixel in so many is shaded at the instant, too, but at least one. One in eight would make the noise
+/// floor of frozen shading 2.5 times as high.
+const ONE_RECALLED_IN: u32 = 4;
 
 /// Times of the samples of a picture.
 #[derive(Clone, Copy)]
@@ -42,8 +45,8 @@ pub(crate) struct Film<'a> {
     pub times: &'a [Times<'a>],
     /// View of the instant, if samples are looked up there; the stage must then hold `t = 0`.
     pub instant: Option<InstantView>,
-    /// The first of a pixel's samples are shaded at the instant, too: one in so many, but at least one.
-    pub one_recalled_in: u32,
+    /// Per picture, the pixels whose first samples are shaded at the instant, too; without a picture's, none of its are.
+    pub recalled: &'a [&'a Raster<bool>],
     /// Independent, complete sets of samples, by the numbers that seed them.
     pub replicates: Range<u32>,
     /// Samples per pixel of each.
@@ -60,7 +63,7 @@ pub(crate) struct Estimate {
     pub bounces: f64,
     /// Samples that saw each object, by id; a sample that sees through translucent surfaces is shared out.
     pub seen: Vec<f64>,
-    /// Means at the instant; without a view of it, frozen shading is the radiance and the rest 0.
+    /// Means at the instant, 0 without a view of it.
     pub at_instant: InstantMeans,
 }
 
@@ -140,16 +143,18 @@ impl<'a> Film<'a> {
         let number = self.canvas.seed_number(pixel);
         let seed = pixel_seed(self.seed, self.stream, number, replicate);
         let objects = self.integrator.stage.scene.objects.len() + 1;
-        let unseen = PixelSums {
-            seen: vec![0.0; objects],
-            ..PixelSums::default()
-        };
-        let mut sums = vec![unseen; self.times.len()];
+        let mut sums: Vec<PixelSums> = (0..self.times.len())
+            .map(|picture| PixelSums {
+                seen: vec![0.0; objects],
+                is_recalled: self.is_recalled(picture, pixel),
+                ..PixelSums::default()
+            })
+            .collect();
         let mut sample = FilmSample::default();
         let samples = self.samples.of(pixel);
-        let recalled = match self.instant {
-            Some(_) => (samples / self.one_recalled_in).max(1),
-            None => 0,
+        let recalled = match sums.iter().any(|sums| sums.is_recalled) {
+            true => (samples / ONE_RECALLED_IN).max(1),
+            false => 0,
         };
         for index in 0..samples {
             let sampler = Sampler::new(seed, index);
@@ -170,6 +175,11 @@ impl<'a> Film<'a> {
             }
         }
         sums.iter().map(PixelSums::estimate).collect()
+    }
+
+    /// Returns true if the first samples of a pixel of a picture are shaded at the instant, too.
+    fn is_recalled(&self, picture: usize, pixel: u32) -> bool {
+        (self.recalled.get(picture)).is_some_and(|region| region.pixels[pixel as usize])
     }
 
     /// Traces one sample of a pixel.
@@ -259,6 +269,8 @@ impl FilmSample {
 /// Sums over the samples of a pixel of one picture.
 #[derive(Clone, Default)]
 struct PixelSums {
+    /// True if the first samples count at the instant, too.
+    is_recalled: bool,
     count: u32,
     radiance: DVec3,
     bounces: u32,
@@ -277,7 +289,7 @@ impl PixelSums {
                 (self.at_instant).add_place(place, point.share, sample.centre);
             }
         }
-        if sample.is_recalled {
+        if self.is_recalled && sample.is_recalled {
             self.at_instant
                 .add_recalled(sample.unknowable, sample.shift);
         }
@@ -289,7 +301,7 @@ impl PixelSums {
             radiance,
             bounces: f64::from(self.bounces) / f64::from(self.count),
             seen: self.seen.clone(),
-            at_instant: self.at_instant.means(self.count, radiance),
+            at_instant: self.at_instant.means(self.count),
         }
     }
 }
@@ -321,18 +333,24 @@ impl PixelMean {
 pub(crate) fn assemble_picture(tile: Tile, pixels: &[PixelMean]) -> Picture {
     let Tile { width, height, .. } = tile;
     let objects = pixels.first().map_or(0, |pixel| pixel.coverage.len());
+    // In one pass: the pixels' coverages lie all over the memory.
+    let mut coverage = vec![Vec::with_capacity(pixels.len()); objects];
+    for pixel in pixels {
+        for (plane, share) in coverage.iter_mut().zip(&pixel.coverage) {
+            plane.push(*share);
+        }
+    }
+    let coverage = coverage.into_iter().map(|pixels| Plane {
+        width,
+        height,
+        pixels,
+    });
     Picture {
         color: Image {
             width,
             height,
             pixels: pixels.iter().map(|pixel| pixel.color).collect(),
         },
-        coverage: (0..objects)
-            .map(|object| Plane {
-                width,
-                height,
-                pixels: pixels.iter().map(|pixel| pixel.coverage[object]).collect(),
-            })
-            .collect(),
+        coverage: coverage.collect(),
     }
 }

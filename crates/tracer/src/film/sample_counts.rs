@@ -1,6 +1,7 @@
 //! The number of samples of each pixel.
 
 use frame::Plane;
+use rayon::prelude::*;
 
 use crate::film::canvas::Canvas;
 use crate::limits::MAX_SAMPLES;
@@ -36,7 +37,7 @@ impl SampleCounts {
         }
         let budget = u64::from(mean) * picture.len() as u64;
         let fits = |scale: f64| {
-            let counts = picture.iter();
+            let counts = picture.par_iter();
             let sum: u64 = counts
                 .map(|&pixel| u64::from(nearest_count(scale * demand[pixel as usize], mean)))
                 .sum();

@@ -85,6 +85,10 @@ impl ShutterSampler {
         let [first, last] = piece.efficiencies;
         let before = piece.until - 0.5 * (first + last) * piece.length;
         let rest = (sum - before).max(0.0);
+        if first == last {
+            let since = rest / first.max(f64::MIN_POSITIVE);
+            return piece.start + since.min(piece.length);
+        }
         // first s + (last - first) s^2 / (2 length) = rest, in the form that loses no digits where the slope is small.
         let root = (first * first + 2.0 * rest * (last - first) / piece.length).max(0.0);
         let since = 2.0 * rest / (first + root.sqrt()).max(f64::MIN_POSITIVE);

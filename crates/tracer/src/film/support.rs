@@ -3,8 +3,10 @@
 use std::ops::Range;
 
 use frame::{Raster, Support};
+use rayon::prelude::*;
 
 use crate::error::TraceError;
+use crate::film::canvas::Canvas;
 use crate::film::eye::Eye;
 use crate::film::render::{Film, Times, for_each_pixel};
 use crate::path::stops::visit_layers;
@@ -25,6 +27,8 @@ const SEED: u64 = 0;
 struct PixelProbe {
     /// True per object id that was seen.
     seen: Vec<bool>,
+    /// Number of these.
+    known: usize,
     /// True if anything was seen that the frame of the instant does not show.
     unknowable: bool,
     /// True if two rays saw different objects. A ray sees several through translucent surfaces.
@@ -40,6 +44,7 @@ pub(crate) fn trace_supports(
 ) -> Result<Vec<Support>, TraceError> {
     let unseen = PixelProbe {
         seen: vec![false; film.integrator.stage.scene.objects.len() + 1],
+        known: 0,
         unknowable: false,
         is_mixed: false,
     };
@@ -48,76 +53,88 @@ pub(crate) fn trace_supports(
         None => 1,
     };
     let [few, all] = [FIRST_SAMPLES, SAMPLES].map(|samples| factor * samples);
-    let pixels = film.canvas.pixels();
-    let nothing = vec![vec![unseen; film.times.len()]; pixels.len()];
-    let first = probe_pixels(film, &nothing, 0..few, |_, _| true, meter)?;
-    let raster = |number: usize, pixels: &[Vec<PixelProbe>]| Raster {
-        width: film.canvas.columns(),
-        height: film.canvas.rows(),
-        pixels: pixels.iter().map(|probes| probes[number].clone()).collect(),
-    };
-    let plain: Vec<Raster<bool>> = (0..film.times.len())
-        .map(|number| find_plain(&raster(number, &first)))
+    let canvas = film.canvas;
+    let numbers = 0..film.times.len();
+    let nothing = vec![unseen; film.times.len()];
+    let every = canvas.pixels();
+    let begin = |_| nothing.clone();
+    let mut probes = probe_pixels(film, &every, 0..few, begin, |_, _| true, meter)?;
+    let is_mixed = |pixel: u32, number: usize| !is_plain(canvas, &probes, pixel, number);
+    let mixed: Vec<u32> = (every.into_par_iter())
+        .filter(|&pixel| numbers.clone().any(|number| is_mixed(pixel, number)))
         .collect();
-    let is_mixed = |pixel: u32, number: usize| !plain[number].pixels[pixel as usize];
-    let whole = probe_pixels(film, &first, few..all, is_mixed, meter)?;
+    let go_on = |pixel: u32| probes[pixel as usize].clone();
+    let whole = probe_pixels(film, &mixed, few..all, go_on, is_mixed, meter)?;
+    for (pixel, whole) in mixed.into_iter().zip(whole) {
+        probes[pixel as usize] = whole;
+    }
     Ok((moving.iter().enumerate())
-        .map(|(number, moving)| assemble_support(&raster(number, &whole), moving))
+        .map(|(number, moving)| assemble_support(canvas, &probes, number, moving))
         .collect())
 }
 
-/// Adds samples to earlier ones, in each pixel at those of the film's times that `is_probed` names.
+/// Adds samples to the probes that `before` returns, in each of the pixels at those of the film's times that `is_probed` names.
 fn probe_pixels(
     film: &Film,
-    before: &[Vec<PixelProbe>],
+    pixels: &[u32],
     samples: Range<u32>,
+    before: impl Fn(u32) -> Vec<PixelProbe> + Sync,
     is_probed: impl Fn(u32, usize) -> bool + Sync,
     meter: &Meter,
 ) -> Result<Vec<Vec<PixelProbe>>, TraceError> {
     let place = (film.integrator.stage, film.canvas);
     // This does not count as progress of the replicate, but may be cancelled.
     let no_work = |_: &[u32]| 0;
-    for_each_pixel(
-        place,
-        &film.canvas.pixels(),
-        meter,
-        no_work,
-        |eye, pixel| {
-            let mut probes = before[pixel as usize].clone();
-            let mut probed: Vec<(&Times, &mut PixelProbe)> = (film.times.iter().enumerate())
-                .zip(&mut probes)
-                .filter(|((number, _), _)| is_probed(pixel, *number))
-                .map(|((_, times), probe)| (times, probe))
-                .collect();
-            if !probed.is_empty() {
-                for index in samples.clone() {
-                    probe_once(film, eye, pixel, index, &mut probed);
-                }
-            }
-            probes
-        },
-    )
-}
-
-/// Marks the pixels whose rays, and whose neighbours' rays, all found the same, either all of it knowable or none of it.
-fn find_plain(probes: &Raster<PixelProbe>) -> Raster<bool> {
-    Raster::from_fn(probes.width, probes.height, |x, y| {
-        let own = probes.at(x, y);
-        let around = |at: u32, end: u32| at.saturating_sub(1)..(at + 2).min(end);
-        let mut rows = around(y, probes.height);
-        !own.is_mixed && rows.all(|y| around(x, probes.width).all(|x| probes.at(x, y) == own))
+    for_each_pixel(place, pixels, meter, no_work, |eye, pixel| {
+        let mut probes = before(pixel);
+        let mut probed: Vec<(&Times, &mut PixelProbe)> = (film.times.iter().enumerate())
+            .zip(&mut probes)
+            .filter(|((number, _), _)| is_probed(pixel, *number))
+            .map(|((_, times), probe)| (times, probe))
+            .collect();
+        for index in samples.clone() {
+            probe_once(film, eye, pixel, index, &mut probed);
+        }
+        probes
     })
 }
 
-fn assemble_support(probes: &Raster<PixelProbe>, moving: &[bool]) -> Support {
+/// Returns true if a pixel's rays, and its neighbours' rays, all found the same at one of the times, either all of it knowable or none
+/// of it.
+fn is_plain(canvas: Canvas, probes: &[Vec<PixelProbe>], pixel: u32, number: usize) -> bool {
+    let columns = canvas.columns();
+    let around = |at: u32, end: u32| at.saturating_sub(1)..(at + 2).min(end);
+    let mut rows = around(pixel / columns, canvas.rows());
+    let own = &probes[pixel as usize][number];
+    !own.is_mixed
+        && rows.all(|row| {
+            around(pixel % columns, columns)
+                .all(|column| probes[(row * columns + column) as usize][number] == *own)
+        })
+}
+
+/// Assembles the support of one of the times from all pixels' probes.
+fn assemble_support(
+    canvas: Canvas,
+    probes: &[Vec<PixelProbe>],
+    number: usize,
+    moving: &[bool],
+) -> Support {
+    let raster = |holds: &(dyn Fn(&PixelProbe) -> bool + Sync)| Raster {
+        width: canvas.columns(),
+        height: canvas.rows(),
+        pixels: (probes.par_iter())
+            .map(|probes| holds(&probes[number]))
+            .collect(),
+    };
     let moves =
         |probe: &PixelProbe| (probe.seen.iter().zip(moving)).any(|(seen, moves)| *seen && *moves);
     Support {
         seen: (0..moving.len())
-            .map(|object| probes.map(|probe| probe.seen[object]))
+            .map(|object| raster(&|probe| probe.seen[object]))
             .collect(),
-        moving: probes.map(moves),
-        unknowable: probes.map(|probe| probe.unknowable),
+        moving: raster(&moves),
+        unknowable: raster(&|probe| probe.unknowable),
     }
 }
 
@@ -161,7 +178,14 @@ fn probe_once(
 impl PixelProbe {
     /// Marks the objects that one ray met, each with true if the instant hides the point that the ray saw.
     fn mark(&mut self, found: &[(usize, bool)]) {
-        let known = self.seen.iter().filter(|seen| **seen).count();
+        if let [(object, is_hidden)] = found
+            && self.known == 1
+            && self.seen[*object]
+        {
+            self.unknowable |= is_hidden;
+            return;
+        }
+        let known = self.known;
         for (object, is_hidden) in found {
             self.seen[*object] = true;
             self.unknowable |= is_hidden;
@@ -170,7 +194,8 @@ impl PixelProbe {
         let mut seen = objects.filter(|(_, seen)| **seen).map(|(object, _)| object);
         let is_found = |object: usize| found.iter().any(|(own, _)| *own == object);
         self.is_mixed |= known > 0 && !seen.all(is_found);
-        self.is_mixed |= known > 0 && self.seen.iter().filter(|seen| **seen).count() > known;
+        self.known = self.seen.iter().filter(|seen| **seen).count();
+        self.is_mixed |= known > 0 && self.known > known;
     }
 }
 
@@ -190,6 +215,7 @@ mod tests {
         ] {
             let mut probe = PixelProbe {
                 seen: vec![false; 3],
+                known: 0,
                 unknowable: false,
                 is_mixed: false,
             };
