@@ -121,6 +121,12 @@ pub fn floor_scene(material: Material) -> Scene {
     let mut scene = empty_scene("floor");
     let floor = facing_up(DVec3::ZERO);
     add(&mut scene, rectangle(100.0, 100.0), material, floor);
-    look_at_a_spot(&mut scene);
+    let eye = DVec3::new(4.0, 2.0, 0.0);
+    scene.camera.motion = Motion::still(Key {
+        translation: eye,
+        orientation: DQuat::from_rotation_arc(DVec3::NEG_Z, -eye.normalize()),
+        ..Key::REST
+    });
+    scene.camera.vertical_fov = vec![(0.0, 0.005_f64.to_radians())];
     scene
 }

@@ -98,8 +98,7 @@ fn offsets_of_replicates_are_halves_and_those_of_their_mean_are_not() {
     let tracer = TruthTracer::new(&scene, &settings, &[Alignment::Trailing]).expect("allowed");
     let trace = |index| tracer.trace(index, &unwatched).expect("allowed").remove(0);
     let replicates: Vec<Replicate> = (0..settings.replicates).map(trace).collect();
-    for replicate in &replicates {
-        let at_instant = &replicate.at_instant;
+    for Replicate { at_instant, .. } in &replicates {
         assert_eq!(at_instant.clone().rounded(), *at_instant);
     }
     let truth = Truth::of(&replicates).expect("they are whole");

@@ -44,17 +44,6 @@ pub fn empty_scene(name: &str) -> Scene {
     }
 }
 
-/// Turns the camera to one small spot at the origin, seen at a slope of 1 to 2.
-pub fn look_at_a_spot(scene: &mut Scene) {
-    let eye = DVec3::new(4.0, 2.0, 0.0);
-    scene.camera.motion = Motion::still(Key {
-        translation: eye,
-        orientation: DQuat::from_rotation_arc(DVec3::NEG_Z, -eye.normalize()),
-        ..Key::REST
-    });
-    scene.camera.vertical_fov = vec![(0.0, 0.005_f64.to_radians())];
-}
-
 /// Adds an object in the world with one material; returns its index.
 pub fn add(scene: &mut Scene, mesh: Mesh, material: Material, motion: Motion) -> usize {
     let index = scene.objects.len();

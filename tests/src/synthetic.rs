@@ -313,10 +313,7 @@ fn ground(pixel: [u32; 2]) -> [f64; 3] {
 /// Makes layers in which everything is known and still, for truths with scores that do not read them.
 fn nothing_unknown(color: &Image) -> AtInstant {
     AtInstant {
-        shift: color.map(|_| [0.0; 3]),
-        unknowable: color.map(|_| 0.0),
         placed: color.map(|_| 1.0),
-        offset: color.map(|_| [0.0; 2]),
-        spread: color.map(|_| [0.0; 2]),
+        ..AtInstant::unknown(color.width, color.height)
     }
 }

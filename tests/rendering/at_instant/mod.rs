@@ -64,6 +64,8 @@ fn uncovered_background_and_pixels_beyond_the_border_are_unknowable() {
     for ((gap, at, half), alignment) in cases.into_iter().zip(Alignment::ALL) {
         let scene = panel_over_wall(gap, at, 2.0 * half as f32);
         let known = render(&scene, alignment, 4096).at_instant_mean();
+        // Unlit surfaces need no light of the instant.
+        assert!(known.shift.pixels.iter().all(|shift| *shift == [0.0; 3]));
         for_each_column(|left, pixel| {
             let expected = mean_over(left, alignment, |x, t| {
                 let covered = |x: f64, t: f64| (x - at - SPEED * t).abs() < half;

@@ -49,15 +49,10 @@ fn where_next_to_nothing_moves_everything_is_known_and_in_its_place() {
     for pixel in 0..known.unknowable.pixels.len() {
         assert_eq!(known.unknowable.pixels[pixel], 0.0);
         // Only the samples' own positions in the pixel remain, which are spread evenly.
-        let places = [
-            (known.offset.pixels[pixel], 0.0),
-            (known.spread.pixels[pixel], 1.0 / 12.0),
-        ];
-        for (axis, expected) in places
-            .into_iter()
-            .flat_map(|(axes, expected)| axes.map(|axis| (axis, expected)))
-        {
-            expect_near("place", f64::from(axis), expected, 0.01);
+        for axis in 0..2 {
+            let [offset, spread] = [&known.offset, &known.spread].map(|own| own.pixels[pixel]);
+            expect_near("offset", offset[axis].into(), 0.0, 0.01);
+            expect_near("spread", spread[axis].into(), 1.0 / 12.0, 0.01);
         }
         // Shading from the same point of the lens is the same, except for rounding of the ray.
         let [frozen, live] = [frozen.pixels[pixel][0], live.pixels[pixel][0]];

@@ -20,7 +20,7 @@ const BETWEEN_LOOKS: Duration = Duration::from_millis(50);
 
 /// Words after a signal.
 pub const INTERRUPTED_TEXT: &str =
-    "interrupted; files that are whole stay, and the same command goes on from there";
+    "interrupted; files that are whole stay, and the same command uses them again";
 
 /// Makes SIGINT, SIGTERM and SIGHUP end the current work. Work that does not check for them ends with the process a moment later. No file
 /// is left half-written: files are renamed into place when complete.

@@ -197,11 +197,12 @@ impl<'a> SceneTree<'a> {
     ) -> bool {
         let time = poses.time();
         let mut stack = poses.take_stack(self.stack_size);
-        let blocked = self.movers.iter().any(|&object| {
+        let mut blocked = false;
+        // No closure around this: it would be compiled without the wide instructions.
+        for &object in &self.movers {
             if poses.is_missed(object, ray) {
-                return false;
+                continue;
             }
-            let mut blocked = false;
             let local = ray.transformed(&poses.pose(object).to_object);
             self.mesh(object).traverse::<L, false>(
                 lanes,
@@ -215,8 +216,10 @@ impl<'a> SceneTree<'a> {
                     if blocked { NOWHERE } else { limit }
                 },
             );
-            blocked
-        });
+            if blocked {
+                break;
+            }
+        }
         poses.stack = stack;
         blocked
     }
