@@ -334,7 +334,9 @@ pub(crate) fn assemble_picture(tile: Tile, pixels: &[PixelMean]) -> Picture {
     let Tile { width, height, .. } = tile;
     let objects = pixels.first().map_or(0, |pixel| pixel.coverage.len());
     // In one pass: the pixels' coverages lie all over the memory.
-    let mut coverage = vec![Vec::with_capacity(pixels.len()); objects];
+    let mut coverage: Vec<Vec<f32>> = (0..objects)
+        .map(|_| Vec::with_capacity(pixels.len()))
+        .collect();
     for pixel in pixels {
         for (plane, share) in coverage.iter_mut().zip(&pixel.coverage) {
             plane.push(*share);
