@@ -76,5 +76,5 @@ pub use shutter::{
 pub use support::Support;
 pub use tile::Tile;
 pub use truth::{
-    Truth, TruthError, motion_margin, moving_region, regions, shaded_region, truth_hash,
+    FLIP_REACH, Truth, TruthError, motion_margin, moving_region, regions, shaded_region, truth_hash,
 };

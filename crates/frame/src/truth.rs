@@ -245,10 +245,12 @@ pub fn moving_region(support: &Support) -> Raster<bool> {
     dilate(&support.moving, motion_margin(support.moving.height))
 }
 
+/// Pixels on every side of a pixel that FLIP filters together with it, at 67 pixels per degree.
+pub const FLIP_REACH: u32 = 10;
+
 /// Marks the pixels whose shading at the instant scores look at: those of [`Region::Moving`], and those that FLIP filters together
 /// with them.
 pub fn shaded_region(support: &Support) -> Raster<bool> {
-    const FLIP_REACH: u32 = 10;
     let margin = motion_margin(support.moving.height) + FLIP_REACH;
     dilate(&support.moving, margin)
 }

@@ -3,10 +3,7 @@
 use std::ops::Range;
 use std::sync::OnceLock;
 
-use frame::{
-    Alignment, AtInstant, ColorSampling, Raster, Replicate, Support, Tile, Truth, motion_margin,
-    moving_region, shaded_region,
-};
+use frame::{Alignment, AtInstant, ColorSampling, Raster, Replicate, Tile, Truth, motion_margin};
 use rayon::prelude::*;
 
 use crate::aligned_shutter::{AlignedShutter, list_family};
@@ -18,7 +15,7 @@ use crate::film::finite::{check_at_instant, check_picture};
 use crate::film::pilot::{PILOT_REPLICATES, PILOT_SAMPLES, choose_samples};
 use crate::film::render::{Film, PixelMean, Times, assemble_picture};
 use crate::film::sample_counts::SampleCounts;
-use crate::film::support::trace_supports;
+use crate::film::support::{ProbedSupport, trace_supports};
 use crate::path::integrator::Integrator;
 use crate::progress::{Meter, Progress, Watch};
 use crate::sampler::Stream;
@@ -45,13 +42,6 @@ pub struct TruthTracer<'a> {
 
 /// The means of all pixels of a replicate, in row-major order.
 type Means = (Vec<PixelMean>, Vec<InstantMeans>);
-
-/// The support of a truth, and its regions of motion and of frozen shading.
-struct ProbedSupport {
-    support: Support,
-    moving: Raster<bool>,
-    shaded: Raster<bool>,
-}
 
 /// Renders the picture that a camera with an open shutter would have taken, and measures its noise.
 pub fn trace_truth(
@@ -239,13 +229,7 @@ impl<'a> TruthTracer<'a> {
         let supports = get_or_try_init(&self.supports, || {
             let shutters = self.shutters.iter();
             let moving: Vec<&[bool]> = shutters.map(|shutter| &shutter.moving[..]).collect();
-            let supports = trace_supports(film, &moving, meter)?;
-            let probed = supports.into_iter().map(|support| ProbedSupport {
-                moving: moving_region(&support),
-                shaded: shaded_region(&support),
-                support,
-            });
-            Ok(probed.collect::<Vec<ProbedSupport>>())
+            trace_supports(film, &moving, meter)
         })?;
         Ok(supports)
     }

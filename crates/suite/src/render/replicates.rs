@@ -10,6 +10,9 @@ use tracer::TruthTracer;
 use super::rendering::Rendering;
 use crate::Error;
 
+/// Replicates that are read at once. Each needs the memory of one more picture meanwhile, which the bound of memory counts.
+const READ_TOGETHER: usize = 4;
+
 /// The tracers of a scene's truths, by their alignments. Each is made for its first replicate, and keeps its pilot and its supports.
 #[derive(Default)]
 pub(super) struct Tracers<'a>(Vec<(Vec<Alignment>, TruthTracer<'a>)>);
@@ -104,26 +107,35 @@ impl<'a> TruthFiles<'a> {
     ) -> Result<Vec<Replicate>, Error> {
         self.rendering.check_truth(self.alignment)?;
         let own = std::slice::from_ref(self);
-        let found: Vec<Option<Replicate>> = (indices.clone().into_par_iter())
-            .map(|index| self.read(index))
-            .collect();
-        let each = indices.zip(found).map(|(index, found)| match found {
-            Some(found) => Ok(found),
-            None => Ok(render_replicate(own, index, tracers)?.remove(0)),
-        });
-        each.collect()
+        let indices: Vec<u32> = indices.collect();
+        let mut replicates = Vec::with_capacity(indices.len());
+        for together in indices.chunks(READ_TOGETHER) {
+            let read = together.par_iter().map(|&index| self.read(index));
+            for (&index, found) in together.iter().zip(read.collect::<Vec<_>>()) {
+                replicates.push(match found {
+                    Some(found) => found,
+                    None => render_replicate(own, index, tracers)?.remove(0),
+                });
+            }
+        }
+        Ok(replicates)
     }
 
     /// Returns whether the header of the truth's file names this many of these replicates.
     fn has_truth(&self, replicates: u32) -> bool {
-        let path = self.rendering.path(RenderFile::Truth(self.alignment));
-        read_attribute(&path, "content_hash") == Some(truth_hash(&self.hash, replicates))
+        let file = RenderFile::Truth(self.alignment);
+        self.is_of(file, &truth_hash(&self.hash, replicates))
     }
 
     /// Returns whether the header of a replicate's file names these inputs.
     fn has_replicate(&self, index: u32) -> bool {
         let file = RenderFile::Replicate(self.alignment, index);
-        read_attribute(&self.rendering.path(file), "content_hash").as_ref() == Some(&self.hash)
+        self.is_of(file, &self.hash)
+    }
+
+    /// Returns whether a file's header has this content hash.
+    fn is_of(&self, file: RenderFile, hash: &str) -> bool {
+        read_attribute(&self.rendering.path(file), "content_hash").as_deref() == Some(hash)
     }
 
     /// Reads a replicate; none if it is missing, broken or made from other inputs.

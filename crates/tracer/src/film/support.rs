@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use frame::{Raster, Support};
+use frame::{Raster, Support, moving_region, shaded_region};
 use rayon::prelude::*;
 
 use crate::error::TraceError;
@@ -21,6 +21,15 @@ const FIRST_SAMPLES: u32 = 16;
 const LENS_FACTOR: u32 = 4;
 /// Seed, the same for all renders, so that regions do not depend on the seed of a truth.
 const SEED: u64 = 0;
+
+/// The support of a truth, and its regions.
+pub(crate) struct ProbedSupport {
+    pub support: Support,
+    /// Pixels of the moving region.
+    pub moving: Raster<bool>,
+    /// Pixels with shading at the instant.
+    pub shaded: Raster<bool>,
+}
 
 /// The objects that one pixel's rays met while one shutter was open.
 #[derive(Clone, PartialEq)]
@@ -41,7 +50,7 @@ pub(crate) fn trace_supports(
     film: &Film,
     moving: &[&[bool]],
     meter: &Meter,
-) -> Result<Vec<Support>, TraceError> {
+) -> Result<Vec<ProbedSupport>, TraceError> {
     let unseen = PixelProbe {
         seen: vec![false; film.integrator.stage.scene.objects.len() + 1],
         known: 0,
@@ -69,7 +78,14 @@ pub(crate) fn trace_supports(
         probes[pixel as usize] = whole;
     }
     Ok((moving.iter().enumerate())
-        .map(|(number, moving)| assemble_support(canvas, &probes, number, moving))
+        .map(|(number, moving)| {
+            let support = assemble_support(canvas, &probes, number, moving);
+            ProbedSupport {
+                moving: moving_region(&support),
+                shaded: shaded_region(&support),
+                support,
+            }
+        })
         .collect())
 }
 

@@ -76,3 +76,15 @@ fn compute_feature_weights() -> [Vec<f32>; 3] {
         weights
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn filters_reach_as_far_as_shading_at_the_instant_is_traced_for_them() {
+        let Weights { contrast, feature } = Weights::new();
+        let longest = contrast.iter().chain(&feature).map(Vec::len).max();
+        assert_eq!(longest, Some(2 * frame::FLIP_REACH as usize + 1));
+    }
+}
