@@ -195,7 +195,8 @@ fn save(browser: &mut Browser, sandbox: &Sandbox, button: &str, file: &str) -> P
         "[...document.querySelectorAll('.live button')].find(one => one.textContent === '{button}').click()"
     ));
     let path = sandbox.path(file);
-    while !path.is_file() {
+    // The browser reserves the name by an empty file, and renames the whole one to it.
+    while fs::metadata(&path).map_or(0, |found| found.len()) == 0 {
         std::thread::sleep(std::time::Duration::from_millis(20));
     }
     path
