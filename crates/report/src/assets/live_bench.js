@@ -4,6 +4,8 @@
   const pictures = window.shuttertruth;
   const { card } = pictures;
   const TURNS = 64;
+  // Turns before those that count: a card that idled needs seconds to reach its clock.
+  const WARM_UP = 32;
   // A pass is repeated until it takes this long, in nanoseconds: browsers round the clock to about 0.1 ms.
   const SPAN = 5e6;
   const MOST_REPETITIONS = 2048;
@@ -73,42 +75,51 @@
     return step > EXACT ? step : null;
   };
 
-  // Measures a filter: `seconds` of all passes, `passes` with their own, and the steps of a rounded clock in seconds.
-  const time = (device, words) =>
+  // Describes the turns of one run: `seconds` of all passes, `passes` with their own, and the steps of a rounded clock in seconds.
+  const describe = ({ dispatches }, counts, turns) => {
+    const step = turns.flat().reduce((all, one) => divisorOf(one - turns[0][0], all), 0n);
+    const passes = [];
+    dispatches.forEach(({ entry }, index) => {
+      if (passes.at(-1)?.entry !== entry) passes.push({ entry, iterations: 0, turns: Array(TURNS).fill(0) });
+      const own = passes.at(-1);
+      own.iterations += 1;
+      turns.forEach((clock, turn) => (own.turns[turn] += spanOf(clock, index) / counts[index] / 1e9));
+    });
+    const all = turns.map((_, turn) => passes.reduce((sum, own) => sum + own.turns[turn], 0));
+    const described = passes.map(({ turns: own, ...pass }) => ({ ...pass, seconds: spreadOf(own) }));
+    return { seconds: spreadOf(all), passes: described, step: stepOf(step) };
+  };
+
+  // Measures filters in turns, so that a change of the card's clock meets all of them.
+  const time = (device, list, said = () => {}) =>
     card.caught(device, async () => {
-      const run = card.prepare(device, words);
+      const runs = list.map((words) => card.prepare(device, words));
       try {
-        const counts = await findCounts(device, run);
-        const turns = [];
-        for (let turn = 0; turn < TURNS; turn++) turns.push(await readClock(device, run, counts));
-        const step = turns.flat().reduce((all, one) => divisorOf(one - turns[0][0], all), 0n);
-        const passes = [];
-        run.dispatches.forEach(({ entry }, index) => {
-          if (passes.at(-1)?.entry !== entry) passes.push({ entry, iterations: 0, turns: Array(TURNS).fill(0) });
-          const own = passes.at(-1);
-          own.iterations += 1;
-          turns.forEach((clock, turn) => (own.turns[turn] += spanOf(clock, index) / counts[index] / 1e9));
-        });
-        const all = turns.map((_, turn) => passes.reduce((sum, own) => sum + own.turns[turn], 0));
-        const described = passes.map(({ turns: own, ...pass }) => ({ ...pass, seconds: spreadOf(own) }));
-        return { seconds: spreadOf(all), passes: described, step: stepOf(step) };
+        const counts = [];
+        for (const run of runs) counts.push(await findCounts(device, run));
+        const turns = runs.map(() => []);
+        for (let turn = -WARM_UP; turn < TURNS; turn++) {
+          said(turn < 0 ? "Warming up .." : `Measuring: ${turn + 1} of ${TURNS} turns ..`);
+          for (const [at, run] of runs.entries()) {
+            const clock = await readClock(device, run, counts[at]);
+            if (turn >= 0) turns[at].push(clock);
+          }
+        }
+        return runs.map((run, at) => describe(run, counts[at], turns[at]));
       } finally {
-        card.destroy(run);
+        runs.forEach(card.destroy);
       }
     });
 
   // Measures all presets; returns the text of a bench.json. `wordsOf` says what to run with a preset's values.
   const measureAll = async (device, { filter, adapter, scene, program }, wordsOf, said) => {
-    const cases = [];
-    const steps = [];
-    for (const [at, { name, values, reference_width }] of filter.presets.entries()) {
-      said(`Measuring preset ${at + 1} of ${filter.presets.length} ..`);
-      const { step, ...times } = await time(device, wordsOf(values));
-      steps.push(step);
-      cases.push({ filter: filter.name, preset: name, parameters: values, reference_width, ...times });
-    }
+    const measured = await time(device, filter.presets.map(({ values }) => wordsOf(values)), said);
+    const cases = filter.presets.map(({ name, values, reference_width }, at) => {
+      const { seconds, passes } = measured[at];
+      return { filter: filter.name, preset: name, parameters: values, reference_width, seconds, passes };
+    });
     const { width, height } = scene;
-    const clock = { clock: "timestamps", clock_step: Math.min(...steps) || null };
+    const clock = { clock: "timestamps", clock_step: Math.min(...measured.map(({ step }) => step)) || null };
     const bench = { format: 1, program, adapter, ...clock, width, height, rounds: TURNS, scene: scene.name, cases, reaches: [] };
     // Real numbers have a point.
     const reals = filter.parameters.filter(({ kind }) => kind === "real").map(({ name }) => name);

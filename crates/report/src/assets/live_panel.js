@@ -316,7 +316,7 @@
     };
     const { width, height } = mine.scene;
     const measure = async ({ device, name: model }) => {
-      const { seconds, passes, step } = await bench.time(device, wordsOf(mine));
+      const [{ seconds, passes, step }] = await bench.time(device, [wordsOf(mine)]);
       const rows = [...passes, { entry: "all passes", seconds }].map(({ entry, seconds: { median } }) => {
         const cell = element("td", { textContent: `${(1e3 * median).toFixed(3)} ms` });
         return element("tr", {}, element("th", { scope: "row", textContent: entry }), cell);
