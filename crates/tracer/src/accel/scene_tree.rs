@@ -29,8 +29,8 @@ pub(crate) struct SceneTree<'a> {
     /// Trees per mesh of the scene; none if no object shows it.
     meshes: Vec<Option<MeshTree<'a>>>,
     world: WorldTree,
-    /// Objects that move or deform.
-    movers: Vec<usize>,
+    /// Objects that move or deform, each with a box around all its places.
+    movers: Vec<(usize, Aabb)>,
     /// Objects that are opaque everywhere.
     solid: Vec<bool>,
     stack_size: usize,
@@ -84,7 +84,8 @@ impl<'a> SceneTree<'a> {
             })
             .collect();
         let coordinates = swept.iter().flatten().map(|aabb| aabb.largest_coordinate());
-        let leaves = collect_world_leaves(scene, &meshes, poses, coordinates.fold(0.0, f64::max));
+        let largest = coordinates.fold(0.0, f64::max);
+        let leaves = collect_world_leaves(scene, &meshes, poses, largest);
         let world = WorldTree::build(&leaves, slices, &swept);
         for (index, mesh) in meshes.iter_mut().enumerate() {
             let is_traversed = (leaves.iter().zip(&shown))
@@ -103,6 +104,13 @@ impl<'a> SceneTree<'a> {
                 .filter(|&object| {
                     let mesh = &scene.meshes[scene.objects[object].mesh];
                     !poses.stands_still(object) || mesh.deforms()
+                })
+                .map(|object| {
+                    let boxes = swept.iter().map(|slice| slice[object]);
+                    (
+                        object,
+                        boxes.fold(Aabb::EMPTY, Aabb::union).grown(LIFT * largest),
+                    )
                 })
                 .collect(),
             solid: find_solid_objects(scene),
@@ -196,11 +204,12 @@ impl<'a> SceneTree<'a> {
         limit: f64,
     ) -> bool {
         let time = poses.time();
+        let inverse = ray.direction.recip();
         let mut stack = poses.take_stack(self.stack_size);
         let mut blocked = false;
         // No closure around this: it would be compiled without the wide instructions.
-        for &object in &self.movers {
-            if poses.is_missed(object, ray) {
+        for &(object, places) in &self.movers {
+            if places.is_missed(ray, inverse) || poses.is_missed(object, ray) {
                 continue;
             }
             let local = ray.transformed(&poses.pose(object).to_object);

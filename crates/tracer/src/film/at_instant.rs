@@ -103,9 +103,8 @@ impl InstantView {
         };
         let eye = self.view.eye(*from);
         let way = point - eye;
-        let stands_still = self.camera_stands_still && stage.object_stands_still(hit.object);
-        let same_side =
-            stands_still || side(then, 0.0, way) == side(poses, hit.time, ray.direction);
+        let is_still = self.sees_still(stage, Some(hit));
+        let same_side = is_still || side(then, 0.0, way) == side(poses, hit.time, ray.direction);
         // If the camera saw the other side then, this ray meets the side that is seen now, in the same direction as now
         // in the object's own space.
         let direction = if same_side {
@@ -136,6 +135,11 @@ impl InstantView {
         }
     }
 
+    /// Returns true if neither the camera nor what a ray met ever moves. The same ray meets it at all times, unless a mover is before it.
+    pub fn sees_still(&self, stage: &Stage, hit: Option<&Hit>) -> bool {
+        self.camera_stands_still && hit.is_none_or(|hit| stage.object_stands_still(hit.object))
+    }
+
     /// Looks back at a point at infinity.
     fn look_at_infinity(
         &self,
@@ -149,10 +153,11 @@ impl InstantView {
             origin: self.view.eye(from),
             direction,
         };
+        let is_still = self.sees_still(stage, None);
         InstantPoint {
             place,
             is_shown: place.is_some_and(|place| self.contains(place))
-                && !self.is_blocked(stage, then, &ray, f64::INFINITY, true),
+                && !is_blocked(stage, then, &ray, f64::INFINITY, is_still),
             ray: None,
         }
     }
@@ -214,25 +219,17 @@ impl InstantView {
             origin: start,
             direction: way.normalize(),
         };
-        let stands_still = stage.object_stands_still(hit.object);
-        self.is_blocked(stage, then, &back, way.length(), stands_still)
+        let is_still = self.sees_still(stage, Some(hit));
+        is_blocked(stage, then, &back, way.length(), is_still)
     }
+}
 
-    /// Returns true if anything is between the eye and a point that some sample saw; `stands_still` says that the point
-    /// does not move.
-    fn is_blocked(
-        &self,
-        stage: &Stage,
-        then: &mut Poses,
-        ray: &Ray,
-        limit: f64,
-        stands_still: bool,
-    ) -> bool {
-        if self.camera_stands_still && stands_still {
-            stage.is_blocked_by_mover(then, ray, limit)
-        } else {
-            stage.is_blocked(then, ray, limit)
-        }
+/// Returns true if anything is between the eye and a point that some sample saw; `is_still` says that only a mover can be.
+fn is_blocked(stage: &Stage, then: &mut Poses, ray: &Ray, limit: f64, is_still: bool) -> bool {
+    if is_still {
+        stage.is_blocked_by_mover(then, ray, limit)
+    } else {
+        stage.is_blocked(then, ray, limit)
     }
 }
 

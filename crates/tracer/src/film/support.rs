@@ -174,17 +174,25 @@ fn probe_once(
     let [x, y, part, _] = sampler.camera();
     let mut probed_at = None;
     let mut found: Vec<(usize, bool)> = Vec::new();
+    // Distance to what the last ray met, if only a mover can keep this ray from meeting it.
+    let mut still = None;
     for (times, probe) in probed {
         let time = times.at(part, row, film.canvas.height);
         if probed_at != Some(time) {
             let own = eye.ray_at(time, [left + x, top + y], &sampler);
             let then = &mut eye.instant;
-            found.clear();
-            visit_layers(stage, &mut eye.poses, &own.ray, |poses, layer| {
-                let hit = layer.stop.map(|stop| stop.hit);
-                let point = instant.look_back(stage, (poses, then), &own, hit.as_ref());
-                found.push((hit.map_or(0, |hit| hit.object + 1), !point.is_shown));
-            });
+            let is_met = |limit| !stage.is_blocked_by_mover(&mut eye.poses, &own.ray, limit);
+            if !still.is_some_and(is_met) {
+                found.clear();
+                still = None;
+                visit_layers(stage, &mut eye.poses, &own.ray, |poses, layer| {
+                    let hit = layer.stop.map(|stop| stop.hit);
+                    let point = instant.look_back(stage, (poses, then), &own, hit.as_ref());
+                    found.push((hit.map_or(0, |hit| hit.object + 1), !point.is_shown));
+                    still = (!stage.has_translucency && instant.sees_still(stage, hit.as_ref()))
+                        .then(|| hit.map_or(f64::INFINITY, |hit| hit.t));
+                });
+            }
             probed_at = Some(time);
         }
         probe.mark(&found);
