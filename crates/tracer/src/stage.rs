@@ -191,3 +191,36 @@ impl Traversal {
         Traversal::Portable
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::ray::LIFT;
+    use crate::motion::lens::LensPoint;
+    use crate::test_scene::load_test_scene;
+
+    #[test]
+    fn a_mover_blocks_a_ray_if_the_ray_meets_it_first() {
+        for name in ["walker", "railing", "fan"] {
+            let scene = load_test_scene(name);
+            let stage = Stage::new(&scene, -0.5, 0.5);
+            let mut poses = stage.poses();
+            let mut met = 0;
+            for time in [-0.5, -0.2, 0.0, 0.5] {
+                poses.at(time);
+                let view = scene.camera.view(time, 48, 27);
+                for pixel in 0..48 * 27 {
+                    let place = [pixel % 48, pixel / 48].map(|at| f64::from(at) + 0.5);
+                    let ray = view.ray_through(place, LensPoint::CENTRE);
+                    let hit = stage.closest(&mut poses, &ray);
+                    let limit = hit.map_or(f64::INFINITY, |hit| hit.t * (1.0 + LIFT));
+                    let moves = hit.is_some_and(|hit| !stage.object_stands_still(hit.object));
+                    met += u32::from(moves);
+                    let is_blocked = stage.is_blocked_by_mover(&mut poses, &ray, limit);
+                    assert_eq!(is_blocked, moves, "{name} at {time}, {place:?}");
+                }
+            }
+            assert!(met > 100, "{name}: {met}");
+        }
+    }
+}
