@@ -93,8 +93,9 @@
   // Measures filters in turns, so that a change of the card's clock meets all of them.
   const time = (device, list, said = () => {}) =>
     card.caught(device, async () => {
-      const runs = list.map((words) => card.prepare(device, words));
+      const runs = [];
       try {
+        for (const words of list) runs.push(card.prepare(device, words));
         const counts = [];
         for (const run of runs) counts.push(await findCounts(device, run));
         const turns = runs.map(() => []);
