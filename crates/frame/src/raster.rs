@@ -1,5 +1,7 @@
 //! Rasters: two-dimensional arrays of pixels.
 
+use rayon::prelude::*;
+
 use crate::Tile;
 
 /// Row-major pixels from the top left: pixel (x, y) is `pixels[y * width + x]`.
@@ -171,7 +173,10 @@ pub(crate) fn mean_vectors<'a, const N: usize>(
 }
 
 /// Makes a raster of the size of all `rasters` from the pixels' indices.
-fn mean<T>(rasters: &[&Raster<T>], value: impl FnMut(usize) -> T) -> Raster<T> {
+fn mean<T: Send + Sync>(
+    rasters: &[&Raster<T>],
+    value: impl Fn(usize) -> T + Sync + Send,
+) -> Raster<T> {
     let first = rasters.first().expect("a mean needs at least one raster");
     assert!(
         rasters.iter().all(|raster| raster.same_size(first)),
@@ -180,7 +185,7 @@ fn mean<T>(rasters: &[&Raster<T>], value: impl FnMut(usize) -> T) -> Raster<T> {
     Raster {
         width: first.width,
         height: first.height,
-        pixels: (0..first.pixels.len()).map(value).collect(),
+        pixels: (0..first.pixels.len()).into_par_iter().map(value).collect(),
     }
 }
 

@@ -10,7 +10,7 @@ use crate::error::TraceError;
 use crate::film::canvas::Canvas;
 use crate::film::dilate::dilate_square;
 use crate::film::finite::check_picture;
-use crate::film::render::{Film, PixelMean, Times};
+use crate::film::render::{Film, Means, Times};
 use crate::film::sample_counts::SampleCounts;
 use crate::film::shutter_sampler::ShutterSampler;
 use crate::limits::MAX_SAMPLES;
@@ -115,14 +115,10 @@ impl<'a> LadderTracer<'a> {
             seed: self.seed,
             stream: Stream::Accumulation(subframes),
         };
-        let rendered = film.render(&pixels, &Meter::new(watch, work), |estimates| {
-            [0, 1].map(|half| PixelMean::of(&estimates[half]))
-        })?;
+        let rendered = film.render(&pixels, &Meter::new(watch, work))?;
         let halves = [0, 1].map(|half| {
             let mut picture = self.mean.part(tile);
-            for (&place, halves) in places.iter().zip(&rendered) {
-                set_pixel(&mut picture, place, &halves[half]);
-            }
+            set_pixels(&mut picture, &places, &rendered[half][0]);
             picture
         });
         for half in &halves {
@@ -179,10 +175,15 @@ fn check_subframes(subframes: &[u32]) -> Result<(), TraceError> {
     }
 }
 
-fn set_pixel(picture: &mut Picture, pixel: usize, mean: &PixelMean) {
-    picture.color.pixels[pixel] = mean.color;
-    for (plane, coverage) in picture.coverage.iter_mut().zip(&mean.coverage) {
-        plane.pixels[pixel] = *coverage;
+/// Replaces the pixels at some places.
+fn set_pixels(picture: &mut Picture, places: &[usize], means: &Means) {
+    for (&place, color) in places.iter().zip(&means.color) {
+        picture.color.pixels[place] = *color;
+    }
+    for (plane, coverage) in picture.coverage.iter_mut().zip(&means.coverage) {
+        for (&place, coverage) in places.iter().zip(coverage) {
+            plane.pixels[place] = *coverage;
+        }
     }
 }
 

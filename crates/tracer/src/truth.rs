@@ -13,7 +13,7 @@ use crate::film::at_instant::{InstantMeans, InstantView};
 use crate::film::canvas::Canvas;
 use crate::film::finite::{check_at_instant, check_picture};
 use crate::film::pilot::{PILOT_REPLICATES, PILOT_SAMPLES, choose_samples};
-use crate::film::render::{Film, PixelMean, Times, assemble_picture};
+use crate::film::render::{Film, Means, Times};
 use crate::film::sample_counts::SampleCounts;
 use crate::film::support::{ProbedSupport, trace_supports};
 use crate::path::integrator::Integrator;
@@ -39,9 +39,6 @@ pub struct TruthTracer<'a> {
     /// Objects seen per pixel, for each of the truths, probed with the first replicate.
     supports: OnceLock<Vec<ProbedSupport>>,
 }
-
-/// The means of all pixels of a replicate, in row-major order.
-type Means = (Vec<PixelMean>, Vec<InstantMeans>);
 
 /// Renders the picture that a camera with an open shutter would have taken, and measures its noise.
 pub fn trace_truth(
@@ -121,18 +118,7 @@ impl<'a> TruthTracer<'a> {
             recalled: &recalled,
             ..film
         };
-        let rendered = film.render(&pixels, &meter, |replicates| {
-            let estimates = replicates[0].iter();
-            let means = estimates.map(|estimate| (PixelMean::of([estimate]), estimate.at_instant));
-            means.collect::<Vec<(PixelMean, InstantMeans)>>()
-        })?;
-        let mut each: Vec<Means> = vec![Means::default(); self.shutters.len()];
-        for pixel in rendered {
-            for ((means, instant_means), own) in each.iter_mut().zip(pixel) {
-                means.push(own.0);
-                instant_means.push(own.1);
-            }
-        }
+        let each = film.render(&pixels, &meter)?.remove(0);
         (self.shutters.par_iter().zip(supports).zip(each))
             .map(|((shutter, support), means)| {
                 self.replicate((index, tile), shutter, support, means)
@@ -173,15 +159,15 @@ impl<'a> TruthTracer<'a> {
         (index, tile): (u32, Tile),
         shutter: &AlignedShutter,
         support: &ProbedSupport,
-        (means, instant_means): Means,
+        mut means: Means,
     ) -> Result<Replicate, TraceError> {
         let scene = self.stage.scene;
         let canvas = self.canvas();
         let settings = &self.settings;
-        let picture = assemble_picture(tile, &means);
-        let at_instant = assemble_at_instant(tile, instant_means)
+        let at_instant = assemble_at_instant(tile, std::mem::take(&mut means.at_instant))
             .rounded()
             .within(&support.moving.part(tile));
+        let picture = means.into_picture(tile);
         check_picture(scene, &picture)?;
         check_at_instant(scene, &at_instant)?;
         let samples = self.samples.get().expect("the replicate was traced by it");

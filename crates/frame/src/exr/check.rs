@@ -95,20 +95,11 @@ fn update_with_text(hasher: &mut blake3::Hasher, text: &str) {
     hasher.update(text.as_bytes());
 }
 
+/// Adds samples, the lowest byte of each first, as they lie in memory.
 fn update_with_samples(hasher: &mut blake3::Hasher, samples: &Samples) {
-    match samples {
-        Samples::F32(samples) => update_with_words(hasher, samples, |sample| sample.to_bits()),
-        Samples::U32(samples) => update_with_words(hasher, samples, |sample| sample),
-    }
-}
-
-/// Adds words, lowest byte first, many at a time: one call per word would take as long as encoding the file.
-fn update_with_words<T: Copy>(hasher: &mut blake3::Hasher, samples: &[T], word: fn(T) -> u32) {
-    let mut bytes = [[0; 4]; 4096];
-    for samples in samples.chunks(bytes.len()) {
-        for (bytes, sample) in bytes.iter_mut().zip(samples) {
-            *bytes = word(*sample).to_le_bytes();
-        }
-        hasher.update(bytes[..samples.len()].as_flattened());
-    }
+    let bytes = match samples {
+        Samples::F32(samples) => bytemuck::cast_slice(samples),
+        Samples::U32(samples) => bytemuck::cast_slice(samples),
+    };
+    hasher.update(bytes);
 }

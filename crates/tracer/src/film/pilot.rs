@@ -70,7 +70,7 @@ pub(crate) fn choose_samples(
     let total = pixels.len() as u64 * u64::from(mean);
     let start = |_: Progress| watch(Progress { done: 0, total });
     let meter = Meter::new(&start, total);
-    let probes = pilot.render(&pixels, &meter, |replicates| {
+    let probes = pilot.summarise(&pixels, &meter, |replicates| {
         probe_pixel(replicates, moving)
     })?;
     let [columns, rows] = [pilot.canvas.width, pilot.canvas.height].map(|side| side.div_ceil(TILE));

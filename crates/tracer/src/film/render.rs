@@ -19,7 +19,7 @@ use crate::sampler::{Sampler, Stream, pixel_seed};
 use crate::stage::Stage;
 
 /// Pixels that a thread takes at a time; between two tasks it reports progress.
-const PIXELS_PER_TASK: usize = 32;
+const PIXELS_PER_TASK: usize = 64;
 /// One sample of a recalled pixel in so many is shaded at the instant, too, but at least one. One in eight would make the noise
 /// floor of frozen shading 2.5 times as high.
 const ONE_RECALLED_IN: u32 = 4;
@@ -67,11 +67,12 @@ pub(crate) struct Estimate {
     pub at_instant: InstantMeans,
 }
 
-/// A pixel's colour and coverages.
-#[derive(Clone)]
-pub(crate) struct PixelMean {
-    pub color: [f32; 3],
-    pub coverage: Vec<f32>,
+/// Means over the samples of some pixels of one picture, in their order.
+pub(crate) struct Means {
+    pub color: Vec<[f32; 3]>,
+    /// Share of each object, by id.
+    pub coverage: Vec<Vec<f32>>,
+    pub at_instant: Vec<InstantMeans>,
 }
 
 impl Times<'_> {
@@ -90,27 +91,45 @@ impl Times<'_> {
 
 /// Computes a result for each of the listed pixels, in their order, on all threads. `work` is the progress that some pixels make.
 pub(crate) fn for_each_pixel<T: Send>(
-    (stage, canvas): (&Stage, Canvas),
+    place: (&Stage, Canvas),
     pixels: &[u32],
     meter: &Meter,
     work: impl Fn(&[u32]) -> u64 + Sync,
     result: impl Fn(&mut Eye, u32) -> T + Sync,
 ) -> Result<Vec<T>, TraceError> {
-    let tasks = pixels
+    let add = |results: &mut Vec<T>, eye: &mut Eye, pixel| results.push(result(eye, pixel));
+    let mut all = Vec::with_capacity(pixels.len());
+    for mut results in fill_parts(place, pixels, meter, work, add)? {
+        all.append(&mut results);
+    }
+    Ok(all)
+}
+
+/// Adds each of the listed pixels to a part of the result, on all threads; returns the parts in the order of the pixels.
+fn fill_parts<P: Default + Send>(
+    (stage, canvas): (&Stage, Canvas),
+    pixels: &[u32],
+    meter: &Meter,
+    work: impl Fn(&[u32]) -> u64 + Sync,
+    add: impl Fn(&mut P, &mut Eye, u32) + Sync,
+) -> Result<Vec<P>, TraceError> {
+    let parts = pixels
         .par_chunks(PIXELS_PER_TASK)
+        // Else the last thread has many tasks left that no other can take.
+        .with_max_len(1)
         .map(|task| {
             let mut eye = Eye::new(stage, canvas);
-            let mut results = Vec::with_capacity(task.len());
+            let mut part = P::default();
             for &pixel in task {
                 meter.check()?;
-                results.push(result(&mut eye, pixel));
+                add(&mut part, &mut eye, pixel);
             }
             meter.advance(work(task));
-            Ok(results)
+            Ok(part)
         })
-        .collect::<Result<Vec<Vec<T>>, TraceError>>()?;
+        .collect::<Result<Vec<P>, TraceError>>()?;
     meter.check()?;
-    Ok(tasks.into_iter().flatten().collect())
+    Ok(parts)
 }
 
 impl<'a> Film<'a> {
@@ -120,17 +139,39 @@ impl<'a> Film<'a> {
         each * self.samples.sum(pixels)
     }
 
-    /// Renders the listed pixels (indices in row-major order) and turns the estimates of each into a result: for every
-    /// replicate one of each picture.
-    pub fn render<T: Send>(
+    /// Renders the listed pixels (indices in row-major order): for every replicate the means of each picture.
+    pub fn render(&self, pixels: &[u32], meter: &Meter) -> Result<Vec<Vec<Means>>, TraceError> {
+        let place = (self.integrator.stage, self.canvas);
+        let work = |task: &[u32]| self.work(task);
+        let pictures = self.times.len();
+        let objects = self.integrator.stage.scene.objects.len() + 1;
+        let add = |part: &mut Vec<Means>, eye: &mut Eye, pixel: u32| {
+            let all = self.replicates.len() * pictures;
+            part.resize_with(all, || Means::of_task(objects));
+            let replicates = self.replicates.clone();
+            let estimates = replicates.flat_map(|replicate| self.estimate(eye, pixel, replicate));
+            for (means, estimate) in part.iter_mut().zip(estimates) {
+                means.push(&estimate);
+            }
+        };
+        let parts = fill_parts(place, pixels, meter, work, add)?;
+        let join = |at: usize| Means::join(&parts.iter().map(|part| &part[at]).collect::<Vec<_>>());
+        Ok((0..self.replicates.len())
+            .map(|replicate| replicate * pictures..(replicate + 1) * pictures)
+            .map(|pictures| pictures.into_par_iter().map(join).collect())
+            .collect())
+    }
+
+    /// Renders the listed pixels and turns the estimates of each into a result: for every replicate one of each picture.
+    pub fn summarise<T: Send>(
         &self,
         pixels: &[u32],
         meter: &Meter,
         result: impl Fn(&[Vec<Estimate>]) -> T + Sync,
     ) -> Result<Vec<T>, TraceError> {
-        let stage = self.integrator.stage;
+        let place = (self.integrator.stage, self.canvas);
         let work = |task: &[u32]| self.work(task);
-        for_each_pixel((stage, self.canvas), pixels, meter, work, |eye, pixel| {
+        for_each_pixel(place, pixels, meter, work, |eye, pixel| {
             let replicates = self.replicates.clone();
             let estimates = replicates.map(|replicate| self.estimate(eye, pixel, replicate));
             result(&estimates.collect::<Vec<Vec<Estimate>>>())
@@ -174,7 +215,7 @@ impl<'a> Film<'a> {
                 sums.add(&sample);
             }
         }
-        sums.iter().map(PixelSums::estimate).collect()
+        sums.into_iter().map(PixelSums::estimate).collect()
     }
 
     /// Returns true if the first samples of a pixel of a picture are shaded at the instant, too.
@@ -295,64 +336,76 @@ impl PixelSums {
         }
     }
 
-    fn estimate(&self) -> Estimate {
+    fn estimate(self) -> Estimate {
         let radiance = self.radiance / f64::from(self.count);
         Estimate {
             radiance,
             bounces: f64::from(self.bounces) / f64::from(self.count),
-            seen: self.seen.clone(),
+            seen: self.seen,
             at_instant: self.at_instant.means(self.count),
         }
     }
 }
 
-impl PixelMean {
-    /// The mean over estimates, all of the same number of samples, in their order.
-    pub fn of<'r>(estimates: impl IntoIterator<Item = &'r Estimate>) -> Self {
-        let mut count = 0;
-        let mut samples = 0.0;
-        let mut radiance = DVec3::ZERO;
-        let mut seen: Vec<f64> = Vec::new();
-        for estimate in estimates {
-            count += 1;
-            radiance += estimate.radiance;
-            seen.resize(estimate.seen.len(), 0.0);
-            for (sum, &seen) in seen.iter_mut().zip(&estimate.seen) {
-                *sum += seen;
-                samples += seen;
-            }
-        }
+impl Means {
+    /// No means yet, with room for those of a task, over a number of objects.
+    fn of_task(objects: usize) -> Self {
+        let with_room = || Vec::with_capacity(PIXELS_PER_TASK);
         Self {
-            color: (radiance / f64::from(count)).as_vec3().to_array(),
-            coverage: seen.iter().map(|&seen| (seen / samples) as f32).collect(),
+            color: Vec::with_capacity(PIXELS_PER_TASK),
+            coverage: std::iter::repeat_with(with_room).take(objects).collect(),
+            at_instant: Vec::with_capacity(PIXELS_PER_TASK),
+        }
+    }
+
+    /// Joins the means of several parts of a picture's pixels.
+    fn join(parts: &[&Means]) -> Self {
+        let objects = parts.first().map_or(0, |part| part.coverage.len());
+        let coverage = |object| concat(parts, |part| &part.coverage[object]);
+        let (coverage, (color, at_instant)) = rayon::join(
+            || (0..objects).into_par_iter().map(coverage).collect(),
+            || {
+                let color = concat(parts, |part| &part.color);
+                (color, concat(parts, |part| &part.at_instant))
+            },
+        );
+        Self {
+            color,
+            coverage,
+            at_instant,
+        }
+    }
+
+    /// Adds a pixel.
+    fn push(&mut self, estimate: &Estimate) {
+        self.color.push(estimate.radiance.as_vec3().to_array());
+        let samples: f64 = estimate.seen.iter().sum();
+        for (coverage, seen) in self.coverage.iter_mut().zip(&estimate.seen) {
+            coverage.push((seen / samples) as f32);
+        }
+        self.at_instant.push(estimate.at_instant);
+    }
+
+    /// Makes a picture, or a tile of one, of the means of its pixels in row-major order.
+    pub fn into_picture(self, Tile { width, height, .. }: Tile) -> Picture {
+        let plane = |pixels| Plane {
+            width,
+            height,
+            pixels,
+        };
+        Picture {
+            color: Image {
+                width,
+                height,
+                pixels: self.color,
+            },
+            coverage: self.coverage.into_iter().map(plane).collect(),
         }
     }
 }
 
-/// Assembles a picture, or a tile of one, from its pixels in row-major order.
-pub(crate) fn assemble_picture(tile: Tile, pixels: &[PixelMean]) -> Picture {
-    let Tile { width, height, .. } = tile;
-    let objects = pixels.first().map_or(0, |pixel| pixel.coverage.len());
-    // In one pass: the pixels' coverages lie all over the memory.
-    let mut coverage: Vec<Vec<f32>> = (0..objects)
-        .map(|_| Vec::with_capacity(pixels.len()))
-        .collect();
-    for pixel in pixels {
-        for (plane, share) in coverage.iter_mut().zip(&pixel.coverage) {
-            plane.push(*share);
-        }
-    }
-    let coverage = coverage.into_iter().map(|pixels| Plane {
-        width,
-        height,
-        pixels,
-    });
-    Picture {
-        color: Image {
-            width,
-            height,
-            pixels: pixels.iter().map(|pixel| pixel.color).collect(),
-        },
-        coverage: coverage.collect(),
-    }
+/// Joins a list of each part.
+fn concat<T: Copy>(parts: &[&Means], list: impl Fn(&Means) -> &Vec<T>) -> Vec<T> {
+    let lists: Vec<&[T]> = parts.iter().map(|part| &list(part)[..]).collect();
+    lists.concat()
 }
