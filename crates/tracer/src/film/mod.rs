@@ -5,6 +5,7 @@ pub(crate) mod canvas;
 pub(crate) mod dilate;
 pub(crate) mod eye;
 pub(crate) mod finite;
+pub(crate) mod means;
 pub(crate) mod pilot;
 pub(crate) mod render;
 pub(crate) mod sample_counts;

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use frame::{ColorSampling, Image, Picture, Plane, Raster, Tile};
+use frame::{ColorSampling, Raster};
 use glam::{DVec2, DVec3, Vec3};
 use rayon::prelude::*;
 
@@ -10,6 +10,7 @@ use crate::error::TraceError;
 use crate::film::at_instant::{InstantMeans, InstantSums, InstantView};
 use crate::film::canvas::Canvas;
 use crate::film::eye::Eye;
+use crate::film::means::Means;
 use crate::film::sample_counts::SampleCounts;
 use crate::film::shutter_sampler::ShutterSampler;
 use crate::path::integrator::Integrator;
@@ -65,14 +66,6 @@ pub(crate) struct Estimate {
     pub seen: Vec<f64>,
     /// Means at the instant, 0 without a view of it.
     pub at_instant: InstantMeans,
-}
-
-/// Means over the samples of some pixels of one picture, in their order.
-pub(crate) struct Means {
-    pub color: Vec<[f32; 3]>,
-    /// Share of each object, by id.
-    pub coverage: Vec<Vec<f32>>,
-    pub at_instant: Vec<InstantMeans>,
 }
 
 impl Times<'_> {
@@ -147,7 +140,7 @@ impl<'a> Film<'a> {
         let objects = self.integrator.stage.scene.objects.len() + 1;
         let add = |part: &mut Vec<Means>, eye: &mut Eye, pixel: u32| {
             let all = self.replicates.len() * pictures;
-            part.resize_with(all, || Means::of_task(objects));
+            part.resize_with(all, || Means::with_room(PIXELS_PER_TASK, objects));
             let replicates = self.replicates.clone();
             let estimates = replicates.flat_map(|replicate| self.estimate(eye, pixel, replicate));
             for (means, estimate) in part.iter_mut().zip(estimates) {
@@ -345,67 +338,4 @@ impl PixelSums {
             at_instant: self.at_instant.means(self.count),
         }
     }
-}
-
-impl Means {
-    /// No means yet, with room for those of a task, over a number of objects.
-    fn of_task(objects: usize) -> Self {
-        let with_room = || Vec::with_capacity(PIXELS_PER_TASK);
-        Self {
-            color: Vec::with_capacity(PIXELS_PER_TASK),
-            coverage: std::iter::repeat_with(with_room).take(objects).collect(),
-            at_instant: Vec::with_capacity(PIXELS_PER_TASK),
-        }
-    }
-
-    /// Joins the means of several parts of a picture's pixels.
-    fn join(parts: &[&Means]) -> Self {
-        let objects = parts.first().map_or(0, |part| part.coverage.len());
-        let coverage = |object| concat(parts, |part| &part.coverage[object]);
-        let (coverage, (color, at_instant)) = rayon::join(
-            || (0..objects).into_par_iter().map(coverage).collect(),
-            || {
-                let color = concat(parts, |part| &part.color);
-                (color, concat(parts, |part| &part.at_instant))
-            },
-        );
-        Self {
-            color,
-            coverage,
-            at_instant,
-        }
-    }
-
-    /// Adds a pixel.
-    fn push(&mut self, estimate: &Estimate) {
-        self.color.push(estimate.radiance.as_vec3().to_array());
-        let samples: f64 = estimate.seen.iter().sum();
-        for (coverage, seen) in self.coverage.iter_mut().zip(&estimate.seen) {
-            coverage.push((seen / samples) as f32);
-        }
-        self.at_instant.push(estimate.at_instant);
-    }
-
-    /// Makes a picture, or a tile of one, of the means of its pixels in row-major order.
-    pub fn into_picture(self, Tile { width, height, .. }: Tile) -> Picture {
-        let plane = |pixels| Plane {
-            width,
-            height,
-            pixels,
-        };
-        Picture {
-            color: Image {
-                width,
-                height,
-                pixels: self.color,
-            },
-            coverage: self.coverage.into_iter().map(plane).collect(),
-        }
-    }
-}
-
-/// Joins a list of each part.
-fn concat<T: Copy>(parts: &[&Means], list: impl Fn(&Means) -> &Vec<T>) -> Vec<T> {
-    let lists: Vec<&[T]> = parts.iter().map(|part| &list(part)[..]).collect();
-    lists.concat()
 }

@@ -1,0 +1,78 @@
+//! The means of many pixels of a picture.
+
+use frame::{Image, Picture, Plane, Tile};
+use rayon::prelude::*;
+
+use crate::film::at_instant::InstantMeans;
+use crate::film::render::Estimate;
+
+/// Means over the samples of some pixels of one picture, in their order.
+pub(crate) struct Means {
+    pub color: Vec<[f32; 3]>,
+    /// Share of each object, by id.
+    pub coverage: Vec<Vec<f32>>,
+    pub at_instant: Vec<InstantMeans>,
+}
+
+impl Means {
+    /// No means yet, with room for those of some pixels over a number of objects.
+    pub fn with_room(pixels: usize, objects: usize) -> Self {
+        let coverage = || Vec::with_capacity(pixels);
+        Self {
+            color: Vec::with_capacity(pixels),
+            coverage: std::iter::repeat_with(coverage).take(objects).collect(),
+            at_instant: Vec::with_capacity(pixels),
+        }
+    }
+
+    /// Joins the means of several parts of a picture's pixels.
+    pub fn join(parts: &[&Means]) -> Self {
+        let objects = parts.first().map_or(0, |part| part.coverage.len());
+        let coverage = |object| concat(parts, |part| &part.coverage[object]);
+        let (coverage, (color, at_instant)) = rayon::join(
+            || (0..objects).into_par_iter().map(coverage).collect(),
+            || {
+                let color = concat(parts, |part| &part.color);
+                (color, concat(parts, |part| &part.at_instant))
+            },
+        );
+        Self {
+            color,
+            coverage,
+            at_instant,
+        }
+    }
+
+    /// Adds a pixel.
+    pub fn push(&mut self, estimate: &Estimate) {
+        self.color.push(estimate.radiance.as_vec3().to_array());
+        let samples: f64 = estimate.seen.iter().sum();
+        for (coverage, seen) in self.coverage.iter_mut().zip(&estimate.seen) {
+            coverage.push((seen / samples) as f32);
+        }
+        self.at_instant.push(estimate.at_instant);
+    }
+
+    /// Makes a picture, or a tile of one, of the means of its pixels in row-major order.
+    pub fn into_picture(self, Tile { width, height, .. }: Tile) -> Picture {
+        let plane = |pixels| Plane {
+            width,
+            height,
+            pixels,
+        };
+        Picture {
+            color: Image {
+                width,
+                height,
+                pixels: self.color,
+            },
+            coverage: self.coverage.into_iter().map(plane).collect(),
+        }
+    }
+}
+
+/// Joins a list of each part.
+fn concat<T: Copy>(parts: &[&Means], list: impl Fn(&Means) -> &Vec<T>) -> Vec<T> {
+    let lists: Vec<&[T]> = parts.iter().map(|part| &list(part)[..]).collect();
+    lists.concat()
+}
