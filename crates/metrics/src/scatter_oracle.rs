@@ -12,39 +12,74 @@ const MAX_INSTANTS: u32 = 1024;
 /// Instants whose pictures are in memory together.
 const TOGETHER: usize = 16;
 
+/// A place that no pixel reached, with its number among all holes in the other bits.
+const HOLE: u32 = 1 << 31;
+
+/// The pixels of a frame, by whether they move.
+struct Sources<'a> {
+    frame: &'a Frame,
+    /// Each pixel that stays in its place; a hole in the place of others.
+    still: Vec<u32>,
+    moving: Vec<u32>,
+    /// Delay of the shutter per row of the frame, frames.
+    delays: Vec<f64>,
+}
+
+/// The numbers of each pixel that are not 0: its colour, then its coverages.
+struct Content {
+    /// Index of each pixel's first number; after the last pixel that of all.
+    starts: Vec<usize>,
+    /// Channel and number.
+    numbers: Vec<(u32, f32)>,
+}
+
+/// A pixel that may fill a hole.
+#[derive(Clone, Copy)]
+struct Fill {
+    source: u32,
+    depth: f32,
+    distance: u32,
+}
+
 /// Moves every pixel of the frame along its velocity for many instants of the shutter, lets the nearer hide the farther,
 /// fills each hole with the farthest of the pixels that are nearest to it in the four directions, and averages. The picture is as large as
 /// the frame, guard band included.
 pub fn scatter_oracle(frame: &Frame, shutter: Shutter, profile: &ShutterProfile) -> Picture {
-    let height = frame.color.height - 2 * frame.guard_band;
-    let row_delay = |row: u32| {
-        let row = row.saturating_sub(frame.guard_band).min(height - 1);
-        profile.row_offset(row, height)
-    };
-    let mut color = frame.color.map(|_| [0.0_f64; 3]);
-    let mut coverage: Vec<Raster<f64>> = (frame.coverage.iter())
-        .map(|plane| plane.map(|_| 0.0))
-        .collect();
+    let sources = Sources::new(frame, profile);
+    let content = Content::new(frame);
+    let channels = 3 + frame.coverage.len();
+    let mut sums = vec![0.0_f64; frame.color.pixels.len() * channels];
     for together in place_instants(frame, shutter, &profile.efficiency).chunks(TOGETHER) {
-        let seen = together
-            .par_iter()
-            .map(|(time, _)| fill_holes(frame, scatter(frame, *time, row_delay)));
-        for ((_, weight), seen) in together.iter().zip(seen.collect::<Vec<_>>()) {
-            for (sum, &source) in color.pixels.iter_mut().zip(&seen) {
-                let color = frame.color.pixels[source as usize];
-                *sum = [0, 1, 2].map(|c| sum[c] + weight * f64::from(color[c]));
-            }
-            for (sums, plane) in coverage.iter_mut().zip(&frame.coverage) {
-                for (sum, &source) in sums.pixels.iter_mut().zip(&seen) {
-                    *sum += weight * f64::from(plane.pixels[source as usize]);
+        let seen = |(time, weight): &(f64, f64)| (*weight, fill_holes(frame, sources.at(*time)));
+        let seen: Vec<(f64, Vec<u32>)> = together.par_iter().map(seen).collect();
+        let pixels = sums.par_chunks_mut(channels).enumerate();
+        pixels.for_each(|(pixel, sums)| {
+            for (weight, seen) in &seen {
+                for (channel, number) in content.of(seen[pixel]) {
+                    sums[*channel as usize] += weight * f64::from(*number);
                 }
             }
+        });
+    }
+    fn raster<T>((width, height): (u32, u32), pixels: impl Iterator<Item = T>) -> Raster<T> {
+        let pixels = pixels.collect();
+        Raster {
+            width,
+            height,
+            pixels,
         }
     }
+    let means = sums.chunks_exact(channels);
+    let coverage = |channel: usize| means.clone().map(move |pixel| pixel[channel] as f32);
     Picture {
-        color: color.map(|sum| sum.map(|component| component as f32)),
-        coverage: (coverage.iter())
-            .map(|plane| plane.map(|sum| *sum as f32))
+        color: raster(
+            frame.size(),
+            means
+                .clone()
+                .map(|pixel| [0, 1, 2].map(|c| pixel[c] as f32)),
+        ),
+        coverage: (3..channels)
+            .map(|channel| raster(frame.size(), coverage(channel)))
             .collect(),
     }
 }
@@ -80,86 +115,119 @@ fn light_at(knots: &[[f64; 2]], part: f64) -> f64 {
     }
 }
 
-/// A place that no pixel reached.
-const HOLE: u32 = u32::MAX;
+impl<'a> Sources<'a> {
+    fn new(frame: &'a Frame, profile: &ShutterProfile) -> Self {
+        let (width, rows) = frame.size();
+        let height = rows - 2 * frame.guard_band;
+        let delay = |row: u32| {
+            let row = row.saturating_sub(frame.guard_band).min(height - 1);
+            profile.row_offset(row, height)
+        };
+        let stays = |source: &u32| frame.velocity.pixels[*source as usize] == [0.0; 2];
+        let all = 0..width * rows;
+        Self {
+            frame,
+            still: (all
+                .clone()
+                .map(|source| if stays(&source) { source } else { HOLE }))
+            .collect(),
+            moving: all.filter(|source| !stays(source)).collect(),
+            delays: (0..rows).map(delay).collect(),
+        }
+    }
 
-/// Finds, per pixel, which pixel of the frame is there at a time: the nearest to the camera.
-fn scatter(frame: &Frame, time: f64, row_delay: impl Fn(u32) -> f64) -> Vec<u32> {
-    let (width, height) = frame.size();
-    let mut seen = vec![HOLE; frame.color.pixels.len()];
-    for row in 0..height {
-        let time = (time + row_delay(row)) as f32;
-        for column in 0..width {
-            let source = row * width + column;
-            let [right, down] = frame.velocity.pixels[source as usize];
-            let x = (column as f32 + 0.5 + right * time).floor();
-            let y = (row as f32 + 0.5 + down * time).floor();
-            if x < 0.0 || y < 0.0 || x >= width as f32 || y >= height as f32 {
+    /// Finds, per pixel, which pixel of the frame is there at a time: the nearest to the camera, and the first of several.
+    fn at(&self, time: f64) -> Vec<u32> {
+        let (width, height) = self.frame.size();
+        let depth = |source: u32| self.frame.depth.pixels[source as usize];
+        let mut seen = self.still.clone();
+        for &source in &self.moving {
+            let [column, row] = [source % width, source / width];
+            let time = (time + self.delays[row as usize]) as f32;
+            let [right, down] = self.frame.velocity.pixels[source as usize];
+            let x = column as f32 + 0.5 + right * time;
+            let y = row as f32 + 0.5 + down * time;
+            if !(0.0..width as f32).contains(&x) || !(0.0..height as f32).contains(&y) {
                 continue;
             }
             let place = &mut seen[(y as u32 * width + x as u32) as usize];
-            let depth = |pixel: u32| frame.depth.pixels[pixel as usize];
-            if *place == HOLE || depth(source) < depth(*place) {
+            if *place == HOLE || (depth(source), source) < (depth(*place), *place) {
                 *place = source;
             }
         }
+        seen
     }
-    seen
 }
 
-/// Fills the places that no pixel reached.
-fn fill_holes(frame: &Frame, mut seen: Vec<u32>) -> Vec<u32> {
-    let [width, height] = [frame.color.width, frame.color.height].map(|side| side as usize);
-    let mut fills: Vec<Option<Fill>> = vec![None; seen.len()];
-    let rows = (0..height).map(|row| (row * width, width, 1));
-    let columns = (0..width).map(|column| (column, height, width));
-    for (first, count, step) in rows.chain(columns) {
-        let along = || (0..count).map(|index| first + index * step);
-        offer_fills(frame, &seen, along(), &mut fills);
-        offer_fills(frame, &seen, along().rev(), &mut fills);
-    }
-    for (place, source) in seen.iter_mut().enumerate() {
-        if *source == HOLE {
-            // All of the frame may have left it.
-            *source = fills[place].map_or(place as u32, |fill| fill.source);
+impl Content {
+    fn new(frame: &Frame) -> Self {
+        let mut starts = vec![0];
+        let mut numbers = Vec::new();
+        for (pixel, color) in frame.color.pixels.iter().enumerate() {
+            let coverage = frame.coverage.iter().map(|plane| plane.pixels[pixel]);
+            let own = (0..).zip(color.iter().copied().chain(coverage));
+            numbers.extend(own.filter(|(_, number)| *number != 0.0));
+            starts.push(numbers.len());
         }
+        Self { starts, numbers }
     }
-    seen
+
+    /// Channels and numbers of a pixel.
+    fn of(&self, pixel: u32) -> &[(u32, f32)] {
+        &self.numbers[self.starts[pixel as usize]..self.starts[pixel as usize + 1]]
+    }
 }
 
-/// A pixel that may fill a hole.
-#[derive(Clone, Copy)]
-struct Fill {
-    source: u32,
-    depth: f32,
-    distance: u32,
-}
-
-/// Goes along a line of places and offers each hole the pixel that was met last: the farther wins, then the nearer in the picture.
-fn offer_fills(
-    frame: &Frame,
-    seen: &[u32],
-    line: impl Iterator<Item = usize>,
-    fills: &mut [Option<Fill>],
-) {
-    let mut last: Option<Fill> = None;
-    for place in line {
-        if seen[place] != HOLE {
-            last = Some(Fill {
+/// Fills the places that no pixel reached. Of the pixels that are met first to the left, to the right, above and below, the farthest wins,
+/// then the nearest in the picture.
+fn fill_holes(frame: &Frame, mut seen: Vec<u32>) -> Vec<u32> {
+    let width = frame.color.width as usize;
+    let holes: Vec<usize> = (0..seen.len())
+        .filter(|place| seen[*place] == HOLE)
+        .collect();
+    for (number, place) in holes.iter().enumerate() {
+        seen[*place] |= number as u32;
+    }
+    let left = |place: usize| (place % width > 0).then(|| place - 1);
+    let right = |place: usize| ((place + 1) % width > 0).then_some(place + 1);
+    let above = |place: usize| place.checked_sub(width);
+    let below = |place: usize| (place + width < seen.len()).then_some(place + width);
+    let mut fills: Vec<Option<Fill>> = vec![None; holes.len()];
+    let mut offers = fills.clone();
+    let mut offer = |number: usize, neighbour: Option<usize>| {
+        offers[number] = neighbour.and_then(|place| match seen[place] & HOLE {
+            0 => Some(Fill {
                 source: seen[place],
                 depth: frame.depth.pixels[seen[place] as usize],
-                distance: 0,
-            });
-            continue;
-        }
-        let Some(offered) = &mut last else { continue };
-        offered.distance += 1;
-        let better = fills[place].is_none_or(|fill| {
-            offered.depth > fill.depth
-                || (offered.depth == fill.depth && offered.distance < fill.distance)
+                distance: 1,
+            }),
+            _ => offers[(seen[place] & !HOLE) as usize].map(|fill| Fill {
+                distance: fill.distance + 1,
+                ..fill
+            }),
         });
-        if better {
-            fills[place] = Some(*offered);
+        if let Some(offered) = offers[number]
+            && fills[number].is_none_or(|fill| {
+                offered.depth > fill.depth
+                    || (offered.depth == fill.depth && offered.distance < fill.distance)
+            })
+        {
+            fills[number] = Some(offered);
         }
+    };
+    // A hole's neighbour has its offer before it.
+    let each = || holes.iter().copied().enumerate();
+    each().for_each(|(number, place)| offer(number, left(place)));
+    each()
+        .rev()
+        .for_each(|(number, place)| offer(number, right(place)));
+    each().for_each(|(number, place)| offer(number, above(place)));
+    each()
+        .rev()
+        .for_each(|(number, place)| offer(number, below(place)));
+    for (place, fill) in holes.into_iter().zip(fills) {
+        // All of the frame may have left it.
+        seen[place] = fill.map_or(place as u32, |fill| fill.source);
     }
+    seen
 }
