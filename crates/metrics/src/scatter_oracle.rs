@@ -188,8 +188,8 @@ fn fill_holes(frame: &Frame, mut seen: Vec<u32>) -> Vec<u32> {
     for (number, place) in holes.iter().enumerate() {
         seen[*place] |= number as u32;
     }
-    let left = |place: usize| (place % width > 0).then(|| place - 1);
-    let right = |place: usize| ((place + 1) % width > 0).then_some(place + 1);
+    let left = |place: usize| (!place.is_multiple_of(width)).then(|| place - 1);
+    let right = |place: usize| (!(place + 1).is_multiple_of(width)).then_some(place + 1);
     let above = |place: usize| place.checked_sub(width);
     let below = |place: usize| (place + width < seen.len()).then_some(place + width);
     let mut fills: Vec<Option<Fill>> = vec![None; holes.len()];
