@@ -108,7 +108,7 @@ fn fill_parts<P: Default + Send>(
 ) -> Result<Vec<P>, TraceError> {
     let parts = pixels
         .par_chunks(PIXELS_PER_TASK)
-        // Else the last thread has many tasks left that no other can take.
+        // One at a time: the last of longer runs would keep one thread busy alone.
         .with_max_len(1)
         .map(|task| {
             let mut eye = Eye::new(stage, canvas);
