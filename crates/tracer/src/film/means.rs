@@ -1,10 +1,22 @@
-//! The means of many pixels of a picture.
+//! The means of pixels of a picture: of one, and of many.
 
 use frame::{Image, Picture, Plane, Tile};
+use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::film::at_instant::InstantMeans;
-use crate::film::render::Estimate;
+
+/// The mean of one complete set of samples of one pixel of one picture.
+#[derive(Clone, Debug)]
+pub(crate) struct Estimate {
+    pub radiance: DVec3,
+    /// Share of the samples that met a surface and then scattered, per bounce: the mean number of bounces.
+    pub bounces: f64,
+    /// Samples that saw each object, by id; a sample that sees through translucent surfaces is shared out.
+    pub seen: Vec<f64>,
+    /// Means at the instant, 0 without a view of it.
+    pub at_instant: InstantMeans,
+}
 
 /// Means over the samples of some pixels of one picture, in their order.
 pub(crate) struct Means {

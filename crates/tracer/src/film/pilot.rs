@@ -5,7 +5,8 @@ use frame::Raster;
 use crate::error::TraceError;
 use crate::film::canvas::Canvas;
 use crate::film::dilate::dilate_square;
-use crate::film::render::{Estimate, Film};
+use crate::film::means::Estimate;
+use crate::film::render::Film;
 use crate::film::sample_counts::SampleCounts;
 use crate::progress::{Meter, Progress, Watch};
 

@@ -7,10 +7,10 @@ use glam::{DVec2, DVec3, Vec3};
 use rayon::prelude::*;
 
 use crate::error::TraceError;
-use crate::film::at_instant::{InstantMeans, InstantSums, InstantView};
+use crate::film::at_instant::{InstantSums, InstantView};
 use crate::film::canvas::Canvas;
 use crate::film::eye::Eye;
-use crate::film::means::Means;
+use crate::film::means::{Estimate, Means};
 use crate::film::sample_counts::SampleCounts;
 use crate::film::shutter_sampler::ShutterSampler;
 use crate::path::integrator::Integrator;
@@ -54,18 +54,6 @@ pub(crate) struct Film<'a> {
     pub samples: &'a SampleCounts,
     pub seed: u64,
     pub stream: Stream,
-}
-
-/// The mean of one complete set of samples of one pixel of one picture.
-#[derive(Clone, Debug)]
-pub(crate) struct Estimate {
-    pub radiance: DVec3,
-    /// Share of the samples that met a surface and then scattered, per bounce: the mean number of bounces.
-    pub bounces: f64,
-    /// Samples that saw each object, by id; a sample that sees through translucent surfaces is shared out.
-    pub seen: Vec<f64>,
-    /// Means at the instant, 0 without a view of it.
-    pub at_instant: InstantMeans,
 }
 
 impl Times<'_> {
