@@ -14,8 +14,8 @@ pub(crate) struct Estimate {
     pub bounces: f64,
     /// Samples that saw each object, by id; a sample that sees through translucent surfaces is shared out.
     pub seen: Vec<f64>,
-    /// Means at the instant, 0 without a view of it.
-    pub at_instant: InstantMeans,
+    /// Means at the instant, if the film has a view of it.
+    pub at_instant: Option<InstantMeans>,
 }
 
 /// Means over the samples of some pixels of one picture, in their order.
@@ -23,6 +23,7 @@ pub(crate) struct Means {
     pub color: Vec<[f32; 3]>,
     /// Share of each object, by id.
     pub coverage: Vec<Vec<f32>>,
+    /// Nothing without a view of the instant.
     pub at_instant: Vec<InstantMeans>,
 }
 
@@ -33,7 +34,7 @@ impl Means {
         Self {
             color: Vec::with_capacity(pixels),
             coverage: std::iter::repeat_with(coverage).take(objects).collect(),
-            at_instant: Vec::with_capacity(pixels),
+            at_instant: Vec::new(),
         }
     }
 
@@ -62,7 +63,7 @@ impl Means {
         for (coverage, seen) in self.coverage.iter_mut().zip(&estimate.seen) {
             coverage.push((seen / samples) as f32);
         }
-        self.at_instant.push(estimate.at_instant);
+        self.at_instant.extend(estimate.at_instant);
     }
 
     /// Makes a picture, or a tile of one, of the means of its pixels in row-major order.

@@ -156,14 +156,13 @@ mod tests {
     use glam::DVec3;
 
     use super::*;
-    use crate::film::at_instant::InstantMeans;
 
     fn estimate(radiance: f64, seen: [u32; 2]) -> Vec<Estimate> {
         vec![Estimate {
             radiance: DVec3::splat(radiance),
             bounces: 0.0,
             seen: seen.map(f64::from).to_vec(),
-            at_instant: InstantMeans::default(),
+            at_instant: None,
         }]
     }
 

@@ -196,7 +196,8 @@ impl<'a> Film<'a> {
                 sums.add(&sample);
             }
         }
-        sums.into_iter().map(PixelSums::estimate).collect()
+        let looks_back = self.instant.is_some();
+        (sums.into_iter().map(|sums| sums.estimate(looks_back))).collect()
     }
 
     /// Returns true if the first samples of a pixel of a picture are shaded at the instant, too.
@@ -317,13 +318,13 @@ impl PixelSums {
         }
     }
 
-    fn estimate(self) -> Estimate {
+    fn estimate(self, looks_back: bool) -> Estimate {
         let radiance = self.radiance / f64::from(self.count);
         Estimate {
             radiance,
             bounces: f64::from(self.bounces) / f64::from(self.count),
             seen: self.seen,
-            at_instant: self.at_instant.means(self.count),
+            at_instant: looks_back.then(|| self.at_instant.means(self.count)),
         }
     }
 }
