@@ -155,7 +155,7 @@ pub fn find_broken(values: &[f32], least: f32) -> Option<usize> {
 /// Averages at least one plane, all of one size; sums in `f64`, in their order.
 pub(crate) fn mean_plane<'a>(planes: impl IntoIterator<Item = &'a Plane>) -> Plane {
     let planes: Vec<&Plane> = planes.into_iter().collect();
-    mean(&planes, |pixel| {
+    gather(&planes, |pixel| {
         mean_number(planes.iter().map(|plane| plane.pixels[pixel]))
     })
 }
@@ -165,7 +165,7 @@ pub(crate) fn mean_vectors<'a, const N: usize>(
     rasters: impl IntoIterator<Item = &'a Raster<[f32; N]>>,
 ) -> Raster<[f32; N]> {
     let rasters: Vec<&Raster<[f32; N]>> = rasters.into_iter().collect();
-    mean(&rasters, |pixel| {
+    gather(&rasters, |pixel| {
         std::array::from_fn(|component| {
             mean_number(rasters.iter().map(|raster| raster.pixels[pixel][component]))
         })
@@ -173,14 +173,14 @@ pub(crate) fn mean_vectors<'a, const N: usize>(
 }
 
 /// Makes a raster of the size of all `rasters` from the pixels' indices.
-fn mean<T: Send + Sync>(
+pub(crate) fn gather<T: Send + Sync>(
     rasters: &[&Raster<T>],
     value: impl Fn(usize) -> T + Sync + Send,
 ) -> Raster<T> {
-    let first = rasters.first().expect("a mean needs at least one raster");
+    let first = (rasters.first()).expect("at least one raster is gathered");
     assert!(
         rasters.iter().all(|raster| raster.same_size(first)),
-        "a mean is of rasters of one size"
+        "rasters of one size are gathered"
     );
     Raster {
         width: first.width,

@@ -2,7 +2,10 @@
 
 use std::path::Path;
 
+use rayon::prelude::*;
+
 use crate::exr::{ExrFile, read_exr, write_small_exr};
+use crate::raster::{gather, mean_plane};
 use crate::region::{dilate, estimate_noise};
 use crate::shutter::{get_shutter, set_shutter};
 use crate::{
@@ -162,8 +165,7 @@ impl Truth {
     pub fn noise_floors(&self) -> Vec<(Region, f64)> {
         let masks = regions(self);
         let halves = [&self.halves[0].color, &self.halves[1].color];
-        Region::ALL
-            .into_iter()
+        (Region::ALL.into_par_iter())
             .filter_map(|region| Some((region, estimate_noise(halves, &masks, region)?)))
             .collect()
     }
@@ -182,7 +184,8 @@ impl Truth {
         self.mean().push(&mut file, "", &self.objects);
         self.halves[0].push(&mut file, "A", &self.objects);
         self.halves[1].push(&mut file, "B", &self.objects);
-        file.push_plane("unknowable", &self.at_instant_mean().unknowable);
+        let unknowable = self.at_instant.iter().map(|half| &half.unknowable);
+        file.push_owned_plane("unknowable", mean_plane(unknowable));
         self.at_instant[0].push(&mut file, "A");
         self.at_instant[1].push(&mut file, "B");
         file.push_color("stderr", &self.standard_error);
@@ -269,12 +272,10 @@ pub fn truth_hash(replicate_hash: &str, count: u32) -> String {
 /// Estimates the standard error of the replicates' mean.
 fn estimate_error(replicates: &[Replicate]) -> Image {
     let count = replicates.len() as f64;
-    let first = &replicates[0].picture.color;
-    Image::from_fn(first.width, first.height, |x, y| {
+    let colors: Vec<&Image> = (replicates.iter().map(|own| &own.picture.color)).collect();
+    gather(&colors, |pixel| {
         std::array::from_fn(|component| {
-            let values = replicates
-                .iter()
-                .map(|replicate| f64::from(replicate.picture.color.at(x, y)[component]));
+            let values = (colors.iter()).map(|color| f64::from(color.pixels[pixel][component]));
             let mean = values.clone().sum::<f64>() / count;
             let squares: f64 = values.map(|value| (value - mean).powi(2)).sum();
             (squares / (count * (count - 1.0))).sqrt() as f32

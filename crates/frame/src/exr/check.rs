@@ -101,5 +101,5 @@ fn update_with_samples(hasher: &mut blake3::Hasher, samples: &Samples) {
         Samples::F32(samples) => bytemuck::cast_slice(samples),
         Samples::U32(samples) => bytemuck::cast_slice(samples),
     };
-    hasher.update(bytes);
+    hasher.update_rayon(bytes);
 }

@@ -10,6 +10,7 @@ use exr::prelude::{
 };
 use half::f16;
 use half::slice::HalfFloatSliceExt;
+use rayon::prelude::*;
 
 use super::check::CHECKSUM;
 use super::file::{ExrFile, Samples};
@@ -83,7 +84,7 @@ fn write_encoded(
     // No checksum for files handed to other programs, which may change them.
     let checksum = (file.attributes.contains_key("kind"))
         .then(|| (CHECKSUM.to_owned(), file.compute_checksum()));
-    let channels = file.channels.into_iter().map(|channel| {
+    let channels = file.channels.into_par_iter().map(|channel| {
         let samples = match channel.samples {
             Samples::F32(samples) => floats(samples),
             Samples::U32(samples) => FlatSamples::U32(samples),
@@ -100,7 +101,7 @@ fn write_encoded(
         (file.width as usize, file.height as usize),
         LayerAttributes::default(),
         encoding,
-        AnyChannels::sort(channels.collect()),
+        AnyChannels::sort(channels.collect::<Vec<_>>().into()),
     );
     let attributes = (file.attributes.into_iter()).filter(|(name, _)| name != CHECKSUM);
     for (name, value) in attributes.chain(checksum) {

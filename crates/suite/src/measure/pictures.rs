@@ -7,6 +7,7 @@ use frame::{
     write_half_exr, write_png, write_small_exr,
 };
 use metrics::Measurement;
+use rayon::prelude::*;
 use store::{LADDER, RenderFile};
 
 use crate::colors::{magma, velocity_wheel};
@@ -62,13 +63,16 @@ pub fn write_case(
     let maps = &measurement.maps;
     let [output_png, flip, label_tv, bleed, output_exr, errors] =
         CASE_FILES.map(|name| folder.join(name));
-    write_display_png(&output_png, &output.color, frame.display)?;
-    write_png(&flip, &magma(&maps.flip))?;
-    write_png(&label_tv, &magma(&maps.label_total_variation))?;
-    write_png(&bleed, &magma(&maps.bleed))?;
-    let file = output_file(&frame.objects, output, dilated_velocity);
-    write_small_exr(&output_exr, file)?;
-    write_half_exr(&errors, errors_file(measurement))?;
+    let file = || output_file(&frame.objects, output, dilated_velocity);
+    let writes: [&(dyn Fn() -> Result<(), FileError> + Sync); CASE_FILES.len()] = [
+        &|| write_small_exr(&output_exr, file()),
+        &|| write_half_exr(&errors, errors_file(measurement)),
+        &|| write_display_png(&output_png, &output.color, frame.display),
+        &|| write_png(&flip, &magma(&maps.flip)),
+        &|| write_png(&label_tv, &magma(&maps.label_total_variation)),
+        &|| write_png(&bleed, &magma(&maps.bleed)),
+    ];
+    writes.par_iter().try_for_each(|write| write())?;
     Ok(CASE_FILES.map(str::to_owned).into())
 }
 
