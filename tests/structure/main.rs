@@ -31,3 +31,29 @@ fn rust_files(folder: &Path) -> Vec<PathBuf> {
     found.sort();
     found
 }
+
+/// Calls that start a program.
+const STARTS: [&str; 3] = [".spawn()", ".output()", ".status()"];
+
+#[test]
+fn only_one_crate_starts_programs() {
+    for folder in sources() {
+        let starts: Vec<PathBuf> = (rust_files(&folder).into_iter())
+            .filter(|path| {
+                let text = fs::read_to_string(path).expect("a source file");
+                STARTS.iter().any(|call| text.contains(call))
+            })
+            .collect();
+        if folder.ends_with("process/src") {
+            assert!(
+                !starts.is_empty(),
+                "{STARTS:?} are not what starts programs"
+            );
+        } else {
+            assert!(
+                starts.is_empty(),
+                "{starts:?}: start programs with process::run, which ends them"
+            );
+        }
+    }
+}

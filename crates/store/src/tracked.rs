@@ -1,9 +1,13 @@
 //! Files in an output folder that came with a checkout.
 
+use std::io::{self, Read, Seek};
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::Command;
+use std::time::Duration;
 
 use frame::FileError;
+use process::{End, Limits, half_of_memory};
+use tracer::TraceError;
 
 use crate::Error;
 
@@ -14,6 +18,9 @@ const ELSEWHERE: [&str; 4] = [
     "GIT_INDEX_FILE",
     "GIT_CEILING_DIRECTORIES",
 ];
+
+/// Longest time that git may take.
+const TIME_LIMIT: Duration = Duration::from_secs(60);
 
 /// Refuses a file that git tracks, and a folder with such files: a change may not bring its own evidence. The error ends with
 /// `way_out`, which says what to do instead.
@@ -41,17 +48,17 @@ pub fn refuse_tracked(out: &Path, way_out: &str) -> Result<(), Error> {
         .args(["-c", "core.fsmonitor=false"])
         .args(["ls-files", "-z", "--cached", "--"])
         .args(file)
-        .current_dir(folder)
-        .stdin(Stdio::null());
+        .current_dir(folder);
     for name in ELSEWHERE {
         git.env_remove(name);
     }
-    let output = (git.output()).map_err(|error| cannot_tell(format!("git: {error}")))?;
-    if !output.status.success() {
-        let said = String::from_utf8_lossy(&output.stderr);
-        return Err(cannot_tell(said.trim_end().to_owned()));
-    }
-    let mut names = output.stdout.split(|byte| *byte == 0);
+    let names = match list_names(git) {
+        Ok(Listing::Names(names)) => names,
+        Ok(Listing::Failed(reason)) => return Err(cannot_tell(reason)),
+        Ok(Listing::Stopped) => return Err(TraceError::Cancelled.into()),
+        Err(error) => return Err(cannot_tell(format!("git: {error}"))),
+    };
+    let mut names = names.split(|byte| *byte == 0);
     match names.next().filter(|name| !name.is_empty()) {
         None => Ok(()),
         Some(name) => Err(Error::Refused(format!(
@@ -59,6 +66,51 @@ pub fn refuse_tracked(out: &Path, way_out: &str) -> Result<(), Error> {
             folder.join(&*String::from_utf8_lossy(name)).display()
         ))),
     }
+}
+
+/// What git lists.
+enum Listing {
+    /// Names, each with a zero byte behind it.
+    Names(Vec<u8>),
+    /// Why git failed.
+    Failed(String),
+    /// The caller interrupted the work.
+    Stopped,
+}
+
+/// Runs a git that lists names.
+fn list_names(mut git: Command) -> io::Result<Listing> {
+    let mut stdout = tempfile::tempfile()?;
+    let mut stderr = tempfile::tempfile()?;
+    git.stdout(stdout.try_clone()?).stderr(stderr.try_clone()?);
+    let limits = Limits {
+        time: TIME_LIMIT,
+        memory: half_of_memory(),
+        output: None,
+        whole_tree: false,
+    };
+    match process::run(git, &limits)? {
+        End::Exited(status) if status.success() => Ok(Listing::Names(read_all(&mut stdout)?)),
+        End::Stopped => Ok(Listing::Stopped),
+        End::Exited(_) => {
+            let stderr = read_all(&mut stderr)?;
+            let reason = String::from_utf8_lossy(&stderr).trim_end().to_owned();
+            Ok(Listing::Failed(reason))
+        }
+        End::OutOfTime | End::TooLarge => {
+            let seconds = TIME_LIMIT.as_secs();
+            let reason = format!("git took longer than {seconds} s and was stopped");
+            Ok(Listing::Failed(reason))
+        }
+    }
+}
+
+/// Reads a file from its start.
+fn read_all(file: &mut std::fs::File) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    file.rewind()?;
+    file.read_to_end(&mut bytes)?;
+    Ok(bytes)
 }
 
 fn is_in_work_tree(out: &Path) -> Result<bool, FileError> {

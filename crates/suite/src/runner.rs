@@ -45,11 +45,10 @@ impl<'g> Runner<'g> {
         gpu: Option<&'g Gpu>,
         choice: &FilterChoice,
         (width, height): (u32, u32),
-        monitor: Monitor,
     ) -> Result<Self, FilterError> {
         let (filter, settings) = (&choice.filter, &choice.settings);
         if filter.command.is_some() {
-            return Self::command(filter, settings, (width, height), monitor);
+            return Self::command(filter, settings, (width, height));
         }
         let gpu = gpu.expect("an adapter was opened for the kernels");
         let blur = Blur::new(gpu, filter, settings, width, height)?;
@@ -73,9 +72,8 @@ impl<'g> Runner<'g> {
         filter: &Filter,
         settings: &Settings,
         (width, height): (u32, u32),
-        monitor: Monitor,
     ) -> Result<Self, FilterError> {
-        let blur = CommandBlur::new(filter, settings, width, height, monitor.interrupted)?;
+        let blur = CommandBlur::new(filter, settings, width, height)?;
         Ok(Self::Command(Box::new(blur)))
     }
 

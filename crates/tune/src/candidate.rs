@@ -2,7 +2,7 @@
 
 use filters::{Blur, Filter, FilterError, Kernels, Settings};
 use frame::{Image, Plane};
-use suite::{FilterFrame, Monitor, Runner, filter_input, pack_planes, unpack_planes};
+use suite::{FilterFrame, Runner, filter_input, pack_planes, unpack_planes};
 
 /// A filter with settings to try, ready for pictures of one size.
 pub struct Candidate<'a> {
@@ -13,20 +13,19 @@ pub struct Candidate<'a> {
 pub type Blurred = (Image, Option<Vec<Plane>>);
 
 impl<'a> Candidate<'a> {
-    /// Makes a candidate for pictures of one size. `kernels` are the filter's, none if it is a program, which the monitor can end.
+    /// Makes a candidate for pictures of one size. `kernels` are the filter's, none if it is a program.
     pub fn new(
         filter: &Filter,
         settings: &Settings,
         kernels: Option<&Kernels<'a>>,
         size: (u32, u32),
-        monitor: Monitor,
     ) -> Result<Self, FilterError> {
         let runner = match kernels {
             Some(kernels) => {
                 let blur = Blur::with_kernels(kernels, settings, size.0, size.1)?;
                 Runner::Kernels(Box::new(blur))
             }
-            None => Runner::command(filter, settings, size, monitor)?,
+            None => Runner::command(filter, settings, size)?,
         };
         Ok(Self { runner })
     }

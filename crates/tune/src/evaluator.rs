@@ -117,8 +117,7 @@ impl<'a> Evaluator<'a> {
         // All scenes are rendered at one size.
         let size = self.targets[scenes[0]].scene.frame.size();
         let kernels = self.kernels.as_ref();
-        let mut candidate =
-            Candidate::new(&self.choice.filter, settings, kernels, size, self.monitor)?;
+        let mut candidate = Candidate::new(&self.choice.filter, settings, kernels, size)?;
         rayon::in_place_scope(|scope| {
             for scene in scenes {
                 let target = &self.targets[*scene];

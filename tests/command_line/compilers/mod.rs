@@ -6,6 +6,8 @@ mod fallback;
 mod includes;
 #[cfg(unix)]
 mod installed;
+#[cfg(target_os = "linux")]
+mod stopped;
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -77,7 +77,7 @@ pub fn execute(args: &BlurArgs) -> Result<(), Error> {
     let monitor = make_monitor().without_progress();
     let adapter = args.adapter.adapter.as_deref();
     let gpu = open_gpu(std::slice::from_ref(&choice), adapter, monitor)?;
-    let mut runner = Runner::new(gpu.as_ref(), &choice, size, monitor)?;
+    let mut runner = Runner::new(gpu.as_ref(), &choice, size)?;
     let first_path = first.path.clone();
     // The first frame has no previous one; it serves as its own.
     let mut before = first;

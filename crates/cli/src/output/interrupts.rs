@@ -22,8 +22,9 @@ const BETWEEN_LOOKS: Duration = Duration::from_millis(50);
 pub const INTERRUPTED_TEXT: &str =
     "interrupted; files that are whole stay, and the same command uses them again";
 
-/// Makes SIGINT, SIGTERM and SIGHUP end the current work. Work that does not check for them ends with the process a moment later. No file
-/// is left half-written: files are renamed into place when complete.
+/// Makes signals end the current work and the programs that it runs. Work that does not check for
+/// signals ends with the process a moment later. No file is left half-written: files are renamed into
+/// place when complete.
 pub fn catch_interrupts() {
     for signal in caught_signals() {
         // A signal that cannot be caught ends the process at once.
@@ -33,6 +34,7 @@ pub fn catch_interrupts() {
         while !was_interrupted() {
             std::thread::sleep(BETWEEN_LOOKS);
         }
+        process::stop();
         std::thread::sleep(GRACE);
         print_error(INTERRUPTED_TEXT);
         std::process::exit(interrupted_code().into());
@@ -44,7 +46,8 @@ fn caught_signals() -> Vec<i32> {
     let mut signals = vec![SIGINT, SIGTERM];
     #[cfg(unix)]
     {
-        use signal_hook::consts::SIGHUP;
+        use signal_hook::consts::{SIGHUP, SIGQUIT};
+        signals.push(SIGQUIT);
         signals.extend((!is_ignored(SIGHUP)).then_some(SIGHUP));
     }
     signals

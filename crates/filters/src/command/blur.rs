@@ -6,9 +6,10 @@ use std::process::Command as Process;
 use std::time::Duration;
 
 use frame::{ExrFile, FileError, Image, read_exr, write_exr};
+use process::{End, Limits, OutputFile, half_of_memory};
 
 use super::environment::collect_environment;
-use super::process::{End, run_process};
+use super::output_tail::OutputTail;
 use crate::filter::fill_placeholders;
 use crate::input::{FRAMES_PER_SECOND, find_broken};
 use crate::{Command, Filter, FilterError, Input, Settings};
@@ -27,25 +28,21 @@ pub struct CommandBlur {
     filter: Filter,
     settings: Settings,
     size: [u32; 2],
-    interrupted: fn() -> bool,
 }
 
 impl CommandBlur {
-    /// Prepares a filter that is a command, with its settings and a size in pixels. The program is stopped as soon as
-    /// `interrupted` says so.
+    /// Prepares a filter that is a command, with its settings and a size in pixels.
     pub fn new(
         filter: &Filter,
         settings: &Settings,
         width: u32,
         height: u32,
-        interrupted: fn() -> bool,
     ) -> Result<Self, FilterError> {
         settings.check(filter)?;
         Ok(Self {
             filter: filter.clone(),
             settings: settings.clone(),
             size: [width, height],
-            interrupted,
         })
     }
 
@@ -73,11 +70,10 @@ impl CommandBlur {
             .current_dir(&self.command().folder)
             .env_clear()
             .envs(collect_environment(&self.command().environment));
-        let limit = Duration::from_secs_f64(self.filter.time_limit);
-        let (end, output) = run_process(process, limit, (&out, self.max_bytes()), self.interrupted)
+        let (end, output) = (self.run_program(process, &out))
             .map_err(|error| self.refuse(self.describe_start_failure(&error)))?;
         let outcome = match end {
-            End::Interrupted => return Err(FilterError::Interrupted),
+            End::Stopped => return Err(FilterError::Interrupted),
             End::OutOfTime => Err(format!(
                 "took longer than {} s and was stopped; raise time_limit in {}",
                 self.filter.time_limit,
@@ -100,6 +96,24 @@ impl CommandBlur {
                 words.join(" ")
             ))
         })
+    }
+
+    /// Runs the program, and reads what it prints; returns how it ended, and the last lines that it
+    /// printed.
+    fn run_program(&self, mut process: Process, out: &Path) -> std::io::Result<(End, String)> {
+        let limits = Limits {
+            time: Duration::from_secs_f64(self.filter.time_limit),
+            memory: half_of_memory(),
+            output: Some(OutputFile {
+                path: out.to_owned(),
+                bytes: self.max_bytes(),
+            }),
+            whole_tree: true,
+        };
+        let (output, pipe) = OutputTail::new()?;
+        process.stdout(pipe.try_clone()?).stderr(pipe);
+        let end = process::run(process, &limits)?;
+        Ok((end, output.into_lines()))
     }
 
     fn command(&self) -> &Command {

@@ -27,6 +27,7 @@ pub(crate) fn try_each<C, T>(
     for (program, compiler) in compilers {
         match attempt(compiler) {
             Ok(made) => return Ok((made, CompiledBy { program, failed })),
+            Err(FilterError::Interrupted) => return Err(FilterError::Interrupted),
             Err(error) => failed.push(Failure { program, error }),
         }
     }

@@ -5,9 +5,11 @@ use std::ffi::OsString;
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, ExitStatus, Stdio};
+use std::process::Command;
 use std::sync::Mutex;
-use std::time::{Duration, Instant};
+use std::time::Duration;
+
+use process::{End, Limits, OutputFile, half_of_memory};
 
 use super::compiler::Compiler;
 use super::language::Language;
@@ -19,6 +21,10 @@ use crate::printable::escape_controls;
 
 /// Longest time that a compiler may take.
 const TIME_LIMIT: Duration = Duration::from_secs(60);
+
+/// Most bytes of memory that a compiler may use, on a machine that has twice as much. Large shaders
+/// of engines take some 100 MB.
+const MEMORY_LIMIT: u64 = 2 << 30;
 
 /// Most bytes of a compiler's messages that are read.
 const MAX_LOG_BYTES: u64 = 1 << 20;
@@ -94,9 +100,16 @@ pub(super) fn compile(
         return Ok(module.clone());
     }
     let program = compiler.program;
-    let module = run(program, &arguments, folder, &sources, language)
-        .unwrap_or_else(|error| Err((None, format!("{program}: {error}"))))
-        .map_err(|(line, reason)| FilterError::in_file(&folder.join(&shader.file), line, reason))?;
+    let outcome = run(program, &arguments, folder, &sources, language)
+        .unwrap_or_else(|error| Outcome::Failed(None, format!("{program}: {error}")));
+    let module = match outcome {
+        Outcome::Module(module) => module,
+        Outcome::Stopped => return Err(FilterError::Interrupted),
+        Outcome::Failed(line, reason) => {
+            let path = folder.join(&shader.file);
+            return Err(FilterError::in_file(&path, line, reason));
+        }
+    };
     cache().insert(key, module.clone());
     Ok(module)
 }
@@ -108,8 +121,15 @@ fn is_installed(program: &str) -> bool {
         .any(|folder| (endings.iter()).any(|end| folder.join(format!("{program}{end}")).is_file()))
 }
 
-/// What a compiler made, or its error with the line that it names.
-type Outcome = Result<Vec<u8>, (Option<usize>, String)>;
+/// End of a compilation.
+enum Outcome {
+    /// The module.
+    Module(Vec<u8>),
+    /// The compiler's error, with the line that it names.
+    Failed(Option<usize>, String),
+    /// The user interrupted the work.
+    Stopped,
+}
 
 /// Runs a compiler on copies of the sources.
 fn run(
@@ -142,45 +162,63 @@ fn run(
         Language::Wesl => File::create(&output)?,
         _ => errors.try_clone()?,
     };
-    let mut child = Command::new(program)
+    let mut command = Command::new(program);
+    command
         .args(words)
         .env_clear()
         .envs(collect_environment(&[]))
         .current_dir(workplace.path())
-        .stdin(Stdio::null())
         .stdout(said)
-        .stderr(errors)
-        .spawn()?;
-    let Some(status) = wait(&mut child)? else {
-        let limit = TIME_LIMIT.as_secs();
-        let reason = format!("{program} took longer than {limit} s and was stopped");
-        return Ok(Err((None, reason)));
+        .stderr(errors);
+    let limits = Limits {
+        time: TIME_LIMIT,
+        memory: MEMORY_LIMIT.min(half_of_memory()),
+        output: Some(OutputFile {
+            path: output.clone(),
+            bytes: MAX_MODULE_BYTES,
+        }),
+        whole_tree: false,
     };
-    let is_empty = std::fs::metadata(&output).map_or(true, |output| output.len() == 0);
-    if !status.success() || is_empty {
-        let mut said = Vec::new();
-        (File::open(&log)?.take(MAX_LOG_BYTES)).read_to_end(&mut said)?;
-        let said = remove_colors(&String::from_utf8_lossy(&said));
-        let (line, message) = find_error(&said, &input, &copies, folder);
-        return Ok(Err((line, format!("{program} refuses it: {message}"))));
-    }
-    Ok(frame::read_bounded(&output, MAX_MODULE_BYTES)
-        .map_err(|error| (None, format!("{program} wrote no module: {error}"))))
+    let end = process::run(command, &limits)?;
+    let reason = match end {
+        End::Stopped => return Ok(Outcome::Stopped),
+        End::OutOfTime => {
+            let seconds = TIME_LIMIT.as_secs();
+            format!("{program} took longer than {seconds} s and was stopped")
+        }
+        End::TooLarge => format!(
+            "{program} wrote more than {MAX_MODULE_BYTES} bytes and was stopped; a module may have as many"
+        ),
+        // The system kills a program; an allocation that fails ends most compilers like this, too.
+        End::Exited(status) if status.code().is_none() => {
+            let most = limits.memory >> 20;
+            format!(
+                "{program} ended with {status}; it may use {most} MiB of memory; simplify the shader"
+            )
+        }
+        End::Exited(status) => {
+            let is_empty = std::fs::metadata(&output).map_or(true, |output| output.len() == 0);
+            if status.success() && !is_empty {
+                return Ok(read_module(program, &output));
+            }
+            let mut said = Vec::new();
+            (File::open(&log)?.take(MAX_LOG_BYTES)).read_to_end(&mut said)?;
+            let said = remove_colors(&String::from_utf8_lossy(&said));
+            let (line, message) = find_error(&said, &input, &copies, folder);
+            return Ok(Outcome::Failed(
+                line,
+                format!("{program} refuses it: {message}"),
+            ));
+        }
+    };
+    Ok(Outcome::Failed(None, reason))
 }
 
-/// Waits for a compiler; stops one that takes too long.
-fn wait(child: &mut Child) -> std::io::Result<Option<ExitStatus>> {
-    let start = Instant::now();
-    loop {
-        match child.try_wait()? {
-            Some(status) => return Ok(Some(status)),
-            None if start.elapsed() < TIME_LIMIT => std::thread::sleep(Duration::from_millis(2)),
-            None => {
-                child.kill()?;
-                child.wait()?;
-                return Ok(None);
-            }
-        }
+/// Reads the module that a compiler wrote.
+fn read_module(program: &str, output: &Path) -> Outcome {
+    match frame::read_bounded(output, MAX_MODULE_BYTES) {
+        Ok(module) => Outcome::Module(module),
+        Err(error) => Outcome::Failed(None, format!("{program} wrote no module: {error}")),
     }
 }
 

@@ -134,12 +134,7 @@ impl CaseContext<'_> {
         // The first frame has no previous one; it serves as its own.
         let before = before.as_ref().unwrap_or(frame);
         let picture = self.picture_size();
-        let mut runner = Runner::new(
-            self.scene.gpu,
-            choice,
-            frame.size(),
-            self.scene.plan.monitor,
-        )?;
+        let mut runner = Runner::new(self.scene.gpu, choice, frame.size())?;
         let mut wide = Runner::with_wide_colors(self.scene.gpu, choice, frame.size());
         let mut output = blur_with_probes(
             &mut runner,

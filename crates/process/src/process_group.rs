@@ -6,31 +6,34 @@ use std::process::{Command, ExitStatus};
 use process_wrap::std::{ChildWrapper, CommandWrap};
 
 #[cfg(target_os = "linux")]
-use super::descendants::Descendants;
+use crate::descendants::Descendants;
+use crate::limits::Limits;
 
-/// A process group, or a job object of Windows, which no process leaves. On Linux the group includes processes that left it;
-/// elsewhere a process that calls `setsid` escapes.
+/// A process group, or a job object of Windows, which no process leaves.
 pub struct ProcessGroup {
     group: Box<dyn ChildWrapper>,
+    /// Processes that may have left the group, for a program whose whole tree ends with it.
     #[cfg(target_os = "linux")]
-    descendants: Descendants,
+    descendants: Option<Descendants>,
 }
 
 impl ProcessGroup {
     /// Starts the program.
-    pub fn spawn(command: Command) -> io::Result<Self> {
+    pub fn spawn(command: Command, limits: &Limits) -> io::Result<Self> {
         #[cfg(target_os = "linux")]
-        let descendants = Descendants::new();
+        let descendants = limits.whole_tree.then(Descendants::new);
         let mut command = CommandWrap::from(command);
         #[cfg(unix)]
         command.wrap(process_wrap::std::ProcessGroup::leader());
         #[cfg(windows)]
         command.wrap(process_wrap::std::JobObject);
-        Ok(Self {
+        let group = Self {
             group: command.spawn()?,
             #[cfg(target_os = "linux")]
             descendants,
-        })
+        };
+        limits.enforce(group.group.id())?;
+        Ok(group)
     }
 
     /// Returns the exit status of the program itself, if it has ended.
@@ -46,6 +49,8 @@ impl Drop for ProcessGroup {
         let _ = self.group.start_kill();
         let _ = self.group.inner_mut().wait();
         #[cfg(target_os = "linux")]
-        self.descendants.kill();
+        if let Some(descendants) = &self.descendants {
+            descendants.kill();
+        }
     }
 }

@@ -1,0 +1,11 @@
+//! Other programs that this one runs: compilers of shaders, filters that are commands, git. Only this
+//! crate starts them.
+
+#[cfg(target_os = "linux")]
+mod descendants;
+mod limits;
+mod process_group;
+mod run;
+
+pub use limits::{Limits, OutputFile, half_of_memory};
+pub use run::{End, run, stop};
