@@ -31,9 +31,9 @@ pub fn half_of_memory() -> u64 {
     #[cfg(target_os = "linux")]
     {
         let system = rustix::system::sysinfo();
-        let bytes = u64::from(system.totalram) * u64::from(system.mem_unit);
+        let bytes = u128::from(system.totalram) * u128::from(system.mem_unit) / 2;
         if bytes > 0 {
-            return bytes / 2;
+            return u64::try_from(bytes).unwrap_or(u64::MAX);
         }
     }
     u64::MAX
