@@ -124,7 +124,7 @@ fn write_site(folder: &Path, path: &Path) -> Result<(), Error> {
         frame::write_atomically(&live.join(format!("{name}.png")), &picture)?;
     }
     // Pictures and tables are files of their own, which the page loads when someone opens a case.
-    write_report(&run, &[], own, &live.join("report.html"), 0)?;
+    write_report(&run, &[], None, own, &live.join("report.html"), 0)?;
     println!("{}", folder.display());
     Ok(())
 }

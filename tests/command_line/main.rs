@@ -2,6 +2,7 @@
 
 mod arguments;
 mod audit;
+mod baseline;
 #[cfg(unix)]
 mod blender;
 mod check;

@@ -204,7 +204,7 @@ fn with_scores(run: &Run, lost: impl Fn(&str, f64) -> f64, floor: f64) -> Run {
 #[test]
 fn sequences_are_ranked_by_means_over_scenes_with_intervals_and_ties() {
     let sandbox = Sandbox::two_scenes();
-    let filters = "identity,velocity_gather:fine,velocity_gather:departure";
+    let filters = "velocity_gather:coarse,velocity_gather:fine,velocity_gather:departure";
     let words = format!("--filters {filters} --frames 2 --jitter-frames 0");
     let output = sandbox.run(&split(&words));
     assert_done(&output);
@@ -252,10 +252,10 @@ fn assert_ties(run: &Run) {
     let fine = "velocity_gather:fine";
     let departure = "velocity_gather:departure";
 
-    // In every scene fine is a little better than identity, and the third differs from it by chance alone.
+    // In every scene fine is a little better than coarse, and the third differs from it by chance alone.
     let by = |name: &str, scene: f64| match name {
         "velocity_gather:fine" => 1.0 + 0.1 * scene,
-        "identity:default" => 1.1 + 0.101 * scene,
+        "velocity_gather:coarse" => 1.1 + 0.101 * scene,
         _ => 1.1 + 0.101 * scene + if scene % 2.0 == 0.0 { 0.05 } else { -0.04 },
     };
     let far = with_scores(run, by, 0.01);
@@ -268,7 +268,7 @@ fn assert_ties(run: &Run) {
         // The losses are 1.00, 1.10 and 1.15: only the first and the last differ by more than the floor.
         (rank_sequences_on(&noisy, &first), ["1-2", "1-3", "2-3"]),
     ] {
-        let due = std::iter::zip(ranks, [fine, "identity:default", departure]);
+        let due = std::iter::zip(ranks, [fine, "velocity_gather:coarse", departure]);
         let due = due.map(|(rank, name)| format!("{rank} {name}"));
         assert_eq!(names(&ranking), due.collect::<Vec<_>>());
     }

@@ -28,7 +28,42 @@ fn filters_within_noise_share_ranks() {
     let is_filter = |line: &&str| line.contains(":paper") || line.contains("identity:");
     let rows = text.lines().filter(is_filter);
     let ranks: Vec<&str> = rows.map(|line| split(line)[0]).collect();
-    assert_eq!(ranks, ["1-2", "1-2", "3"], "{text}");
+    assert_eq!(ranks, ["1-2", "1-2", "-"], "{text}");
+}
+
+#[test]
+fn no_blur_is_a_reference_and_never_the_best_filter() {
+    let sandbox = Sandbox::new();
+    // The camera is still, so its motion blurs nothing.
+    let text = sandbox.measure("--filters identity,camera_gather:default");
+    let none = "no filter is clearly better than no blur";
+    assert!(
+        text.starts_with(&format!("trailing shutter: {none}\n")),
+        "{text}"
+    );
+    assert_contains(
+        &text,
+        &["   - identity:default", "   1 camera_gather:default"],
+    );
+    let page = sandbox.text("out/report.html");
+    let due = format!(
+        "With a trailing shutter <strong>{none}</strong>; first: <strong><a href=\"#filter:camera_gather:default\">"
+    );
+    assert_contains(&page, &[&due]);
+    let alone = sandbox.measure("--filters identity");
+    assert_contains(
+        &alone,
+        &["trailing shutter: nothing but no blur was measured"],
+    );
+    // No blur is known from the references, too.
+    let text = sandbox.measure("--filters camera_gather:default");
+    assert_contains(&text, &[none]);
+    let text = sandbox.measure("--filters identity,jump_flood:paper");
+    assert!(!text.contains("no blur"), "{text}");
+    assert_contains(
+        &sandbox.text("out/report.html"),
+        &["Best with a trailing shutter: <strong>"],
+    );
 }
 
 #[test]

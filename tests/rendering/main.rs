@@ -4,6 +4,7 @@ mod at_instant;
 mod coverage;
 mod deforming;
 mod determinism;
+mod fast_motion;
 mod files;
 mod frame_variants;
 mod furnace;

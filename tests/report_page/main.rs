@@ -30,7 +30,9 @@ fn make_page(sandbox: &Sandbox) -> PathBuf {
 fn make_page_within(sandbox: &Sandbox, largest: usize) -> PathBuf {
     let html = sandbox.path("page/a report.html");
     let (run, findings) = (sandbox.read_run(), sandbox.read_findings());
-    write_report(&run, &findings, &sandbox.path("out"), &html, largest).unwrap();
+    let out = sandbox.path("out");
+    let verdict = judge::Judgement::read(&run, &out).unwrap().unwrap().verdict;
+    write_report(&run, &findings, verdict.as_ref(), &out, &html, largest).unwrap();
     html
 }
 

@@ -66,30 +66,63 @@ impl Check {
     /// Returns the error that ends the command with the decision's exit code; none if the check passes.
     pub fn verdict(&self) -> Result<(), Error> {
         let bounds = self.findings.iter().map(Finding::decision);
-        let all = bounds.chain(self.comparisons.iter().map(BaselineComparison::decision));
-        let count = all.filter(|found| *found == self.decision).count();
-        let counted = |one: &str, many: &str| match count {
-            1 => one.to_owned(),
-            count => format!("{count} {many}"),
-        };
+        let bounds = bounds.filter(|decision| *decision == self.decision).count();
+        let compared = self.comparisons.iter().map(BaselineComparison::decision);
+        let compared = compared
+            .filter(|decision| *decision == self.decision)
+            .count();
         match self.decision {
             Decision::Pass => Ok(()),
             Decision::Inconclusive => Err(Error::Inconclusive(format!(
-                "{} cannot be told from the truth's noise; raise the samples per pixel as said above",
-                counted("a required score", "required scores")
+                "{} from the truth's noise; raise the samples per pixel as said above",
+                either(
+                    counted(
+                        bounds,
+                        "a required score cannot be told",
+                        "required scores cannot be told"
+                    ),
+                    counted(
+                        compared,
+                        "a change since the baseline cannot be told",
+                        "changes since the baseline cannot be told"
+                    ),
+                )
             ))),
             Decision::Broken if !self.failures.is_empty() => refuse_failures(&self.failures),
-            Decision::Broken => Err(Error::Broken(format!(
-                "{} broken",
-                counted("a required bound is", "required bounds are")
+            Decision::Broken => Err(Error::Broken(either(
+                counted(
+                    bounds,
+                    "a required bound is broken",
+                    "required bounds are broken",
+                ),
+                counted(
+                    compared,
+                    "a score is worse than the baseline's",
+                    "scores are worse than the baseline's",
+                ),
             ))),
-            Decision::Misconfigured if count == 0 => Err(Error::Usage(
+            Decision::Misconfigured if bounds == 0 => Err(Error::Usage(
                 "a case has no bound that applies, and cannot pass; see above".to_owned(),
             )),
             Decision::Misconfigured => Err(Error::Usage(format!(
                 "{} stricter than three noise floors; raise the limit, or the samples per pixel, as said above",
-                counted("a bound is", "bounds are")
+                counted(bounds, "a bound is", "bounds are").unwrap_or_default()
             ))),
         }
     }
+}
+
+/// Says that one or several things are so; none for none.
+fn counted(count: usize, one: &str, many: &str) -> Option<String> {
+    match count {
+        0 => None,
+        1 => Some(one.to_owned()),
+        count => Some(format!("{count} {many}")),
+    }
+}
+
+/// Joins what is said of bounds and of comparisons.
+fn either(bounds: Option<String>, comparisons: Option<String>) -> String {
+    let said: Vec<String> = bounds.into_iter().chain(comparisons).collect();
+    said.join(", and ")
 }

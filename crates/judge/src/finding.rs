@@ -68,16 +68,20 @@ pub struct Finding {
     pub pictures: PathBuf,
 }
 
-/// Estimates the samples per pixel that would settle the score: doubles the run's until the interval, which shrinks with the root of the
-/// samples, excludes the limit. Assumes that its middle stays.
+/// Estimates the samples per pixel that would settle the score, whose interval excludes the limit then. Assumes that its middle stays.
 fn samples_to_settle(run: &Run, metric: Metric, interval: &Interval, limit: f64) -> u64 {
     let middle = metric.ideal().badness((interval.low + interval.high) / 2.0);
     let apart = (middle - limit_as_badness(metric.ideal(), limit)).abs();
     let half_width = (interval.high - interval.low) / 2.0;
-    let more = (half_width / apart).powi(2);
-    let own = u64::from(run.render.samples_per_pixel);
-    let mut samples = own;
-    while (samples as f64) < more * own as f64 && samples < MAX_SAMPLES {
+    settling_samples(run.render.samples_per_pixel, half_width, apart)
+}
+
+/// Doubles samples per pixel until an uncertainty, which shrinks with their root, is as small as a distance.
+pub(crate) fn settling_samples(samples_per_pixel: u32, uncertainty: f64, distance: f64) -> u64 {
+    let more = (uncertainty / distance).powi(2);
+    let present = u64::from(samples_per_pixel);
+    let mut samples = present;
+    while (samples as f64) < more * present as f64 && samples < MAX_SAMPLES {
         samples *= 2;
     }
     samples

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use store::{MAX_RUN_BYTES, is_below, read_text_within, to_lines};
 use suite::{Error, PROGRAM, Run};
 
-use crate::Finding;
+use crate::{Decision, Finding};
 
 /// Version of the layout of `judgement.json`.
 const JUDGEMENT_FORMAT: u32 = 1;
@@ -23,17 +23,36 @@ pub struct Judgement {
     pub program: String,
     /// Hash of the run's `run.json`.
     pub run: String,
+    /// Verdict of the check that judged the run last; none if `run` did.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub verdict: Option<Verdict>,
     /// One per bounded score, in the order of the run's cases.
     pub findings: Vec<Finding>,
 }
 
+/// Verdict of a check, as its page states it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Verdict {
+    /// Decision.
+    pub decision: Decision,
+    /// Reason; none if the check passed.
+    pub reason: Option<String>,
+    /// Lines about comparisons with the baseline that did not pass.
+    pub comparisons: Vec<String>,
+}
+
 impl Judgement {
     /// Makes the judgement of the run in `folder` after its `run.json` is written.
-    pub fn new(folder: &Path, findings: Vec<Finding>) -> Result<Self, Error> {
+    pub fn new(
+        folder: &Path,
+        findings: Vec<Finding>,
+        verdict: Option<Verdict>,
+    ) -> Result<Self, Error> {
         Ok(Self {
             format: JUDGEMENT_FORMAT,
             program: PROGRAM.to_owned(),
             run: hash_of_run(folder)?,
+            verdict,
             findings,
         })
     }

@@ -20,7 +20,8 @@ mod worst;
 use std::collections::BTreeMap;
 
 pub use baseline::{
-    Acceptance, Baseline, BaselineComparison, ComparisonKind, accept_scores, compare_with_baseline,
+    Acceptance, Baseline, BaselineComparison, ComparisonKind, DecidedBy, accept_scores,
+    compare_with_baseline,
 };
 pub use bounds::{
     BOUNDS_FILE, Bound, Bounds, BoundsFile, FilterBounds, Length, Level, Margin, SceneBounds,
@@ -39,11 +40,11 @@ pub use evidence::add_evidence;
 pub use finding::{Finding, MAX_SAMPLES};
 use judged_score::judge_sequence;
 pub use judged_score::{JudgedScore, judge_scores};
-pub use judgement::{JUDGEMENT_FILE, Judgement};
+pub use judgement::{JUDGEMENT_FILE, Judgement, Verdict};
 pub use numbers::{number, round_to_digits};
 pub use outcome::{Decision, Outcome, badness_within};
 pub use ranking::filters::{
-    MAX_RANKED, RANK_RULE, RankedFilter, list_summarized, rank_for_summary,
+    MAX_RANKED, RANK_RULE, RankedFilter, list_summarized, no_gain_text, rank_for_summary,
 };
 pub use ranking::lag::{lag_text, mean_lag};
 pub use ranking::sequence_ranking::{RANKED_BY, RankedSequence, rank_sequences, rank_sequences_on};

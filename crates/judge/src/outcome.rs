@@ -32,7 +32,7 @@ impl Outcome {
 }
 
 /// Result of a check; a later one outweighs an earlier one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Decision {
     /// Every required bound is met.
@@ -43,6 +43,17 @@ pub enum Decision {
     Misconfigured,
     /// A required bound is broken, or a case failed. The noise of another bound does not change that.
     Broken,
+}
+
+impl Decision {
+    /// Returns its word for readers.
+    pub fn word(self) -> &'static str {
+        match self {
+            Decision::Pass => "PASS",
+            Decision::Broken => "FAIL",
+            Decision::Inconclusive | Decision::Misconfigured => "UNDECIDED",
+        }
+    }
 }
 
 /// Compares a score with a limit: by its interval if `interval` is given, otherwise by its value. `Some(None)` is an interval that the

@@ -226,7 +226,7 @@ impl Results {
             .max_by(|a, b| error(a).partial_cmp(&error(b)).expect("scores are numbers"))
     }
 
-    /// Ranks the filter presets of each shutter by FLIP. The filter that does nothing is ranked in both: its FLIP* is against a centred
+    /// Ranks the filter presets of each shutter by FLIP. The filter that does nothing has a place in both: its FLIP* is against a centred
     /// shutter, if any filter declares one.
     pub fn ranking(&self) -> Vec<Vec<RankedFilter>> {
         let centred = Alignment::Centred;
@@ -238,7 +238,7 @@ impl Results {
             .filter_map(|own| own.ranked(own.alignment, Metric::FLIP))
             .chain(unblurred)
             .collect();
-        rank_by_score(&scores, false)
+        rank_by_score(&scores, &[], false)
     }
 }
 

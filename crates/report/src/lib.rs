@@ -35,7 +35,7 @@ pub use finding_text::{
 };
 use frame::write_atomically;
 pub use gallery::{write_case_strip, write_gallery};
-use judge::Finding;
+use judge::{Finding, Verdict};
 use live::LiveFiles;
 use live::scene::scene_json;
 use maud::{Markup, PreEscaped};
@@ -54,7 +54,7 @@ const CASE_BYTES: usize = 25_000;
 
 /// Writes the page of the run in `folder` to `html`; returns its path, then the paths of the files next to it.
 ///
-/// Costs come from a bench.json in the folder. Without `findings` the page shows no bounds. If the page would have more than `largest`
+/// Costs come from a bench.json in the folder. Without `findings` the page shows no bounds; a check's verdict comes first. If the page would have more than `largest`
 /// bytes, such as [`LARGEST_PAGE`], its numbers go into files; if its tables alone are larger, so do they. Filters and frames of live
 /// cases are always in files. The same run makes the same bytes. The page is written last: an existing page is complete.
 ///
@@ -63,6 +63,7 @@ const CASE_BYTES: usize = 25_000;
 pub fn write_report(
     run: &Run,
     findings: &[Finding],
+    verdict: Option<&Verdict>,
     folder: &Path,
     html: &Path,
     largest: usize,
@@ -82,7 +83,7 @@ pub fn write_report(
     let filters = table.filters.iter().filter(|filter| !filter.is_reference);
     let sections = filters.map(|filter| filter_section(&table, filter, &parts.thumbnails));
     parts.sections.extend(sections);
-    let first = overview(&table, &parts.views, &parts.thumbnails);
+    let first = overview(&table, &parts.views, &parts.thumbnails, verdict);
     let text: usize = parts.sections.iter().map(|section| section.0.len()).sum();
     let numbers = parts.numbers.place(text + first.0.len())?;
     let content = PageContent {

@@ -69,6 +69,9 @@ pub const LARGEST_NUMBER: f64 = 1e12;
 /// Greatest distance of anything in a scene file from the world's origin, in metres, summed up over sizes and motions.
 pub const FARTHEST: f64 = 1e12;
 
+/// Largest angle of an object since a key, in degrees, its parents' angles added: 64-bit numbers place it to 1e-5 radians.
+pub const LARGEST_ANGLE: f64 = 4e12;
+
 /// Smallest factor by which all scales together, those of parents included, may shrink an object.
 pub const SMALLEST_SCALE: f64 = 1e-12;
 

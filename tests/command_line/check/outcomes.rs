@@ -27,6 +27,12 @@ fn a_broken_bound_gives_exit_code_1_and_its_evidence() {
     let sandbox = make_bounded(0.2, "required");
     let parts = ["BROKEN flip_moving 0.2", "FAIL: a required bound is broken"];
     check(&sandbox, "", 1, &parts);
+    // The page says so first, and praises nothing.
+    let page = sandbox.text("out/report.html");
+    let due = "FAIL</strong>: a required bound is broken. 1 required bound: 1 broken";
+    let none = "nothing but no blur was measured";
+    let [fails, nothing] = [due, none].map(|text| page.find(text));
+    assert!(fails.is_some() && fails < nothing, "{fails:?} {nothing:?}");
     let picture = "out/plate/identity_default/worst_flip_moving.png";
     assert!(sandbox.path(picture).is_file());
     // JSON has the same verdict.
@@ -117,6 +123,8 @@ fn a_case_without_an_applicable_bound_does_not_pass() {
     sandbox.write("scene.toml", &SCENE.replace("[-1.6, 0, 0]", "[0, 0, 0]"));
     let parts = ["1 not applicable", "no bound that applies"];
     check(&sandbox, "", 2, &parts);
+    let due = "UNDECIDED</strong>: a case has no bound that applies";
+    assert_contains(&sandbox.text("out/report.html"), &[due]);
 }
 
 #[test]

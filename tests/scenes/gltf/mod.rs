@@ -73,6 +73,45 @@ fn turns_beyond_half_a_circle_and_cubic_paths_are_kept() {
     }
 }
 
+/// Loads a scene, one object of which turns steadily, in degrees per frame.
+fn spinning_scene(speed: f64) -> Scene {
+    let mut scene = load_shipped("flat_field");
+    let start = scene.objects[0].motion.keys[0];
+    let axis = DVec3::new(0.6, 0.0, 0.8);
+    scene.objects[0].motion = tests::shapes::spin(start.translation, axis, speed.to_radians());
+    scene
+}
+
+#[test]
+fn an_animation_turns_as_fast_as_its_times_can_tell() {
+    let slow = spinning_scene(1000.0);
+    assert_plays(&slow);
+    let fast = spinning_scene(240_000.0);
+    let folder = export(&fast).unwrap();
+    let (played, timeline) = (Played::read(folder.path()), Timeline::of(&fast));
+    for time in [-1.7, -1.0, 0.0, 0.3, 1.0] {
+        let x = |pose: DAffine3| pose.transform_vector3(DVec3::X).normalize();
+        let traced = x(fast.object_to_world(0, time));
+        let shown = x(played.to_world(1, timeline.seconds(time)));
+        // The limit of the exporter, and the rounding of the time that is asked for.
+        assert!(
+            traced.angle_between(shown) < 2e-3,
+            "{traced}, {shown} at {time}"
+        );
+    }
+    for speed in [250_000.0, 1e7, -1e12] {
+        let error = export(&spinning_scene(speed)).unwrap_err();
+        let (speed, object) = (speed.abs(), &fast.objects[0].name);
+        let words =
+            format!("object \"{object}\" turns by up to {speed} degrees per frame; allowed: 240");
+        assert!(error.contains(&words), "{error}");
+    }
+    let mut scene = load_shipped("flat_field");
+    scene.camera.motion = tests::shapes::spin(DVec3::ZERO, DVec3::Y, 1e6);
+    let error = export(&scene).unwrap_err();
+    assert!(error.contains("the camera turns by up to"), "{error}");
+}
+
 #[test]
 fn a_zoom_is_refused_since_gltf_cannot_say_it() {
     let mut scene = load_shipped("flat_field");

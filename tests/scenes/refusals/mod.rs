@@ -74,7 +74,7 @@ fn relative_message(folder: &Folder, error: &SceneError) -> String {
 fn slips_in_each_file_are_refused() {
     check_slips(
         include_str!("slips/scene.txt"),
-        134,
+        135,
         &["scene.toml"],
         |_| {},
     );

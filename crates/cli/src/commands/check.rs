@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 use clap::{Args, Command, Id};
 use frame::FileError;
 use judge::{
-    BOUNDS_FILE, Baseline, Finding, Judgement, RunBounds, add_evidence, bound_subframes, check,
-    check_lengths, check_names, compare_with_baseline, judge, require_bounds, size_for_bounds,
+    BOUNDS_FILE, Baseline, Check, Finding, Judgement, RunBounds, add_evidence, bound_subframes,
+    check, check_lengths, check_names, compare_with_baseline, judge, require_bounds,
+    size_for_bounds,
 };
 use metrics::Metric;
 use store::{printable_path, refuse_tracked};
@@ -15,12 +16,16 @@ use suite::{Case, Error, Run, StoredRun, open_gpu};
 use tracer::Location;
 
 use super::measured_run::{MeasuredRun, measure};
-use super::pages::{WrittenFile, page_lines, refuse_folder, write_judged_run, write_run_page};
+use super::pages::{
+    WrittenFile, page_lines, refuse_folder, write_judgement, write_run, write_run_page,
+};
 use super::result::Ending;
 use super::run_plan::{Margins, add_bounds, make_plan, read_margins};
 use crate::arguments::{AdapterArgs, MeasureArgs, SequenceArgs};
 use crate::output::{is_verbose, print, print_json, print_note};
-use crate::tables::{adapter_text, annotations, check_text, junit, summary, verdict_text};
+use crate::tables::{
+    adapter_text, annotations, check_text, junit, page_verdict, summary, verdict_text,
+};
 
 /// Lists the arguments that only a measuring check may have.
 fn list_measuring() -> Vec<Id> {
@@ -70,23 +75,25 @@ pub struct CheckArgs {
 pub fn execute(args: &CheckArgs) -> Result<Ending, Error> {
     refuse_folder("--html", args.html.as_ref())?;
     refuse_folder("--junit", args.junit.as_ref())?;
-    let baseline = args.baseline.as_deref().map(Baseline::read).transpose()?;
-    let margins = read_margins(&args.measure.scenes.root.scenes_dir)?;
+    let root = &args.measure.scenes.root.scenes_dir;
+    let compared = match &args.baseline {
+        Some(path) => Some((Baseline::read(path)?, path.as_path())),
+        None => None,
+    };
+    let judging = Judging {
+        compared,
+        margins: read_margins(root)?,
+    };
     let summary_file = args.github.then(find_summary_file).transpose()?;
     let Judged {
         run,
-        findings,
+        checked,
         pages,
         folder,
     } = match &args.run {
-        Some(path) => judge_finished(args, path, baseline.is_some())?,
-        None => run_and_judge(args, baseline.is_some(), &margins)?,
+        Some(path) => judge_finished(args, path, &judging)?,
+        None => run_and_judge(args, &judging)?,
     };
-    let comparisons = match (&baseline, &args.baseline) {
-        (Some(baseline), Some(path)) => compare_with_baseline(&run, baseline, &margins, path)?,
-        _ => Vec::new(),
-    };
-    let checked = check(&run, findings, comparisons);
 
     if let Some(path) = &args.junit {
         frame::write_atomically(path, junit(&checked).as_bytes())?;
@@ -106,7 +113,8 @@ pub fn execute(args: &CheckArgs) -> Result<Ending, Error> {
         measured.iter().for_each(|text| print_note(text));
     } else {
         let text = check_text(&checked, &folder, is_verbose());
-        let other = (baseline.iter()).find(|baseline| !baseline.is_of_class(&run.adapter));
+        let mut baselines = judging.compared.iter().map(|(baseline, _)| baseline);
+        let other = baselines.find(|baseline| !baseline.is_of_class(&run.adapter));
         let note = other.map_or(String::new(), |baseline| {
             let theirs = adapter_text(&baseline.adapter);
             format!("the baseline is of another class of adapter: {theirs}\n")
@@ -130,17 +138,34 @@ pub fn execute(args: &CheckArgs) -> Result<Ending, Error> {
     }
 }
 
-/// A run, its findings, its pages, and the folder of its files.
+/// What a run is judged by, other than bounds.
+struct Judging<'a> {
+    /// Baseline, and its file.
+    compared: Option<(Baseline, &'a Path)>,
+    margins: Margins,
+}
+
+impl Judging<'_> {
+    fn check(&self, run: &Run, findings: Vec<Finding>) -> Result<Check, Error> {
+        let comparisons = match &self.compared {
+            Some((baseline, path)) => compare_with_baseline(run, baseline, &self.margins, path)?,
+            None => Vec::new(),
+        };
+        Ok(check(run, findings, comparisons))
+    }
+}
+
+/// A run, its check, its pages, and the folder of its files.
 struct Judged {
     run: Run,
-    findings: Vec<Finding>,
+    checked: Check,
     pages: Vec<WrittenFile>,
     folder: PathBuf,
 }
 
 /// Measures every case as `run` does, judges it and looks for evidence. Ladders, which need a quarter of the time, are left out unless
 /// something is judged by them.
-fn run_and_judge(args: &CheckArgs, compared: bool, margins: &Margins) -> Result<Judged, Error> {
+fn run_and_judge(args: &CheckArgs, judging: &Judging) -> Result<Judged, Error> {
     let (mut plan, bounds) = make_plan(&args.measure, args.measure.scenes.out.clone())?;
     let asked = args.measure.size;
     if let Some(size) = size_for_bounds(bounds.values(), &plan.filters, asked)? {
@@ -151,11 +176,11 @@ fn run_and_judge(args: &CheckArgs, compared: bool, margins: &Margins) -> Result<
     plan.intervals = true;
     plan.check()?;
     plan.ladders = bound_subframes(bounds.values(), &plan.filters)
-        || (margins.keys()).any(|metric| matches!(metric, Metric::Equivalent(_)));
+        || (judging.margins.keys()).any(|metric| matches!(metric, Metric::Equivalent(_)));
     let root = &args.measure.scenes.root.scenes_dir;
     check_names(root, bounds.values(), &plan.filters)?;
     // With a baseline, no bound is required.
-    if !compared {
+    if judging.compared.is_none() {
         require_bounds(root, bounds.iter(), &plan.filters, plan.frames)?;
     }
     if let Some(truths) = &plan.truths {
@@ -172,20 +197,24 @@ fn run_and_judge(args: &CheckArgs, compared: bool, margins: &Margins) -> Result<
         whole,
         lock: _lock,
     } = measure(&mut plan, gpu.as_ref())?;
+    write_run(&whole, &plan.out)?;
     let mut findings = judge(&whole, &bounds);
     add_evidence(&whole, &mut findings, &plan.out)?;
-    let pages = write_judged_run(&whole, &findings, &plan.out, args.html.as_ref())?;
-    findings.retain(|finding| run.cases.iter().any(|case| finding.is_of(case)));
+    let mut asked_for = findings.clone();
+    asked_for.retain(|finding| run.cases.iter().any(|case| finding.is_of(case)));
+    let checked = judging.check(&run, asked_for)?;
+    let verdict = Some(page_verdict(&checked));
+    let pages = write_judgement(&whole, &findings, verdict, &plan.out, args.html.as_ref())?;
     Ok(Judged {
         run,
-        findings,
+        checked,
         pages,
         folder: plan.out,
     })
 }
 
 /// Judges a finished run by its scenes' bounds; renders nothing and opens no adapter.
-fn judge_finished(args: &CheckArgs, path: &Path, compared: bool) -> Result<Judged, Error> {
+fn judge_finished(args: &CheckArgs, path: &Path, judging: &Judging) -> Result<Judged, Error> {
     let side = StoredRun::read(path)?;
     let folder = match side.folder() {
         own if own.as_os_str().is_empty() => PathBuf::from("."),
@@ -196,7 +225,7 @@ fn judge_finished(args: &CheckArgs, path: &Path, compared: bool) -> Result<Judge
     let root = &args.measure.scenes.root.scenes_dir;
     let bounds = read_run_bounds(&run, root)?;
     let mut findings = judge(&run, &bounds);
-    if findings.is_empty() && !compared {
+    if findings.is_empty() && judging.compared.is_none() {
         refuse!(
             "{}: none of its scores has a bound, and a check without bounds fails; bounds are read from {} and from the \
              folder of each scene below it: name another folder with --scenes-dir",
@@ -207,14 +236,16 @@ fn judge_finished(args: &CheckArgs, path: &Path, compared: bool) -> Result<Judge
     if args.evidence {
         add_evidence(&run, &mut findings, &folder)?;
     }
-    Judgement::new(&folder, findings.clone())?.write(&folder)?;
+    let checked = judging.check(&run, findings)?;
+    let (findings, verdict) = (&checked.findings, page_verdict(&checked));
+    Judgement::new(&folder, findings.clone(), Some(verdict.clone()))?.write(&folder)?;
     let pages = match &args.html {
-        Some(html) => write_run_page(&run, &findings, &folder, html)?,
+        Some(html) => write_run_page(&run, findings, Some(&verdict), &folder, html)?,
         None => Vec::new(),
     };
     Ok(Judged {
         run,
-        findings,
+        checked,
         pages,
         folder,
     })

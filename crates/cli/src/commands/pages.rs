@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use judge::{Finding, Judgement};
+use judge::{Finding, Judgement, Verdict};
 use report::{LARGEST_PAGE, SEQUENCES_PAGE, sequences_page, write_report};
 use store::printable_path;
 use suite::{Error, Run};
@@ -57,10 +57,11 @@ pub fn page_path(html: Option<&PathBuf>, folder: &Path) -> PathBuf {
 pub fn write_run_page(
     run: &Run,
     findings: &[Finding],
+    verdict: Option<&Verdict>,
     folder: &Path,
     html: &Path,
 ) -> Result<Vec<WrittenFile>, Error> {
-    let mut files = write_report(run, findings, folder, html, LARGEST_PAGE)?;
+    let mut files = write_report(run, findings, verdict, folder, html, LARGEST_PAGE)?;
     if let Some(page) = sequences_page(run, findings) {
         let path = folder.join(SEQUENCES_PAGE);
         frame::write_atomically(&path, page.as_bytes())?;
@@ -77,16 +78,18 @@ pub fn write_run(run: &Run, out: &Path) -> Result<(), Error> {
     )?)
 }
 
-/// Writes `run.json`, its findings, and the page.
-pub fn write_judged_run(
+/// Writes the findings about a run, whose `run.json` is written, and the page.
+pub fn write_judgement(
     run: &Run,
     findings: &[Finding],
+    verdict: Option<Verdict>,
     out: &Path,
     html: Option<&PathBuf>,
 ) -> Result<Vec<WrittenFile>, Error> {
-    write_run(run, out)?;
-    Judgement::new(out, findings.to_vec())?.write(out)?;
-    write_run_page(run, findings, out, &page_path(html, out))
+    let judgement = Judgement::new(out, findings.to_vec(), verdict)?;
+    judgement.write(out)?;
+    let verdict = judgement.verdict.as_ref();
+    write_run_page(run, findings, verdict, out, &page_path(html, out))
 }
 
 /// Writes a page.

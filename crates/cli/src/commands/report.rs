@@ -71,8 +71,11 @@ fn write_run_report(args: &ReportArgs) -> Result<(Vec<WrittenFile>, Vec<WrittenF
         html => {
             let html = page_path(html.as_ref(), folder);
             let judgement = Judgement::read(run, folder)?;
-            let findings = judgement.map_or_else(Vec::new, |judgement| judgement.findings);
-            write_run_page(run, &findings, folder, &html)?
+            let (findings, verdict) = match judgement {
+                None => (Vec::new(), None),
+                Some(judgement) => (judgement.findings, judgement.verdict),
+            };
+            write_run_page(run, &findings, verdict.as_ref(), folder, &html)?
         }
     };
     if let Some(out) = &args.gallery {

@@ -9,7 +9,7 @@ use store::printable_path;
 use suite::{Error, Part, Run, open_gpu, refuse_failures};
 
 use super::measured_run::{MeasuredRun, measure};
-use super::pages::{WrittenFile, page_lines, refuse_folder, write_judged_run, write_run};
+use super::pages::{WrittenFile, page_lines, refuse_folder, write_judgement, write_run};
 use super::run_plan::{add_bounds, apply_options, make_plan};
 use crate::arguments::{AdapterArgs, MeasureArgs, RunOptions, parse_named};
 use crate::output::{clock_text, print};
@@ -52,6 +52,7 @@ pub fn execute(args: &RunArgs) -> Result<(), Error> {
         whole,
         lock: _lock,
     } = measure(&mut plan, gpu.as_ref())?;
+    write_run(&whole, &plan.out)?;
     let (scores, pages) = if plan.part == Part::Whole {
         // Cases of an earlier run keep their targets.
         add_bounds(&mut bounds, &whole, &args.measure.scenes.root.scenes_dir)?;
@@ -62,10 +63,9 @@ pub fn execute(args: &RunArgs) -> Result<(), Error> {
         // Bounds are for `check`: broken ones fail nothing here.
         let mut findings = judge(&whole, &bounds);
         (findings.iter_mut()).for_each(|finding| finding.level = Level::Report);
-        let pages = write_judged_run(&whole, &findings, &plan.out, args.html.as_ref())?;
+        let pages = write_judgement(&whole, &findings, None, &plan.out, args.html.as_ref())?;
         (scores_text(&run, args.table), pages)
     } else {
-        write_run(&whole, &plan.out)?;
         (String::new(), Vec::new())
     };
     print(&match args.json {

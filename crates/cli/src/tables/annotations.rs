@@ -4,7 +4,7 @@ use judge::{Check, Decision, Finding, number};
 use report::{finding_line, length_text, limit_text, way_out};
 use store::printable;
 
-use super::{comparison_line, count_lines, markdown_table, range_text, verdict_word};
+use super::{comparison_line, count_lines, markdown_table, range_text};
 
 /// GitHub's upper limit on the annotations of a step.
 const MAX_ANNOTATIONS: usize = 10;
@@ -44,7 +44,7 @@ pub fn annotations(check: &Check) -> String {
 pub fn summary(check: &Check) -> String {
     let mut text = format!(
         "## Shuttertruth: {}\n\n{}\n\n",
-        verdict_word(check.decision),
+        check.decision.word(),
         count_lines(check).join("\n\n")
     );
     for failure in &check.failures {

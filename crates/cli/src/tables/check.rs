@@ -2,7 +2,10 @@
 
 use std::path::Path;
 
-use judge::{BaselineComparison, Check, Decision, Finding, Level, Outcome, Worst, number};
+use judge::{
+    BaselineComparison, Check, ComparisonKind, DecidedBy, Decision, Finding, Level, MAX_SAMPLES,
+    Outcome, Verdict, Worst, number,
+};
 use report::{finding_score, finding_status, length_text, way_out, worst_frame_text};
 
 use super::{failures_text, list_once};
@@ -37,18 +40,9 @@ pub fn check_text(check: &Check, out: &Path, targets: bool) -> String {
     text
 }
 
-/// Names a decision as a verdict.
-pub fn verdict_word(decision: Decision) -> &'static str {
-    match decision {
-        Decision::Pass => "PASS",
-        Decision::Broken => "FAIL",
-        Decision::Inconclusive | Decision::Misconfigured => "UNDECIDED",
-    }
-}
-
 /// Formats a check's verdict, and what helps if it is undecided.
 pub fn verdict_text(check: &Check) -> String {
-    let word = verdict_word(check.decision);
+    let word = check.decision.word();
     let verdict = match check.decision {
         Decision::Pass => good(word),
         Decision::Broken => bad(word),
@@ -61,6 +55,16 @@ pub fn verdict_text(check: &Check) -> String {
             push_wrapped(&mut text, 0, &format!("{verdict}: {error}"));
             text
         }
+    }
+}
+
+/// Returns a check's verdict for its page.
+pub fn page_verdict(check: &Check) -> Verdict {
+    let open = (check.comparisons.iter()).filter(|own| own.decision() != Decision::Pass);
+    Verdict {
+        decision: check.decision,
+        reason: check.verdict().err().map(|error| error.to_string()),
+        comparisons: open.map(comparison_line).collect(),
     }
 }
 
@@ -98,7 +102,7 @@ fn push_finding(text: &mut String, finding: &Finding, out: &Path) {
     }
 }
 
-/// Describes a comparison with the baseline on one line.
+/// Describes a comparison with the baseline on one line, with the uncertainty that decided it.
 pub fn comparison_line(comparison: &BaselineComparison) -> String {
     let BaselineComparison {
         filter,
@@ -111,16 +115,45 @@ pub fn comparison_line(comparison: &BaselineComparison) -> String {
     } = comparison;
     let scenes = count_text(*scenes, "scene", "scenes");
     format!(
-        "{}: {filter} {metric}, worse by {} over {scenes}, one-sided 95 % bounds {} and {}; margin {}",
+        "{}: {filter} {metric}, worse by {} over {scenes}, one-sided 95 % bounds {} and {}; margin {}; {}",
         comparison.kind.label(),
         number(*worse),
         number(*low),
         number(*high),
-        number(*margin)
+        number(*margin),
+        decision_text(comparison)
     )
 }
 
-/// Counts required bounds, and targets separately.
+/// Says which uncertainty decided a comparison, on which scenes, and what would decide an open one.
+fn decision_text(comparison: &BaselineComparison) -> String {
+    let losses = comparison.losses.iter().map(|loss| {
+        let [worse, noise] = [loss.worse, loss.noise].map(number);
+        format!(
+            "{} by {worse} (the truth's noise is {noise} at most)",
+            loss.scene
+        )
+    });
+    let losses = losses.collect::<Vec<_>>().join(", ");
+    match (comparison.kind, comparison.decided_by) {
+        (_, DecidedBy::Scenes) => "the scatter over the scenes decides".to_owned(),
+        (ComparisonKind::NoWorse, DecidedBy::Noise) => {
+            "on no scene worse by more, with the truth's noise".to_owned()
+        }
+        (ComparisonKind::Worse, DecidedBy::Noise) => format!("certainly worse on {losses}"),
+        (ComparisonKind::Inconclusive, DecidedBy::Noise) => {
+            let way_out = match comparison.settled_by {
+                None | Some(MAX_SAMPLES..) => {
+                    "too close to the margin for any number of samples; move the margin".to_owned()
+                }
+                Some(samples) => format!("{samples} samples per pixel would settle it"),
+            };
+            format!("the truth's noise leaves open {losses}; {way_out}")
+        }
+    }
+}
+
+/// Counts required bounds, targets and comparisons with a baseline separately.
 pub fn count_lines(check: &Check) -> Vec<String> {
     let line = |level: Level, one: &str, [kept, broken]: [&str; 2], note: &str| {
         let findings = check.findings.iter();
@@ -144,8 +177,38 @@ pub fn count_lines(check: &Check) -> Vec<String> {
     let note = " (a missed target fails nothing; -v lists them)";
     let required = line(Level::Required, "required bound", ["met", "broken"], "");
     let targets = line(Level::Report, "target", ["met", "missed"], note);
-    let lines = [required, targets, not_judged_line(check)];
+    let lines = [
+        required,
+        targets,
+        comparisons_line(check),
+        not_judged_line(check),
+    ];
     lines.into_iter().flatten().collect()
+}
+
+/// Counts comparisons with a baseline by their verdict; none without a baseline.
+fn comparisons_line(check: &Check) -> Option<String> {
+    let count = |kind| {
+        let own = check.comparisons.iter().filter(|own| own.kind == kind);
+        own.count()
+    };
+    let words = [
+        (ComparisonKind::NoWorse, "no worse"),
+        (ComparisonKind::Worse, "worse"),
+        (ComparisonKind::Inconclusive, "undecided"),
+    ];
+    let counts = (words.iter()).filter_map(|(kind, word)| match count(*kind) {
+        0 => None,
+        count => Some(format!("{count} {word}")),
+    });
+    let counts = counts.collect::<Vec<_>>().join(", ");
+    let compared = check.comparisons.len();
+    let all = count_text(
+        compared,
+        "comparison with the baseline",
+        "comparisons with the baseline",
+    );
+    (compared > 0).then(|| format!("{all}: {counts}"))
 }
 
 /// Names the limits that were not judged because they are for sequences of another length, and how to judge them; none if all were judged.

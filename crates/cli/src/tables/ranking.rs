@@ -1,10 +1,14 @@
 //! Summary of a run: the ranking of its filters, and the references.
 
 use frame::Alignment;
-use judge::{MAX_RANKED, RANK_RULE, RankedFilter, list_summarized, mean_lag, rank_for_summary};
+use judge::{
+    MAX_RANKED, RANK_RULE, RankedFilter, list_summarized, mean_lag, no_gain_text, rank_for_summary,
+};
 use metrics::Metric;
 use suite::Case;
 use tracer::FrameRate;
+
+use crate::output::push_wrapped;
 
 use super::{
     Table, frame_rates_text, input_forms_text, legend_text, list_once, mean_text, range_text,
@@ -25,7 +29,14 @@ pub fn ranking_text(cases: &[Case]) -> String {
         groups.iter_mut().for_each(|group| group.truncate(each));
     }
     let hidden = rows - count(&groups);
-    let mut text = ranking_table(cases, &groups).text();
+    let mut text = String::new();
+    for group in &groups {
+        if let Some(no_gain) = no_gain_text(group) {
+            let shutter = shutter_text(group[0].alignment, group[0].rate);
+            push_wrapped(&mut text, 0, &format!("{shutter}: {no_gain}"));
+        }
+    }
+    text += &ranking_table(cases, &groups).text();
     text += &references_text(cases, &groups);
     text += "\n";
     text += &legend_text(&notes(&groups));

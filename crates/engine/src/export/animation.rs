@@ -7,12 +7,17 @@ use crate::export::document::{Document, widen};
 use crate::export::motion::{Track, Tracks};
 use crate::export::timeline::Timeline;
 
+/// Most keys of all turns of an export together; one takes 20 bytes.
+const MAX_TURN_KEYS: usize = 8_000_000;
+
 /// Moving nodes, and their animation channels.
 pub struct Channels<'a> {
     document: &'a mut Document,
     timeline: &'a Timeline,
     channels: Vec<Value>,
     samplers: Vec<Value>,
+    /// Keys of all turns.
+    turn_keys: usize,
 }
 
 impl<'a> Channels<'a> {
@@ -23,16 +28,28 @@ impl<'a> Channels<'a> {
             timeline,
             channels: Vec::new(),
             samplers: Vec::new(),
+            turn_keys: 0,
         }
     }
 
-    /// Adds a node in its pose at the start of the timeline, and a channel for each part of its pose that changes.
-    pub fn push_node(&mut self, mut node: Value, motion: &Motion) -> usize {
+    /// Adds a node in its pose at the start of the timeline, and a channel for each part of its pose that changes; refuses turns that
+    /// are too fast or need too many keys.
+    pub fn push_node(&mut self, mut node: Value, motion: &Motion) -> Result<usize, String> {
         let Tracks {
             translation,
             rotation,
             scale,
-        } = Tracks::of(motion, self.timeline);
+        } = Tracks::of(motion, self.timeline)?;
+        if !rotation.is_still {
+            self.turn_keys += rotation.times.len();
+        }
+        if self.turn_keys > MAX_TURN_KEYS {
+            return Err(format!(
+                "needs {} keys for its turns and those before it; allowed: {MAX_TURN_KEYS}; export a scene or variant in which \
+                 fewer objects turn, or more slowly",
+                self.turn_keys
+            ));
+        }
         node["translation"] = json!(translation.first.map(widen));
         node["rotation"] = json!(rotation.first.map(widen));
         node["scale"] = json!(scale.first.map(widen));
@@ -40,7 +57,7 @@ impl<'a> Channels<'a> {
         self.add_track(node, "translation", &translation);
         self.add_track(node, "rotation", &rotation);
         self.add_track(node, "scale", &scale);
-        node
+        Ok(node)
     }
 
     /// Adds the weights of a node's morph targets: interpolated between two shapes, and extrapolated beyond the ends, so that one weight

@@ -10,10 +10,9 @@ const WIDEST_TURN: f64 = 75.0 * std::f64::consts::PI / 180.0;
 /// Upper limit on the angle between a turn and its keys' interpolation by components, in radians.
 const TOLERANCE: f64 = 1e-6;
 /// Upper limit on halvings of the time between two keys.
-const MAX_HALVINGS: u32 = 12;
-/// A cubic curve is at most this many times as fast as its fastest chord. This bounds a Hermite curve with slopes that are means of
-/// chords or, at an end, twice a chord less such a mean.
-const OVER_CHORD: f64 = 6.0;
+const MAX_HALVINGS: u32 = 8;
+/// Upper limit on the error of a turn by the rounding of its times to 32 bits, in radians.
+const TIME_ERROR: f64 = 1e-3;
 
 /// One quantity of a node on its timeline, in glTF's form.
 pub struct Track<const N: usize> {
@@ -40,8 +39,8 @@ pub struct Tracks {
 }
 
 impl Tracks {
-    /// Samples a motion over a timeline.
-    pub fn of(motion: &Motion, timeline: &Timeline) -> Self {
+    /// Samples a motion over a timeline; refuses one that turns too fast for 32-bit times.
+    pub fn of(motion: &Motion, timeline: &Timeline) -> Result<Self, String> {
         let times = timeline.cut(motion.keys.iter().map(|key| key.time));
         let follow = match motion.interpolation {
             Interpolation::Linear => follow_linear,
@@ -49,12 +48,32 @@ impl Tracks {
         };
         let pose = |time: f64| motion.at(time).to_scale_rotation_translation();
         let rotation = |time: f64| pose(time).1.normalize();
-        Self {
+        let fastest = |from: f64, to: f64| motion.fastest_turn(from, to);
+        check_turns(&times, &fastest)?;
+        Ok(Self {
             translation: follow(&times, &|time| pose(time).2),
-            rotation: follow_turns(&times, &rotation, fastest_turn(motion)),
+            rotation: follow_turns(&times, &rotation, &fastest),
             scale: follow(&times, &|time| pose(time).0),
-        }
+        })
     }
+}
+
+/// Refuses a turn that the rounding of its keys' times would put to another angle.
+fn check_turns(times: &[f64], fastest: &dyn Fn(f64, f64) -> f64) -> Result<(), String> {
+    let frames = times[times.len() - 1] - times[0];
+    let speeds = times.windows(2).map(|span| fastest(span[0], span[1]));
+    let speed = speeds.fold(0.0, f64::max).to_degrees();
+    // A rounded time is wrong by at most half a unit in its 24th binary digit.
+    let allowed = (TIME_ERROR / (frames * f64::exp2(-24.0)))
+        .to_degrees()
+        .floor();
+    if speed <= allowed {
+        return Ok(());
+    }
+    Err(format!(
+        "turns by up to {speed:.0} degrees per frame; allowed: {allowed}, because glTF's 32-bit times tell {frames} frames no \
+         finer; export a scene or variant that turns more slowly"
+    ))
 }
 
 fn follow_linear(times: &[f64], value: &dyn Fn(f64) -> DVec3) -> Track<3> {
@@ -98,12 +117,16 @@ fn follow_cubic(times: &[f64], value: &dyn Fn(f64) -> DVec3) -> Track<3> {
 }
 
 /// Samples a turn with keys so dense that both ways of players are the turn's own: the shorter way at a constant angular velocity, as
-/// glTF says, and quaternions interpolated by components, as in Blender. The turn is at most as fast as `fastest`, in radians per
-/// frame.
-fn follow_turns(times: &[f64], rotation: &dyn Fn(f64) -> DQuat, fastest: f64) -> Track<4> {
+/// glTF says, and quaternions interpolated by components, as in Blender. Between two times the turn is at most as fast as `fastest`
+/// of them, in radians per frame.
+fn follow_turns(
+    times: &[f64],
+    rotation: &dyn Fn(f64) -> DQuat,
+    fastest: &dyn Fn(f64, f64) -> f64,
+) -> Track<4> {
     let mut keys = vec![(times[0], rotation(times[0]))];
     for span in times.windows(2) {
-        let steps = ((span[1] - span[0]) * fastest / WIDEST_TURN)
+        let steps = ((span[1] - span[0]) * fastest(span[0], span[1]) / WIDEST_TURN)
             .ceil()
             .max(1.0) as u32;
         let step = (span[1] - span[0]) / f64::from(steps);
@@ -152,19 +175,6 @@ fn refine(
         refine(rotation, middle, to, halvings - 1, keys);
     } else {
         keys.push((to, ends[1]));
-    }
-}
-
-/// Returns an upper limit on the angular velocity, in radians per frame.
-fn fastest_turn(motion: &Motion) -> f64 {
-    let chords = motion.keys.windows(2).map(|pair| {
-        let [from, to] = [&pair[0], &pair[1]];
-        from.turn.angle.abs() / (to.time - from.time)
-    });
-    let fastest = chords.fold(0.0, f64::max);
-    match motion.interpolation {
-        Interpolation::Linear => fastest,
-        Interpolation::Cubic => OVER_CHORD * fastest,
     }
 }
 

@@ -41,7 +41,7 @@ pub fn export_gltf(
     for material in &scene.materials {
         push_material(&mut document, &mut textures, material)?;
     }
-    push_nodes(&mut document, scene, &timeline);
+    push_nodes(&mut document, scene, &timeline)?;
     let mut roots = list_children(scene, Parent::World);
     roots.insert(0, 0);
     roots.extend(scene.sun.map(|sun| push_sun(&mut document, &sun)));
@@ -80,7 +80,7 @@ fn refuse_zoom(scene: &Scene, timeline: &Timeline) -> Result<(), Error> {
 }
 
 /// Adds the camera and all objects, with their motions.
-fn push_nodes(document: &mut Document, scene: &Scene, timeline: &Timeline) {
+fn push_nodes(document: &mut Document, scene: &Scene, timeline: &Timeline) -> Result<(), Error> {
     let meshes = push_meshes(document, scene);
     let camera = json!({
         "name": "camera",
@@ -98,20 +98,24 @@ fn push_nodes(document: &mut Document, scene: &Scene, timeline: &Timeline) {
         "name": "camera",
     });
     let mut channels = Channels::new(document, timeline);
-    channels.push_node(node, &scene.camera.motion);
+    let refuse = |what: &str, reason| Error::Usage(format!("scene {}: {what} {reason}", scene.id));
+    (channels.push_node(node, &scene.camera.motion))
+        .map_err(|reason| refuse("the camera", reason))?;
     for (index, (object, mesh)) in scene.objects.iter().zip(meshes).enumerate() {
         let node = json!({
             "children": children(Parent::Object(index)),
             "mesh": mesh,
             "name": object.name,
         });
-        let node = channels.push_node(node, &object.motion);
+        let node = (channels.push_node(node, &object.motion))
+            .map_err(|reason| refuse(&format!("object \"{}\"", object.name), reason))?;
         let shapes = &scene.meshes[object.mesh].shapes;
         if shapes.len() > 1 {
             channels.add_shapes(node, shapes);
         }
     }
     channels.finish();
+    Ok(())
 }
 
 /// Lists the nodes of the objects that move with a parent.

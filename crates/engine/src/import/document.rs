@@ -103,8 +103,9 @@ fn stand_motion(spin: Option<f64>, slide: Option<f64>) -> String {
             key += &format!(", translation = {}", vector(moved));
         }
         if let Some(speed) = spin {
-            let degrees = number(speed * time);
-            key += &format!(", rotation = {{ axis = [0, 1, 0], degrees = {degrees} }}");
+            // All digits: the angle counts, however many turns come before it.
+            let degrees = speed * time + 0.0;
+            key += &format!(", rotation = {{ axis = [0, 1, 0], degrees = {degrees:?} }}");
         }
         key + " },\n"
     };

@@ -10,6 +10,11 @@ use crate::numbers::round_to_digits;
 /// Significant digits of a score: readable, and finer than any margin.
 const DIGITS: usize = 6;
 
+/// Rounds a score as a baseline has it.
+pub(super) fn round_score(value: f64) -> f64 {
+    round_to_digits(value, DIGITS)
+}
+
 /// Options of accepting a run.
 pub struct Acceptance<'a> {
     /// Pattern of the cases to accept, by `scene/filter:preset`; none for all.
@@ -77,7 +82,7 @@ fn add_case(baseline: &mut Baseline, case: &Case) -> Result<(), Error> {
     }
     let scores = (Metric::all().into_iter()).filter_map(|metric| {
         let value = case.scores.get(metric).value()?;
-        Some((metric, round_to_digits(value, DIGITS)))
+        Some((metric, round_score(value)))
     });
     let filters = baseline.scores.entry(case.scene.clone()).or_default();
     filters.insert(case.name(), scores.collect());

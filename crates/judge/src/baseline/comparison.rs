@@ -5,10 +5,13 @@ use std::path::Path;
 
 use metrics::{Measured, Metric};
 use serde::Serialize;
-use suite::{Case, Error, ONE_SIDED, Run, plain_mean};
+use suite::{Case, Error, ONE_SIDED, Run, SceneMean, plain_mean};
+use tracer::SceneId;
 
 use crate::baseline::Baseline;
+use crate::baseline::accept::round_score;
 use crate::bounds::Margin;
+use crate::finding::settling_samples;
 use crate::outcome::Decision;
 
 /// Change of one metric of one filter since the baseline, over all scenes that it applies to.
@@ -27,19 +30,45 @@ pub struct BaselineComparison {
     /// One-sided 95 % confidence limits of that mean, the lower and the upper one.
     #[serde(rename = "bounds")]
     pub interval: [f64; 2],
-    /// Amount by which it may be worse.
+    /// Amount by which it may be worse, as a mean and on every scene.
     pub margin: f64,
+    /// Uncertainty that decided.
+    pub decided_by: DecidedBy,
+    /// Scenes that are certainly worse by more than the margin; if inconclusive, those that may be.
+    pub losses: Vec<SceneLoss>,
+    /// Samples per pixel that would settle an inconclusive comparison.
+    pub settled_by: Option<u64>,
+}
+
+/// Loss of a score on one scene.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SceneLoss {
+    pub scene: SceneId,
+    /// Amount by which the score is worse, in the metric's unit; negative is better.
+    pub worse: f64,
+    /// Upper limit on the error of that amount by the truth's noise; 0 if the score is the baseline's.
+    pub noise: f64,
+}
+
+/// Uncertainty that a verdict depends on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum DecidedBy {
+    /// Scatter over the scenes: the interval of the mean.
+    Scenes,
+    /// The truth's noise on single scenes.
+    Noise,
 }
 
 /// Verdict on a filter since the baseline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ComparisonKind {
-    /// The interval does not exceed the margin.
+    /// No scene exceeds the margin, or the interval of the mean does not.
     NoWorse,
-    /// The whole interval exceeds the margin.
+    /// A scene certainly exceeds the margin, or the whole interval of the mean does.
     Worse,
-    /// The interval contains the margin.
+    /// The truth's noise leaves both open.
     Inconclusive,
 }
 
@@ -65,8 +94,18 @@ impl BaselineComparison {
     }
 }
 
-/// Compares every case of a run with the baseline, scene by scene against the same truth, per filter and per metric with a margin. Any
-/// number of scenes decides, and the interval of one scene has no width. `path` is the baseline's file, for messages.
+impl SceneLoss {
+    fn certainly_exceeds(&self, margin: f64) -> bool {
+        self.worse - self.noise > margin
+    }
+
+    fn may_exceed(&self, margin: f64) -> bool {
+        self.worse + self.noise > margin
+    }
+}
+
+/// Compares every case of a run with the baseline, scene by scene against the same truth, per filter and per metric with a margin. A
+/// certain loss on one scene decides, however many others are as good as before. `path` is the baseline's file, for messages.
 pub fn compare_with_baseline(
     run: &Run,
     baseline: &Baseline,
@@ -90,13 +129,13 @@ pub fn compare_with_baseline(
     for filter in &names {
         for (metric, margin) in margins {
             let own = cases.iter().filter(|case| case.name() == *filter);
-            let differences =
-                own.filter_map(|case| difference(case, *metric, baseline).transpose());
-            let differences = differences
-                .collect::<Result<Vec<f64>, _>>()
-                .map_err(refuse)?;
-            if !differences.is_empty() {
-                comparisons.push(compare_scores(filter, *metric, &differences, margin.width));
+            let losses = own.filter_map(|case| find_loss(case, *metric, baseline).transpose());
+            let losses = losses.collect::<Result<Vec<SceneLoss>, _>>();
+            let losses = losses.map_err(refuse)?;
+            if !losses.is_empty() {
+                let samples = run.render.samples_per_pixel;
+                let comparison = compare_losses(filter, *metric, losses, margin.width, samples);
+                comparisons.push(comparison);
             }
         }
     }
@@ -109,29 +148,56 @@ pub fn compare_with_baseline(
     }
 }
 
-fn compare_scores(
+fn compare_losses(
     filter: &str,
     metric: Metric,
-    differences: &[f64],
+    losses: Vec<SceneLoss>,
     margin: f64,
+    samples_per_pixel: u32,
 ) -> BaselineComparison {
-    let found = plain_mean(differences, ONE_SIDED);
-    let [low, high] = found.interval;
-    let kind = if high <= margin {
-        ComparisonKind::NoWorse
-    } else if low > margin {
-        ComparisonKind::Worse
-    } else {
-        ComparisonKind::Inconclusive
+    let worse: Vec<f64> = losses.iter().map(|loss| loss.worse).collect();
+    let mean = plain_mean(&worse, ONE_SIDED);
+    let (kind, decided_by) = decide(&mean, &losses, margin);
+    let listed = |loss: &SceneLoss| match kind {
+        ComparisonKind::NoWorse => false,
+        ComparisonKind::Worse => loss.certainly_exceeds(margin),
+        ComparisonKind::Inconclusive => loss.may_exceed(margin),
     };
+    let losses: Vec<SceneLoss> = losses.into_iter().filter(listed).collect();
+    let settling = losses.iter().map(|loss| {
+        let apart = (loss.worse - margin).abs();
+        settling_samples(samples_per_pixel, loss.noise, apart)
+    });
     BaselineComparison {
         kind,
         filter: filter.to_owned(),
         metric,
-        scenes: found.scenes,
-        worse: found.mean,
-        interval: found.interval,
+        scenes: mean.scenes,
+        worse: mean.mean,
+        interval: mean.interval,
         margin,
+        decided_by,
+        settled_by: settling
+            .max()
+            .filter(|_| kind == ComparisonKind::Inconclusive),
+        losses,
+    }
+}
+
+/// Decides by single scenes if the truth's noise allows it, otherwise by the mean. More samples settle what stays open.
+fn decide(mean: &SceneMean, losses: &[SceneLoss], margin: f64) -> (ComparisonKind, DecidedBy) {
+    let [low, high] = mean.interval;
+    if losses.iter().any(|loss| loss.certainly_exceeds(margin)) {
+        (ComparisonKind::Worse, DecidedBy::Noise)
+    } else if !losses.iter().any(|loss| loss.may_exceed(margin)) {
+        (ComparisonKind::NoWorse, DecidedBy::Noise)
+    } else if mean.scenes > 1 && low > margin {
+        // The interval of one scene has no width.
+        (ComparisonKind::Worse, DecidedBy::Scenes)
+    } else if high <= margin {
+        (ComparisonKind::NoWorse, DecidedBy::Scenes)
+    } else {
+        (ComparisonKind::Inconclusive, DecidedBy::Noise)
     }
 }
 
@@ -153,7 +219,11 @@ fn check_truth(case: &Case, baseline: &Baseline) -> Result<(), String> {
 }
 
 /// Returns how much worse a case is than in the baseline; none if the metric did not apply then.
-fn difference(case: &Case, metric: Metric, baseline: &Baseline) -> Result<Option<f64>, String> {
+fn find_loss(
+    case: &Case,
+    metric: Metric,
+    baseline: &Baseline,
+) -> Result<Option<SceneLoss>, String> {
     let filters = baseline.scores.get(&case.scene);
     let Some(scores) = filters.and_then(|filters| {
         // A parameter with an overridden value is judged by its preset.
@@ -167,12 +237,101 @@ fn difference(case: &Case, metric: Metric, baseline: &Baseline) -> Result<Option
     };
     let badness = |value: f64| metric.ideal().badness(value);
     match (scores.get(&metric), case.scores.get(metric)) {
-        (Some(old), Measured::Score(new)) => Ok(Some(badness(new.value) - badness(*old))),
+        (Some(old), Measured::Score(new)) => Ok(Some(SceneLoss {
+            scene: case.scene.clone(),
+            worse: badness(new.value) - badness(*old),
+            noise: if round_score(new.value) == *old {
+                0.0
+            } else {
+                // One truth's noise is in both scores, and most of it cancels. Both half widths together are an upper limit; the
+                // baseline has none, so its half width is taken to be the same.
+                let interval = case.interval(metric);
+                interval.map_or(new.floor, |interval| interval.high - interval.low)
+            },
+        })),
         (Some(old), Measured::NotApplicable { reason }) => Err(format!(
             "{metric} of {} on {} was {old} and does not apply any more: {reason}",
             case.name(),
             case.scene
         )),
         (None, _) => Ok(None),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MARGIN: f64 = 0.1;
+
+    /// Compares a score on as many scenes as there are pairs of a loss and its noise.
+    fn compare(losses: &[(f64, f64)]) -> BaselineComparison {
+        let losses = (losses.iter().enumerate()).map(|(index, &(worse, noise))| SceneLoss {
+            scene: SceneId::new(&format!("scene_{index}"), None),
+            worse,
+            noise,
+        });
+        compare_losses("own:default", Metric::FLIP, losses.collect(), MARGIN, 64)
+    }
+
+    /// Names the scenes whose losses are listed.
+    fn listed(comparison: &BaselineComparison) -> Vec<String> {
+        let scenes = comparison.losses.iter().map(|loss| loss.scene.to_string());
+        scenes.collect()
+    }
+
+    #[test]
+    fn a_certain_loss_on_one_scene_is_a_failure_among_any_number_of_others() {
+        for others in [0, 1, 4, 25] {
+            let mut losses = vec![(0.0, 0.0); others];
+            losses.push((0.3, 0.15));
+            let comparison = compare(&losses);
+            assert_eq!(comparison.kind, ComparisonKind::Worse, "{others} others");
+            assert_eq!(comparison.decided_by, DecidedBy::Noise);
+            assert_eq!(listed(&comparison), [format!("scene_{others}")]);
+            assert_eq!(comparison.settled_by, None);
+        }
+    }
+
+    #[test]
+    fn a_score_that_improved_on_one_scene_is_no_worse_however_the_scenes_scatter() {
+        let comparison = compare(&[(-5.0, 0.2), (0.0, 0.0), (0.0, 0.0), (0.0, 0.0)]);
+        assert!(comparison.interval[1] > MARGIN, "{comparison:?}");
+        assert_eq!(comparison.kind, ComparisonKind::NoWorse);
+        assert!(comparison.losses.is_empty());
+    }
+
+    #[test]
+    fn a_loss_within_the_noise_is_open_and_names_the_samples_that_settle_it() {
+        // The noise is 3 times the distance from the margin: 16 times the samples make a quarter of it.
+        for others in [0, 3] {
+            let mut losses = vec![(0.0, 0.0); others];
+            losses.push((0.3, 0.6));
+            let comparison = compare(&losses);
+            assert_eq!(
+                comparison.kind,
+                ComparisonKind::Inconclusive,
+                "{others} others"
+            );
+            assert_eq!(comparison.decided_by, DecidedBy::Noise);
+            assert_eq!(listed(&comparison), [format!("scene_{others}")]);
+            assert_eq!(comparison.settled_by, Some(1024));
+        }
+    }
+
+    #[test]
+    fn scenes_that_are_all_worse_within_their_noise_are_worse_together() {
+        let losses = [0.2, 0.22, 0.19, 0.21, 0.2].map(|worse| (worse, 0.3));
+        let comparison = compare(&losses);
+        assert_eq!(comparison.kind, ComparisonKind::Worse);
+        assert_eq!(comparison.decided_by, DecidedBy::Scenes);
+        // One such scene alone proves nothing.
+        assert_eq!(compare(&losses[..1]).kind, ComparisonKind::Inconclusive);
+        // Among many that are as good as before, the mean is within the margin.
+        let mut many = vec![(0.0, 0.0); 20];
+        many.extend(&losses[..1]);
+        let comparison = compare(&many);
+        assert_eq!(comparison.kind, ComparisonKind::NoWorse);
+        assert_eq!(comparison.decided_by, DecidedBy::Scenes);
     }
 }

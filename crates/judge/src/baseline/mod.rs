@@ -17,7 +17,7 @@ use store::read_text;
 use suite::Error;
 
 pub use accept::{Acceptance, accept_scores};
-pub use comparison::{BaselineComparison, ComparisonKind, compare_with_baseline};
+pub use comparison::{BaselineComparison, ComparisonKind, DecidedBy, compare_with_baseline};
 
 /// Version of the layout of a baseline.
 const BASELINE_FORMAT: u32 = 1;

@@ -2,7 +2,7 @@
 
 use frame::Alignment;
 use metrics::Metric;
-use suite::{Case, InputFormat, TWO_SIDED, plain_mean};
+use suite::{Case, IDENTITY, InputFormat, TWO_SIDED, plain_mean};
 use tracer::{FrameRate, SceneId};
 
 use crate::groups::group_by;
@@ -19,8 +19,10 @@ pub struct RankedFilter {
     /// Frame rate of the scenes; none for their files' own.
     pub rate: Option<FrameRate>,
     /// Best and worst rank among the filters of its shutter: 1 plus the number of better filters, and the number of all filters less the
-    /// worse ones.
-    pub ranks: [usize; 2],
+    /// worse ones. None for no blur, a reference.
+    pub ranks: Option<[usize; 2]>,
+    /// True if it is clearly better than no blur; none if that is unknown.
+    pub beats_no_blur: Option<bool>,
     /// Mean score over the scenes.
     pub mean: f64,
     /// 95 % CI of the mean over scenes; none on a single scene.
@@ -72,20 +74,38 @@ pub fn list_summarized(cases: &[Case]) -> Vec<&Case> {
 /// Ranks filters for a summary: with full input forms, on scenes at their files' frame rate, if the run tried others as well. If there
 /// are too many presets, each filter is represented by its best one.
 pub fn rank_for_summary(cases: &[Case]) -> Vec<Vec<RankedFilter>> {
-    let full: Vec<RankedScore> = (list_summarized(cases).into_iter())
-        .filter(|case| !case.is_reference && case.input == InputFormat::default())
-        .filter_map(RankedScore::flip_of)
-        .collect();
-    rank_best(&full)
+    let flips = |is_listed: fn(&Case) -> bool| -> Vec<RankedScore> {
+        let cases = list_summarized(cases).into_iter();
+        let listed = cases.filter(|case| is_listed(case));
+        listed.filter_map(RankedScore::flip_of).collect()
+    };
+    let full = flips(|case| !case.is_reference && case.input == InputFormat::default());
+    let references = flips(|case| case.is_reference);
+    rank_best(&full, &references)
 }
 
-/// Ranks all presets; if they are too many for a summary, only the best of each filter.
-pub(crate) fn rank_best(scores: &[RankedScore]) -> Vec<Vec<RankedFilter>> {
-    let presets = rank_by_score(scores, false);
+/// Ranks all presets; if they are too many for a summary, only the best of each filter. No blur may be among the references.
+pub(crate) fn rank_best(
+    scores: &[RankedScore],
+    references: &[RankedScore],
+) -> Vec<Vec<RankedFilter>> {
+    let presets = rank_by_score(scores, references, false);
     match presets.iter().map(Vec::len).sum() {
         ..=MAX_RANKED => presets,
-        _ => rank_by_score(scores, true),
+        _ => rank_by_score(scores, references, true),
     }
+}
+
+/// Describes a ranked shutter in which no filter is clearly better than no blur; none if one is, or if no blur was not measured.
+pub fn no_gain_text(group: &[RankedFilter]) -> Option<&'static str> {
+    let mut filters = group.iter().filter(|own| own.ranks.is_some()).peekable();
+    if filters.peek().is_none() {
+        return Some("nothing but no blur was measured");
+    }
+    let is_as_bad = |own: &RankedFilter| own.beats_no_blur == Some(false);
+    filters
+        .all(is_as_bad)
+        .then_some("no filter is clearly better than no blur")
 }
 
 impl RankedScore {
@@ -103,18 +123,33 @@ impl RankedScore {
 }
 
 /// Ranks filters of one shutter and frame rate, best first: one group per shutter and rate. With `best_presets`, each filter is
-/// represented by its best preset.
+/// represented by its best preset. No blur, among the scores or the references, has a place and no rank.
 ///
 /// One filter is better than another if its mean is lower and the 95 % CI of the mean difference over their common scenes excludes 0;
 /// on a single scene, if the difference exceeds the noise floor. A filter's ranks allow for all filters that are too close to it. Being
 /// too close is not transitive, so ranges overlap.
-pub(crate) fn rank_by_score(scores: &[RankedScore], best_presets: bool) -> Vec<Vec<RankedFilter>> {
-    (group_by(scores, |own| (own.alignment, own.scene.rate)).into_iter())
-        .map(|group| rank_group(group_by(group, |own| &own.name), best_presets))
+pub(crate) fn rank_by_score(
+    scores: &[RankedScore],
+    references: &[RankedScore],
+    best_presets: bool,
+) -> Vec<Vec<RankedFilter>> {
+    let shutter = |own: &RankedScore| (own.alignment, own.scene.rate);
+    (group_by(scores, |own| shutter(own)).into_iter())
+        .map(|group| {
+            let references = references.iter();
+            let of_shutter = references.filter(|own| shutter(own) == shutter(group[0]));
+            let known = group.iter().copied().chain(of_shutter);
+            let no_blur: Vec<&RankedScore> = known.filter(|own| own.filter == IDENTITY).collect();
+            rank_group(group_by(group, |own| &own.name), &no_blur, best_presets)
+        })
         .collect()
 }
 
-fn rank_group(filters: Vec<Vec<&RankedScore>>, best_presets: bool) -> Vec<RankedFilter> {
+fn rank_group(
+    filters: Vec<Vec<&RankedScore>>,
+    no_blur: &[&RankedScore],
+    best_presets: bool,
+) -> Vec<RankedFilter> {
     let entries = filters.into_iter();
     let mut group: Vec<Entry> = entries.map(|scores| (summarize(&scores), scores)).collect();
     group.sort_by(|(a, _), (b, _)| a.mean.total_cmp(&b.mean));
@@ -124,11 +159,15 @@ fn rank_group(filters: Vec<Vec<&RankedScore>>, best_presets: bool) -> Vec<Ranked
     let is_better = |(own, scores): &Entry, (other, others): &Entry| {
         own.mean < other.mean && !are_tied(scores, others)
     };
+    let ranked = || group.iter().filter(|(own, _)| own.filter != IDENTITY);
     let rank = |own: &Entry| {
-        let better = group.iter().filter(|other| is_better(other, own));
-        let worse = group.iter().filter(|other| is_better(own, other));
+        let better = ranked().filter(|other| is_better(other, own)).count();
+        let worse = ranked().filter(|other| is_better(own, other)).count();
+        let is_ranked = own.0.filter != IDENTITY;
+        let is_compared = is_ranked && !no_blur.is_empty();
         RankedFilter {
-            ranks: [1 + better.count(), group.len() - worse.count()],
+            ranks: is_ranked.then(|| [1 + better, ranked().count() - worse]),
+            beats_no_blur: is_compared.then(|| is_clearly_better(&own.1, no_blur)),
             ..own.0.clone()
         }
     };
@@ -136,17 +175,23 @@ fn rank_group(filters: Vec<Vec<&RankedScore>>, best_presets: bool) -> Vec<Ranked
 }
 
 impl RankedFilter {
-    /// Formats its rank, or the range of its ranks: `1`, `2-4`.
+    /// Formats its rank, or the range of its ranks: `1`, `2-4`, `-`.
     pub fn rank_text(&self) -> String {
         match self.ranks {
-            [first, last] if first == last => first.to_string(),
-            [first, last] => format!("{first}-{last}"),
+            None => "-".to_owned(),
+            Some([first, last]) if first == last => first.to_string(),
+            Some([first, last]) => format!("{first}-{last}"),
         }
+    }
+
+    /// Returns whether no other filter is certainly better.
+    pub fn may_be_best(&self) -> bool {
+        self.ranks.is_some_and(|[first, _]| first == 1)
     }
 
     /// Returns whether other filters are too close to it to rank.
     pub fn is_tied(&self) -> bool {
-        self.ranks[0] < self.ranks[1]
+        self.ranks.is_some_and(|[first, last]| first < last)
     }
 }
 
@@ -163,7 +208,8 @@ fn summarize(scores: &[&RankedScore]) -> RankedFilter {
         filter: first.filter.clone(),
         alignment: first.alignment,
         rate: first.scene.rate,
-        ranks: [1, 1],
+        ranks: None,
+        beats_no_blur: None,
         mean: mean.mean,
         interval: (values.len() > 1).then_some(mean.interval),
         scenes: values.len(),
@@ -182,12 +228,17 @@ fn keep_best_presets(group: Vec<Entry>) -> Vec<Entry> {
     best.collect()
 }
 
-fn are_tied(a: &[&RankedScore], b: &[&RankedScore]) -> bool {
+/// Pairs the scores of two filters on their common scenes: by how much the second is worse, and the larger floor.
+fn pair(a: &[&RankedScore], b: &[&RankedScore]) -> (Vec<f64>, Vec<f64>) {
     let pairs = a.iter().filter_map(|score| {
         let other = b.iter().find(|other| other.scene == score.scene)?;
         Some((other.value - score.value, score.floor.max(other.floor)))
     });
-    let (differences, floors): (Vec<f64>, Vec<f64>) = pairs.unzip();
+    pairs.unzip()
+}
+
+fn are_tied(a: &[&RankedScore], b: &[&RankedScore]) -> bool {
+    let (differences, floors) = pair(a, b);
     match differences.as_slice() {
         [] => false,
         [difference] => difference.abs() <= floors[0],
@@ -198,36 +249,103 @@ fn are_tied(a: &[&RankedScore], b: &[&RankedScore]) -> bool {
     }
 }
 
+/// Returns whether a filter is better than another in the mean, by its 95 % CI, or on every common scene by more than the noise floor.
+fn is_clearly_better(own: &[&RankedScore], other: &[&RankedScore]) -> bool {
+    let (differences, floors) = pair(own, other);
+    let mut both = differences.iter().zip(&floors);
+    if differences.is_empty() {
+        return false;
+    }
+    both.all(|(difference, floor)| difference > floor)
+        || differences.len() > 1 && plain_mean(&differences, TWO_SIDED).interval[0] > 0.0
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    #[test]
-    fn on_one_scene_the_larger_floor_of_two_filters_ties_them() {
-        let score = |name: &str, value, floor| RankedScore {
-            scene: SceneId::new("fan", None),
+    fn score(name: &str, scene: usize, value: f64, floor: f64) -> RankedScore {
+        RankedScore {
+            scene: SceneId::new(format!("scene_{scene}"), None),
             filter: name.to_owned(),
             name: name.to_owned(),
             alignment: Alignment::Trailing,
             value,
             floor,
+        }
+    }
+
+    /// Ranks filters, with their values per scene and a floor of 0.01, next to no blur as a reference.
+    fn rank(filters: &[(&str, &[f64])], no_blur: &[f64]) -> Vec<RankedFilter> {
+        let scores = |name: &str, values: &[f64]| -> Vec<RankedScore> {
+            let scores = values.iter().enumerate();
+            scores
+                .map(|(scene, value)| score(name, scene, *value, 0.01))
+                .collect()
         };
+        let filters = filters
+            .iter()
+            .flat_map(|(name, values)| scores(name, values));
+        let groups = rank_by_score(
+            &filters.collect::<Vec<_>>(),
+            &scores(IDENTITY, no_blur),
+            false,
+        );
+        groups.concat()
+    }
+
+    #[test]
+    fn on_one_scene_the_larger_floor_of_two_filters_ties_them() {
         let scores = [
-            score("worst", 0.130, 0.010),
-            score("best", 0.100, 0.020),
-            score("second", 0.115, 0.010),
+            score("worst", 0, 0.130, 0.010),
+            score("best", 0, 0.100, 0.020),
+            score("second", 0, 0.115, 0.010),
         ];
         // 0.015 is within the floor of the best, and beyond those of the other two.
-        let [ranking] = &rank_by_score(&scores, false)[..] else {
+        let [ranking] = &rank_by_score(&scores, &[], false)[..] else {
             panic!("one shutter");
         };
-        let ranks: Vec<_> = ranking
-            .iter()
-            .map(|own| (own.name.as_str(), own.ranks))
+        let ranks: Vec<_> = (ranking.iter())
+            .map(|own| (own.name.as_str(), own.rank_text()))
             .collect();
-        assert_eq!(
-            ranks,
-            [("best", [1, 2]), ("second", [1, 2]), ("worst", [3, 3])]
+        let expected = [("best", "1-2"), ("second", "1-2"), ("worst", "3")];
+        assert_eq!(ranks, expected.map(|(name, rank)| (name, rank.to_owned())));
+    }
+
+    #[test]
+    fn no_blur_has_a_place_and_no_rank() {
+        let ranking = rank(
+            &[(IDENTITY, &[0.1]), ("worse", &[0.2]), ("worst", &[0.3])],
+            &[],
         );
+        let ranks: Vec<String> = ranking.iter().map(RankedFilter::rank_text).collect();
+        assert_eq!(ranks, ["-", "1", "2"]);
+        assert!(!ranking[0].may_be_best() && ranking[1].may_be_best());
+    }
+
+    #[test]
+    fn a_gain_over_no_blur_is_said_to_be_missing_unless_a_filter_has_one() {
+        let missing = Some("no filter is clearly better than no blur");
+        for (filters, no_blur, expected) in [
+            (&[("own", &[0.2][..])][..], &[0.1][..], missing),
+            (&[("own", &[0.095])], &[0.1], missing),
+            (&[("own", &[0.08])], &[0.1], None),
+            (&[("own", &[0.2]), ("other", &[0.08])], &[0.1], None),
+            // Two scenes give a wide interval, but the filter is better on both.
+            (&[("own", &[0.08, 0.2])], &[0.1, 0.9], None),
+            (&[("own", &[0.08, 0.2])], &[0.1, 0.15], missing),
+            (&[("own", &[0.2])], &[], None),
+            (
+                &[(IDENTITY, &[0.2])],
+                &[],
+                Some("nothing but no blur was measured"),
+            ),
+        ] {
+            assert_eq!(
+                no_gain_text(&rank(filters, no_blur)),
+                expected,
+                "{filters:?}"
+            );
+        }
     }
 }

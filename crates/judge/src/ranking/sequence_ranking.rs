@@ -26,13 +26,17 @@ pub struct RankedSequence {
 /// rank.
 pub fn rank_sequences(run: &Run) -> Vec<Vec<RankedSequence>> {
     let is_full = |_: &Sequence, case: &Case| case.input == InputFormat::default();
-    rank(run, is_full, rank_best)
+    rank(run, is_full, |losses| {
+        rank_best(losses, &list_references(run))
+    })
 }
 
 /// Ranks the sequences of one scene, every preset in every input form.
 pub fn rank_sequences_on(run: &Run, scene: &SceneId) -> Vec<Vec<RankedSequence>> {
     let is_of_scene = |own: &Sequence, _: &Case| own.scene == *scene;
-    rank(run, is_of_scene, |losses| rank_by_score(losses, false))
+    rank(run, is_of_scene, |losses| {
+        rank_by_score(losses, &list_references(run), false)
+    })
 }
 
 /// Lists the sequences of filters, each with the case of its first frame.
@@ -54,7 +58,9 @@ fn rank(
 ) -> Vec<Vec<RankedSequence>> {
     let mut own = list_filters(run);
     own.retain(|(sequence, case)| is_ranked(sequence, case));
-    let losses: Vec<RankedScore> = own.iter().filter_map(loss_of).collect();
+    let losses = own.iter();
+    let losses = losses.filter_map(|(sequence, case)| loss_of(sequence, &case.filter));
+    let losses: Vec<RankedScore> = losses.collect();
     let with_means = |lost: RankedFilter| {
         let sequences: Vec<&Sequence> = (own.iter().map(|(sequence, _)| *sequence))
             .filter(|own| own.name == lost.name && own.alignment == lost.alignment)
@@ -72,14 +78,21 @@ fn rank(
         .collect()
 }
 
+/// Lists the losses of the reference pictures' sequences.
+fn list_references(run: &Run) -> Vec<RankedScore> {
+    let references = run.sequences.iter().filter(|own| own.is_reference);
+    let losses = references.filter_map(|own| loss_of(own, &own.name));
+    losses.collect()
+}
+
 /// Computes a sequence's JOD below perfect, and the JOD that the truth's noise may account for.
-fn loss_of((own, case): &(&Sequence, &Case)) -> Option<RankedScore> {
+fn loss_of(own: &Sequence, filter: &str) -> Option<RankedScore> {
     let Measured::Score(score) = own.scores.get(RANKED_BY) else {
         return None;
     };
     Some(RankedScore {
         scene: own.scene.clone(),
-        filter: case.filter.clone(),
+        filter: filter.to_owned(),
         name: own.name.clone(),
         alignment: own.alignment,
         value: PERFECT_JOD - score.value,

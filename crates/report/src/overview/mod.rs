@@ -8,7 +8,7 @@ mod score_table;
 mod winners;
 
 use costs::costs;
-use judge::{Level, lag_text};
+use judge::{Decision, Level, Verdict, lag_text};
 use maud::{Markup, html};
 use metrics::{Ideal, Metric};
 use score_table::score_table;
@@ -37,13 +37,18 @@ const TABLE_SCORES: [(Metric, &str); 9] = [
 ];
 
 /// Shows the scores of all cases, costs, and what the run depended on. `thumbnails` are addresses of the scenes' truths.
-pub fn overview(table: &CaseTable, views: &[CaseView], thumbnails: &[String]) -> Markup {
+pub fn overview(
+    table: &CaseTable,
+    views: &[CaseView],
+    thumbnails: &[String],
+    verdict: Option<&Verdict>,
+) -> Markup {
     let findings = || views.iter().flat_map(|view| &view.findings);
     let required = Tally::of(findings(), Level::Required);
     let is_checked = required.all > 0;
     html! {
         section #overview {
-            @if is_checked { (outcome(&required)) }
+            @if let Some(verdict) = verdict { (outcome(verdict, &required)) }
             (winners(table))
             (sequence_winners(table.run))
             (counts(table, &Tally::of(findings(), Level::Report)))
@@ -79,17 +84,23 @@ pub fn overview(table: &CaseTable, views: &[CaseView], thumbnails: &[String]) ->
     }
 }
 
-/// States whether a check passes.
-fn outcome(required: &Tally) -> Markup {
-    let (class, word) = match (required.broken, required.undecided) {
-        (0, 0) => ("met", "PASS"),
-        (0, _) => ("undecided", "UNDECIDED"),
-        (_, _) => ("broken", "FAIL"),
+/// States whether a check passes, and why not.
+fn outcome(verdict: &Verdict, required: &Tally) -> Markup {
+    let class = match verdict.decision {
+        Decision::Pass => "met",
+        Decision::Broken => "broken",
+        Decision::Inconclusive | Decision::Misconfigured => "undecided",
     };
     html! {
         p.outcome {
-            strong class=(class) { (word) } " "
-            (counted(required.all, "required bound")) ": " (required.broken) " broken, " (required.undecided) " too noisy to decide."
+            strong class=(class) { (verdict.decision.word()) }
+            @if let Some(reason) = &verdict.reason { ": " (reason) "." }
+            @if required.all > 0 {
+                " " (counted(required.all, "required bound")) ": " (required.broken) " broken, " (required.undecided) " too noisy to decide."
+            }
+        }
+        @if !verdict.comparisons.is_empty() {
+            ul { @for line in &verdict.comparisons { li { (line) } } }
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The best filters of every shutter.
 
-use judge::{RANKED_BY, RankedFilter, rank_for_summary, rank_sequences};
+use judge::{RANKED_BY, RankedFilter, no_gain_text, rank_for_summary, rank_sequences};
 use maud::{Markup, html};
 use metrics::Metric;
 use suite::{FilterId, Run};
@@ -30,8 +30,8 @@ pub fn winners(table: &CaseTable) -> Markup {
         ul.winners {
             @for group in &rank_for_summary(&table.run.cases) {
                 li {
-                    "Best " (first_rank(group, "FLIP", number, link, weakest))
-                    @if let Some(last) = group.last().filter(|own| own.ranks[0] > 1) {
+                    (first_rank(group, "Best", "FLIP", number, link, weakest))
+                    @if let Some(last) = group.last().filter(|own| !own.may_be_best()) {
                         "; worst: " (link(last)) " (" (number(last.mean)) ")"
                     }
                     "."
@@ -52,7 +52,7 @@ pub fn sequence_winners(run: &Run) -> Markup {
             ul.winners {
                 @for group in &groups {
                     @let ranked: Vec<RankedFilter> = group.iter().map(|own| own.ranked.clone()).collect();
-                    li { "Best sequences " (first_rank(&ranked, "JOD", number, name, scene)) "." }
+                    li { (first_rank(&ranked, "Best sequences", "JOD", number, name, scene)) "." }
                 }
             }
             p.note {
@@ -62,22 +62,32 @@ pub fn sequence_winners(run: &Run) -> Markup {
     }
 }
 
-/// Names the filters that share the first rank, and the first one's weakest scene.
+/// Names the filters that share the first rank, and the first one's weakest scene; before them that none is better than no blur, if so.
 fn first_rank(
     group: &[RankedFilter],
+    title: &str,
     score: &str,
     number: impl Fn(f64) -> String,
     name: impl Fn(&RankedFilter) -> Markup,
     weakest: impl Fn(&RankedFilter) -> Markup,
 ) -> Markup {
-    let best = &group[0];
-    let ties = group[1..].iter().filter(|own| own.ranks[0] == 1);
+    let mut first = group.iter().filter(|own| own.may_be_best());
+    let best = first.next();
+    let no_gain = no_gain_text(group);
+    let RankedFilter {
+        alignment, rate, ..
+    } = &group[0];
     html! {
-        "with a " (best.alignment) " shutter" @if let Some(rate) = best.rate { " at " (rate.text()) }
-        ": " strong { (name(best)) } ", " (score) " " strong { (number(best.mean)) }
-        @if let Some([low, high]) = best.interval { " (95 % CI " (number(low)) " to " (number(high)) ")" }
-        "; weakest on " (weakest(best)) " (" (number(best.worst.1)) ")"
-        @for (index, own) in ties.enumerate() {
+        (if no_gain.is_some() { "With a " } else { title }) @if no_gain.is_none() { " with a " }
+        (alignment) " shutter" @if let Some(rate) = rate { " at " (rate.text()) }
+        @if let Some(text) = no_gain { " " strong { (text) } }
+        @if let Some(best) = best {
+            (if no_gain.is_some() { "; first: " } else { ": " })
+            strong { (name(best)) } ", " (score) " " strong { (number(best.mean)) }
+            @if let Some([low, high]) = best.interval { " (95 % CI " (number(low)) " to " (number(high)) ")" }
+            "; weakest on " (weakest(best)) " (" (number(best.worst.1)) ")"
+        }
+        @for (index, own) in first.enumerate() {
             (if index == 0 { "; too close to tell apart: " } else { ", " }) (name(own)) " (" (number(own.mean)) ")"
         }
     }

@@ -9,7 +9,7 @@ use crate::motion::lens::LensPoint;
 use crate::scene::{Camera, Lens};
 
 /// A camera at one time, with a picture size.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
     /// Transform from camera to world.
     pub to_world: DAffine3,
@@ -20,6 +20,23 @@ pub struct View {
     half: [f64; 2],
     /// Lens; none for a pinhole.
     lens: Option<Lens>,
+}
+
+/// The derivative of a [`View`] by time, per frame.
+#[derive(Clone, Copy)]
+pub(crate) struct ViewRate {
+    /// Derivative of the transform from camera to world; its last row is zero.
+    to_world: DAffine3,
+    /// Derivative of the focal length, in pixels.
+    focal: f64,
+}
+
+impl ViewRate {
+    /// The rate of a camera that stands still.
+    pub const STILL: Self = Self {
+        to_world: DAffine3::ZERO,
+        focal: 0.0,
+    };
 }
 
 /// What a camera may see.
@@ -54,15 +71,22 @@ impl Camera {
         inside.chain([from, to]).collect()
     }
 
-    /// The curve of the field of view around `time`, and the time that it counts from.
-    fn vertical_fov_curve(&self, time: f64) -> (f64, Cubic<f64>) {
-        let keys = self.vertical_fov.as_slice();
-        let keyed = Keyed {
-            keys,
+    fn keyed_fov(&self) -> Keyed<'_, (f64, f64)> {
+        Keyed {
+            keys: &self.vertical_fov,
             time: |(time, _): &(f64, f64)| *time,
             interpolation: self.motion.interpolation,
-        };
-        let segment = keyed.segment(time);
+        }
+    }
+
+    /// The curve of the field of view around `time`, and the time that it counts from.
+    fn vertical_fov_curve(&self, time: f64) -> (f64, Cubic<f64>) {
+        self.fov_curve_at(self.keyed_fov().segment(time))
+    }
+
+    fn fov_curve_at(&self, segment: usize) -> (f64, Cubic<f64>) {
+        let keyed = self.keyed_fov();
+        let keys = keyed.keys;
         let chord = |from: usize| (keys[from + 1].1 - keys[from].1) / keyed.duration(from);
         let curve = keyed.curve(segment, |key| keys[key].1, chord);
         (keys[keyed.anchor(segment)].0, curve)
@@ -78,6 +102,16 @@ impl Camera {
             focal: half[1] / (0.5 * self.vertical_fov_at(time)).tan(),
             half,
             lens: self.lens,
+        }
+    }
+
+    /// The derivative of `view`, this camera's at `time` (frames), just before that time.
+    pub(crate) fn view_rate_before(&self, time: f64, view: &View) -> ViewRate {
+        let (start, fov) = self.fov_curve_at(self.keyed_fov().segment_before(time));
+        let fov_rate = fov.slope(time - start);
+        ViewRate {
+            to_world: self.motion.rate_before(time),
+            focal: -view.focal * fov_rate / self.vertical_fov_at(time).sin(),
         }
     }
 }
@@ -128,6 +162,37 @@ impl View {
                 self.half[1] - self.focal * seen.y / depth,
             ]
         })
+    }
+
+    /// The derivative of a target's projection and depth: pixels per frame, +x right, +y down, then metres per frame away from
+    /// the camera. The target moves by `velocity` metres per frame in the world, and the view by `rate`. None behind the camera.
+    pub(crate) fn velocity_of(
+        &self,
+        target: Target,
+        velocity: DVec3,
+        rate: &ViewRate,
+    ) -> Option<[f64; 3]> {
+        let (seen, relative) = match target {
+            Target::Point(point) => {
+                let seen = self.to_camera.transform_point3(point);
+                (seen, velocity - rate.to_world.transform_point3(seen))
+            }
+            Target::Infinity(direction) => {
+                let seen = self.to_camera.transform_vector3(direction);
+                (seen, -rate.to_world.transform_vector3(seen))
+            }
+        };
+        let seen_rate = self.to_camera.transform_vector3(relative);
+        let depth = -seen.z;
+        let across = |axis: usize| {
+            let slope = seen_rate[axis] + seen[axis] * seen_rate.z / depth;
+            (self.focal * slope + rate.focal * seen[axis]) / depth
+        };
+        let away = match target {
+            Target::Point(_) => -seen_rate.z,
+            Target::Infinity(_) => 0.0,
+        };
+        (depth > 0.0).then(|| [across(0), -across(1), away])
     }
 
     /// Projects a target through a point of the lens: the place whose ray through that point meets it.

@@ -112,6 +112,11 @@ impl<K> Keyed<'_, K> {
         self.keys.partition_point(|key| (self.time)(key) <= time)
     }
 
+    /// The segment just before `time`; at a key, the one that ends there.
+    pub fn segment_before(&self, time: f64) -> usize {
+        self.keys.partition_point(|key| (self.time)(key) < time)
+    }
+
     /// The key that a segment's curves count their time from.
     pub fn anchor(&self, segment: usize) -> usize {
         segment.saturating_sub(1)

@@ -1,6 +1,6 @@
 //! Motion through keys: position, orientation and scale.
 
-use glam::{DAffine3, DQuat, DVec3};
+use glam::{DAffine3, DMat3, DQuat, DVec3};
 
 use crate::motion::curve::{Cubic, Keyed};
 use crate::scene::{Interpolation, Key, Motion, Turn};
@@ -30,6 +30,23 @@ impl Motion {
     /// Transform from the object's space to its parent's at `time` (frames).
     pub fn at(&self, time: f64) -> DAffine3 {
         self.segment(time).at(time)
+    }
+
+    /// The derivative of [`Motion::at`] just before `time` (frames), per frame.
+    pub(crate) fn rate_before(&self, time: f64) -> DAffine3 {
+        self.segment_at(self.keyed().segment_before(time))
+            .rate(time)
+    }
+
+    /// An upper limit on the angular velocity within `[from, to]`, an interval without keys inside, in radians per frame;
+    /// exact if the motion is linear.
+    pub fn fastest_turn(&self, from: f64, to: f64) -> f64 {
+        let segment = self.segment(0.5 * (from + to));
+        let [from, to] = [from, to].map(|time| segment.since(time));
+        let speeds = segment
+            .turns()
+            .map(|turn| turn.angle.maxima(from, to, f64::abs).slope);
+        speeds.sum()
     }
 
     /// The segment that contains `time`; at a key, the one that begins there.
@@ -125,6 +142,29 @@ impl Segment {
             turn * self.orientation,
             self.translation.at(since),
         )
+    }
+
+    /// The derivative of the pose at `time` (frames), per frame. Its last row is zero.
+    fn rate(&self, time: f64) -> DAffine3 {
+        let since = self.since(time);
+        let mut orientation = self.orientation;
+        // Angular velocity in the parent's axes, radians per frame.
+        let mut spin = DVec3::ZERO;
+        for turn in self.turns() {
+            let rotation = turn.at(since);
+            spin = rotation * spin + turn.angle.slope(since) * turn.axis;
+            orientation = rotation * orientation;
+        }
+        let axes = DMat3::from_quat(orientation);
+        let [scale, growth] = [self.scale.at(since), self.scale.slope(since)];
+        let columns = [0, 1, 2].map(|index| {
+            let axis = axes.col(index);
+            scale[index] * spin.cross(axis) + growth[index] * axis
+        });
+        DAffine3 {
+            matrix3: DMat3::from_cols(columns[0], columns[1], columns[2]),
+            translation: self.translation.slope(since),
+        }
     }
 
     /// Frames since the start, as the curves count them.

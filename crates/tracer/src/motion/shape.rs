@@ -21,11 +21,15 @@ struct Between<'a> {
 impl Mesh {
     /// The mesh at `time` (frames).
     pub(crate) fn at(&self, time: f64) -> ShapeAt<'_> {
+        let next = self.shapes.partition_point(|shape| shape.time <= time);
+        self.between(next, time)
+    }
+
+    /// The mesh at `time` (frames), between the shape `next` and the one before it.
+    fn between(&self, next: usize, time: f64) -> ShapeAt<'_> {
         let last = self.shapes.len().saturating_sub(1);
         let between = (last > 0).then(|| {
-            let next = (self.shapes)
-                .partition_point(|shape| shape.time <= time)
-                .clamp(1, last);
+            let next = next.clamp(1, last);
             let [from, to] = [&self.shapes[next - 1], &self.shapes[next]];
             Between {
                 shapes: [from, to],
@@ -36,6 +40,19 @@ impl Mesh {
             mesh: self,
             between,
         }
+    }
+
+    /// The velocity of a point of a triangle just before `time` (frames), in the object's space, metres per frame.
+    pub(crate) fn velocity_before(&self, time: f64, triangle: u32, weights: [f64; 2]) -> DVec3 {
+        let next = self.shapes.partition_point(|shape| shape.time < time);
+        let Some(Between { shapes, .. }) = self.between(next, time).between else {
+            return DVec3::ZERO;
+        };
+        let [from, to] = shapes.map(|shape| {
+            let shape_at = self.between(next, shape.time);
+            shape_at.point(triangle, weights)
+        });
+        (to - from) / (shapes[1].time - shapes[0].time)
     }
 
     /// Returns true if the mesh changes its shape.

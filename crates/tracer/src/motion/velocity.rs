@@ -4,12 +4,8 @@ use frame::{Camera, Reprojection, VelocityKind};
 use glam::DVec3;
 
 use crate::geometry::ray::Hit;
-use crate::motion::camera::Target;
+use crate::motion::camera::{Target, ViewRate};
 use crate::scene::Scene;
-
-/// Step of the difference quotient, in frames. The error is the third derivative times the step squared over 3: 1e-3 pixels
-/// for ten turns per frame at a radius of 100 pixels. Rounding adds about 1e-6 pixels.
-const STEP: f64 = 1e-5;
 
 /// Motion and points of a velocity buffer: the right ones, or a broken buffer's.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -114,8 +110,8 @@ impl TrackedPoint {
     ///
     /// The derivative is taken from the left. At a key on that time, where a motion may have a corner, that is the side that
     /// an engine sees, which compares with the frame before. A point that is behind the camera at the other frame has no
-    /// position there and gets the derivative. A point that was behind it just before gets zero. The motion to a place after is a
-    /// difference for every kind.
+    /// position there and gets the derivative. The motion to a place after is a difference for every kind. What stands still
+    /// under a still camera has a velocity of exactly 0.
     pub fn velocity(
         &self,
         scene: &Scene,
@@ -129,19 +125,43 @@ impl TrackedPoint {
             let passed = difference(at(now)?, at(now - motion.over)?);
             Some(passed.map(|part| part * motion.over.signum()))
         };
-        let derivative = || {
-            let [now, then, before] = [at(now)?, at(now - STEP)?, at(now - 2.0 * STEP)?];
-            Some(std::array::from_fn(|axis| {
-                (3.0 * now[axis] - 4.0 * then[axis] + before[axis]) / (2.0 * STEP)
-            }))
-        };
+        let derivative = || self.derivative(scene, size, motion);
         // Matrices that were never set make a jump, which has no derivative.
-        match (kind, motion.objects_before) {
+        let velocity = match (kind, motion.objects_before) {
             (_, ObjectsBefore::Identity) => frame_difference(),
             (VelocityKind::Instantaneous, _) if motion.over > 0.0 => derivative(),
             _ => frame_difference().or_else(derivative),
-        }
-        .unwrap_or([0.0; 3])
+        };
+        // Adding 0 makes -0 to 0, which has another direction.
+        velocity.unwrap_or([0.0; 3]).map(|part| part + 0.0)
+    }
+
+    /// The derivative of [`TrackedPoint::project`] at the time of the motion, from the left; none behind the camera.
+    fn derivative(
+        &self,
+        scene: &Scene,
+        [width, height]: [u32; 2],
+        motion: &PointMotion,
+    ) -> Option<[f64; 3]> {
+        let now = motion.moved_at;
+        let view = scene.camera.view(now, width, height);
+        let view_rate = if motion.camera_stands {
+            ViewRate::STILL
+        } else {
+            scene.camera.view_rate_before(now, &view)
+        };
+        let (target, velocity) = match *self {
+            TrackedPoint::Surface(hit) => {
+                let (point, velocity) = surface_motion(scene, &hit, now);
+                let velocity = match motion.objects_before {
+                    ObjectsBefore::Now => DVec3::ZERO,
+                    ObjectsBefore::Own | ObjectsBefore::Identity => velocity,
+                };
+                (Target::Point(point), velocity)
+            }
+            TrackedPoint::Infinity(direction) => (Target::Infinity(direction), DVec3::ZERO),
+        };
+        view.velocity_of(target, velocity, &view_rate)
     }
 
     /// The place in the picture at `time` (frames), in pixels, and the depth in metres, 0 at infinity; none behind the camera.
@@ -178,9 +198,29 @@ impl TrackedPoint {
     }
 }
 
+/// The place of a point of a surface in the world at `time` (frames), and its velocity just before, metres per frame.
+fn surface_motion(scene: &Scene, hit: &Hit, time: f64) -> (DVec3, DVec3) {
+    let mesh = &scene.meshes[scene.objects[hit.object].mesh];
+    let point = mesh.at(time).point(hit.triangle, hit.weights);
+    let velocity = mesh.velocity_before(time, hit.triangle, hit.weights);
+    let outwards = scene.motion_chain(hit.object).into_iter();
+    outwards.fold((point, velocity), |(point, velocity), motion| {
+        let pose = motion.at(time);
+        let rate = motion.rate_before(time);
+        (
+            pose.transform_point3(point),
+            rate.transform_point3(point) + pose.transform_vector3(velocity),
+        )
+    })
+}
+
 /// The map from this frame's picture to the last one's, for points that stand still in the world.
 pub(crate) fn reprojection(scene: &Scene, [width, height]: [u32; 2]) -> Reprojection {
     let [now, then] = [0.0, -1.0].map(|time| scene.camera.view(time, width, height));
+    if now == then {
+        // Without rounding, so that a point keeps its place exactly.
+        return Reprojection::STILL;
+    }
     Reprojection {
         rows: now.to_picture_of(&then),
     }
@@ -207,7 +247,7 @@ pub(crate) fn camera_velocity(
 /// The earliest time that a velocity depends on, in frames.
 pub(crate) fn earliest_time(kind: VelocityKind) -> f64 {
     match kind {
-        VelocityKind::Instantaneous => -2.0 * STEP,
+        VelocityKind::Instantaneous => 0.0,
         VelocityKind::PreviousFrame | VelocityKind::CameraOnly => -1.0,
     }
 }

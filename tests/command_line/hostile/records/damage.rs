@@ -63,7 +63,7 @@ fn read_everywhere(changed: &Path, whole: &StoredRun) -> Result<(), Error> {
     };
     let _: Result<Baseline, Error> = accept_scores(&side.run, None, &how);
     let page = folder.join("page.html");
-    write_report(&side.run, &[], folder, &page, LARGEST_PAGE).map(drop)
+    write_report(&side.run, &[], None, folder, &page, LARGEST_PAGE).map(drop)
 }
 
 /// Changes every value of a run.json `most` times; scores, which are many and alike, once.
