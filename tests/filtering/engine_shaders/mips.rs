@@ -27,7 +27,11 @@ fn drawn() -> FilterFiles {
     let drawn = drawn.changed("filter.toml", WRITTEN, "");
     // It has no sampler.
     let read = "level = \"iteration\"\n";
-    drawn.changed("filter.toml", &format!("{read}sampler = \"nearest\"\n"), read)
+    drawn.changed(
+        "filter.toml",
+        &format!("{read}sampler = \"nearest\"\n"),
+        read,
+    )
 }
 
 /// Computes the level of the pyramid by hand.
