@@ -11,6 +11,7 @@ mod invariants;
 mod jump_flood_findings;
 mod jump_flood_packed;
 mod jump_flood_reference;
+mod keys;
 mod pass_times;
 mod preset_sources;
 mod reference;

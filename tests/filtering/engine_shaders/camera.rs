@@ -15,9 +15,15 @@ const REVERSED: &str = "depth = \"reversed\"\nnear = 0.1";
 /// Makes a filter from a shader that writes the velocity given by depth and the camera, in pixels. `bindings` are those of depth, the
 /// picture and the block.
 fn declare(file: &str, [depth, picture, block]: [u32; 3], convention: &str) -> FilterFiles {
+    // Only GLSL has the texture and its sampler in one variable.
+    let sampler = if file.ends_with(".comp") {
+        "sampler = \"nearest\"\n"
+    } else {
+        ""
+    };
     let declarations = format!(
         "[convention]\n{convention}\n[[pass]]\nshader = \"{file}\"\n\
-         [[pass.binding]]\nbinding = {depth}\ntexture = \"depth\"\nsampler = \"nearest\"\n\
+         [[pass.binding]]\nbinding = {depth}\ntexture = \"depth\"\n{sampler}\
          [[pass.binding]]\nbinding = {picture}\ntexture = \"output\"\n\
          [[pass.binding]]\nbinding = {block}\nvalues = {{ padding = 0, previous = \"previous_view_projection\" }}\n"
     );

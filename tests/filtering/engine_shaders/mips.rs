@@ -24,7 +24,14 @@ fn pyramid() -> FilterFiles {
 /// Makes the pyramid with fragment shaders.
 fn drawn() -> FilterFiles {
     let drawn = pyramid().changed("filter.toml", DRAWN.0, DRAWN.1);
-    drawn.changed("filter.toml", WRITTEN, "")
+    let drawn = drawn.changed("filter.toml", WRITTEN, "");
+    // It has no sampler.
+    let read = "level = \"iteration\"\n";
+    drawn.changed(
+        "filter.toml",
+        &format!("{read}sampler = \"nearest\"\n"),
+        read,
+    )
 }
 
 /// Computes the level of the pyramid by hand.

@@ -56,7 +56,7 @@ fn busy_picture() -> Picture {
 }
 
 /// Blurs the busy picture with the first preset.
-fn blur_busy(files: &FilterFiles) -> Image {
+pub fn blur_busy(files: &FilterFiles) -> Image {
     let filter = files.load().unwrap();
     blur(&filter, &filter.settings(None).unwrap(), &busy_picture())
 }

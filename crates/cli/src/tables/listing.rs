@@ -83,6 +83,9 @@ pub fn filter_json(filter: &Filter) -> serde_json::Value {
         "name": filter.name,
         "summary": filter.summary,
         "source": filter.source,
+        "reach": filter.reach,
+        "cannot": filter.cannot,
+        "mirror_symmetric": filter.mirror_symmetric,
         "alignment": filter.alignment.name(),
         "command": filter.command.as_ref().map(|command| &command.words),
         "environment": filter.command.as_ref().map(|command| &command.environment),
@@ -105,7 +108,18 @@ fn push_filter(text: &mut String, filter: &Filter) {
     let title = format!("{}  (shutter: {})", filter.name, filter.alignment);
     push_wrapped(text, 2, &title);
     push_wrapped(text, 4, &filter.summary);
-    push_wrapped(text, 4, &format!("cannot: {}", filter.cannot));
+    for (label, said) in [
+        ("source", &filter.source),
+        ("reach", &filter.reach),
+        ("cannot", &filter.cannot),
+    ] {
+        if !said.is_empty() {
+            push_wrapped(text, 4, &format!("{label}: {said}"));
+        }
+    }
+    if filter.mirror_symmetric {
+        push_wrapped(text, 4, "a mirrored frame gives the mirrored output");
+    }
     for line in filter.list_compilers() {
         push_wrapped(text, 4, &line);
     }

@@ -104,6 +104,8 @@ pub(crate) struct Binding {
     pub sampling: Sampling,
     /// Values of a uniform block, by member.
     pub values: Vec<(String, Vec<Expression>)>,
+    /// Keys that filter.toml has for it, except those of its place.
+    pub keys: Vec<&'static str>,
     /// Line in filter.toml.
     pub line: usize,
 }

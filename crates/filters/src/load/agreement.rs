@@ -164,7 +164,7 @@ impl Filter {
         let before = self.history.iter().map(|history| history.texture());
         let inputs = INPUTS.into_iter().chain(FURTHER_INPUTS);
         let mut ready: BTreeSet<&str> = inputs.chain(before).collect();
-        let mut used = BTreeSet::new();
+        let mut used = BTreeSet::<String>::new();
         for (pass, line) in self.passes.iter().zip(&self.lines.passes) {
             let refuse = |reason: String| {
                 self.refuse_manifest(*line, format!("pass \"{}\": {reason}", pass.entry))
@@ -185,7 +185,7 @@ impl Filter {
             if entry.writes.is_empty() {
                 return Err(refuse("writes nothing".into()));
             }
-            used.extend(entry.reads.iter().chain(&entry.writes));
+            used.extend(entry.reads.iter().chain(&entry.writes).cloned());
             ready.extend(entry.writes.iter().map(String::as_str));
         }
         if !ready.contains("output") {
@@ -200,7 +200,18 @@ impl Filter {
                 return Err(self.refuse_manifest(*line, reason));
             }
         }
-        Ok(())
+        match (self.history.iter()).find(|history| !used.contains(history.texture())) {
+            None => Ok(()),
+            Some(unread) => Err(FilterError::in_file(
+                &self.lines.path,
+                None,
+                format!(
+                    "history names \"{}\", and no pass reads \"{}\"; read it, or leave it out",
+                    unread.input(),
+                    unread.texture()
+                ),
+            )),
+        }
     }
 
     fn find_entry_point(&self, pass: &Pass) -> Result<&EntryPoint, String> {

@@ -15,8 +15,8 @@ use crate::{Filter, FilterError};
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct BindingEntry {
-    #[serde(default, alias = "set")]
-    group: u32,
+    #[serde(alias = "set")]
+    group: Option<u32>,
     binding: Option<u32>,
     name: Option<String>,
     #[serde(default)]
@@ -57,7 +57,7 @@ pub(super) fn read_bindings(
 fn read_binding(entry: &BindingEntry, filter: &Filter, line: usize) -> Result<Binding, String> {
     let places = [
         entry.binding.map(|binding| BindingPlace::Bound {
-            group: entry.group,
+            group: entry.group.unwrap_or(0),
             binding,
         }),
         entry.name.clone().map(BindingPlace::Named),
@@ -72,6 +72,17 @@ fn read_binding(entry: &BindingEntry, filter: &Filter, line: usize) -> Result<Bi
                 .into(),
         );
     };
+    if entry.group.is_some() && entry.binding.is_none() {
+        return Err("group is for `binding`, its number in the group; leave group out".into());
+    }
+    let given = [
+        ("texture", entry.texture.is_some()),
+        ("level", entry.level.is_some()),
+        ("sampler", entry.sampler.is_some()),
+        ("mip_filter", entry.mip_filter.is_some()),
+        ("wrap", entry.wrap.is_some()),
+        ("values", !entry.values.is_empty()),
+    ];
     let mut values = Vec::new();
     flatten(&entry.values, "", &mut values);
     if values.len() > MAX_ENTRIES {
@@ -94,6 +105,9 @@ fn read_binding(entry: &BindingEntry, filter: &Filter, line: usize) -> Result<Bi
             wrap: entry.wrap.unwrap_or_default(),
         },
         values: (values.into_iter().map(read_values)).collect::<Result<_, _>>()?,
+        keys: (given.into_iter().filter(|(_, given)| *given))
+            .map(|(key, _)| key)
+            .collect(),
         line,
     })
 }

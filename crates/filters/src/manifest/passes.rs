@@ -89,6 +89,11 @@ fn read_texture(entry: &TextureEntry, filter: &Filter) -> Result<Texture, String
                 .into(),
         );
     }
+    if entry.divided_by.is_none() && entry.rounding == Rounding::Down {
+        return Err(
+            ": rounding = \"down\" is for sides with a divided_by; add one, or leave it out".into(),
+        );
+    }
     let divided_by = entry.divided_by.as_ref();
     let divided_by = divided_by.map(|entry| read_divisors(entry.as_slice(), filter));
     Ok(Texture {

@@ -12,22 +12,14 @@ use wgpu::naga::{
 
 use super::entry::{keep_entry_point, set_constants, validate};
 use super::members::fill_block;
-use super::module::{OpenModule, PUSH_CONSTANTS};
+use super::module::OpenModule;
+use super::places::{explains, find_place, name_variable};
 use super::textures::{check_texture, describe_image};
 use crate::filter::{Binding, BindingPlace, PassShader, Stage};
 use crate::shader::{
     Role, Shader, UniformBlock, Variable, find_entry_points, find_image_role, written_texture,
 };
 use crate::{Filter, FilterError};
-
-/// Names that compilers give to the block of uniforms outside of any block, or to its type.
-const GLOBALS: [&str; 5] = [
-    "$Global",
-    "$Globals",
-    "type.$Globals",
-    "globalParams",
-    "GlobalParams_std140",
-];
 
 /// Makes the shader of a pass: one entry point, and one group with a binding for each variable that it uses. A vertex stage has
 /// group 1, any other group 0.
@@ -101,81 +93,6 @@ fn narrow_buffers(path: &Path, module: &mut Module) -> Result<(), FilterError> {
         }
     }
     Ok(())
-}
-
-/// Refuses a binding of filter.toml that none of the stages of a pass has.
-pub(super) fn check_places(
-    filter: &Filter,
-    shader: &PassShader,
-    path: &Path,
-    stages: &[&OpenModule],
-) -> Result<(), FilterError> {
-    let mut declared: Vec<(&Module, &GlobalVariable, BindingPlace)> = Vec::new();
-    for open in stages {
-        let OpenModule { module, owners, .. } = open;
-        let placed = (module.global_variables.iter())
-            .filter_map(|(_, variable)| Some((module, variable, find_place(variable)?)));
-        declared.extend(placed.filter(|(.., place)| !owners.contains_key(place)));
-    }
-    let is_there = |binding: &&Binding| {
-        (declared.iter())
-            .any(|(module, variable, place)| explains(binding, module, variable, place))
-    };
-    let Some(unknown) = shader.bindings.iter().find(|binding| !is_there(binding)) else {
-        return Ok(());
-    };
-    let mut places: Vec<String> = (declared.iter())
-        .map(|(_, variable, place)| name_variable(variable, place))
-        .collect();
-    places.sort_unstable();
-    places.dedup();
-    Err(FilterError::in_file(
-        &filter.lines.path,
-        unknown.line,
-        format!(
-            "binding: {} has nothing at {}; it has: {}",
-            path.display(),
-            unknown.place,
-            match places.is_empty() {
-                true => "no bindings".to_owned(),
-                false => places.join("; "),
-            }
-        ),
-    ))
-}
-
-/// Returns true if a binding of filter.toml is meant for a variable at a place.
-fn explains(
-    binding: &Binding,
-    module: &Module,
-    variable: &GlobalVariable,
-    place: &BindingPlace,
-) -> bool {
-    let is_called = |name: &Option<String>, wanted: &str| name.as_deref() == Some(wanted);
-    match &binding.place {
-        BindingPlace::Named(name) => is_called(&variable.name, name),
-        BindingPlace::Globals => {
-            let ty = &module.types[variable.ty].name;
-            (GLOBALS.iter()).any(|name| is_called(&variable.name, name) || is_called(ty, name))
-        }
-        other => other == place,
-    }
-}
-
-/// Names a variable and its place for messages.
-fn name_variable(variable: &GlobalVariable, place: &BindingPlace) -> String {
-    match &variable.name {
-        Some(name) if !name.is_empty() => format!("\"{name}\" at {place}"),
-        _ => place.to_string(),
-    }
-}
-
-/// Finds the place of a variable that has to be bound.
-fn find_place(variable: &GlobalVariable) -> Option<BindingPlace> {
-    match variable.binding? {
-        PUSH_CONSTANTS => Some(BindingPlace::PushConstants),
-        ResourceBinding { group, binding } => Some(BindingPlace::Bound { group, binding }),
-    }
 }
 
 /// Variables of a shader, bound so far.

@@ -125,6 +125,12 @@ impl Split {
                     make(Op::SampledImage, vec![*combined, *result, image, loaded]),
                 ]
             }
+            // A binding by name explains both.
+            (Op::Name, [target, name @ ..]) => {
+                let sampler = *self.samplers.get(target)?;
+                let named = [sampler].into_iter().chain(name.iter().copied());
+                vec![instruction.clone(), make(op, named.collect())]
+            }
             (Op::Decorate, [target, kind, value, ..]) => {
                 let (sampler, (_, binding)) =
                     (self.samplers.get(target)?, self.places.get(target)?);

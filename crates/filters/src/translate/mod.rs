@@ -18,6 +18,7 @@ mod matrices;
 mod members;
 mod module;
 mod packages;
+mod places;
 mod sections;
 mod shader_lab;
 mod sources;
@@ -31,10 +32,11 @@ use std::sync::Arc;
 use crate::filter::PassShader;
 use crate::shader::{Shader, guard, try_each};
 use crate::{Filter, FilterError, Settings};
-use bind::{bind, check_places};
+use bind::bind;
 use compile::list_installed;
 use compiler::Compiler;
-use module::{OpenModule, compile_shader, find_language, read};
+use module::{OpenModule, check_macros, compile_shader, find_language, read};
+use places::check_places;
 
 pub(crate) use closed::check_macro;
 pub(crate) use language::{Language, SHADER_LAB};
@@ -90,6 +92,8 @@ fn translate_with(
         Ok((compiled, open))
     };
     let made = (stages.iter().map(compile)).collect::<Result<Vec<_>, FilterError>>()?;
+    let texts = (stages.iter()).map(|Stage { stage, path, bytes }| (stage, &**path, &bytes[..]));
+    check_macros(filter, shader, texts)?;
     let modules: Vec<&OpenModule> = made.iter().map(|(_, open)| open).collect();
     check_places(filter, shader, &stages[0].path, &modules)?;
     // Kept if a parameter changes the module.

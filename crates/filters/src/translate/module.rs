@@ -12,6 +12,7 @@ use super::constants::set_constants;
 use super::language::{Language, SHADER_LAB};
 use super::matrices::find_by_rows;
 use super::shader_lab::cut_hlsl;
+use super::sources::Sources;
 use super::storage::StorageImages;
 use super::words::{Place, Words};
 use crate::filter::{BindingPlace, PassShader, Stage};
@@ -48,29 +49,85 @@ pub(super) fn compile_shader(
     if language == Language::Spirv {
         return Ok(bytes.to_vec());
     }
+    let text = read_text(shader, path, bytes)?;
+    if language == Language::Wgsl {
+        return Ok(bytes.to_vec());
+    }
+    let installed = list_installed(language, shader, path)?;
+    let is_known = |known: &&Compiler| compiler.is_some_and(|it| it.program == known.program);
+    let compiler = installed.iter().copied().find(is_known);
+    let compiler = compiler.unwrap_or(installed[0]);
+    compile(find_folder(filter), &text, language, shader, compiler)
+}
+
+/// Reads the text of a shader; of ShaderLab, only the HLSL of its pass.
+fn read_text(shader: &PassShader, path: &Path, bytes: &[u8]) -> Result<String, FilterError> {
     let text = std::str::from_utf8(bytes).map_err(|error| {
         let place = error.valid_up_to();
         let reason = format!("is not UTF-8 from byte {place} on; save it as UTF-8");
         FilterError::in_file(path, None, reason)
     })?;
-    if language == Language::Wgsl {
-        return Ok(bytes.to_vec());
+    let ending = shader.file.extension();
+    if ending.is_some_and(|ending| ending == SHADER_LAB) {
+        cut_hlsl(text, shader.shader_pass.as_ref())
+            .map_err(|reason| FilterError::in_file(path, None, reason))
+    } else {
+        Ok(text.to_owned())
     }
-    let folder = match filter.lines.path.parent() {
+}
+
+fn find_folder(filter: &Filter) -> &Path {
+    match filter.lines.path.parent() {
         Some(folder) if folder != Path::new("") => folder,
         _ => Path::new("."),
-    };
-    let installed = list_installed(language, shader, path)?;
-    let is_known = |known: &&Compiler| compiler.is_some_and(|it| it.program == known.program);
-    let compiler = installed.iter().copied().find(is_known);
-    let compiler = compiler.unwrap_or(installed[0]);
-    let ending = shader.file.extension();
-    let text = match ending.is_some_and(|ending| ending == SHADER_LAB) {
-        true => cut_hlsl(text, shader.shader_pass.as_ref())
-            .map_err(|reason| FilterError::in_file(path, None, reason))?,
-        false => text.to_owned(),
-    };
-    compile(folder, &text, language, shader, compiler)
+    }
+}
+
+/// Refuses a macro or a condition that no text of a pass names. `stages` are its shaders, each with its path and bytes.
+pub(super) fn check_macros<'s>(
+    filter: &Filter,
+    shader: &PassShader,
+    stages: impl Iterator<Item = (&'s PassShader, &'s Path, &'s [u8])>,
+) -> Result<(), FilterError> {
+    let macros = shader.defines.iter().map(|define| {
+        let (name, _) = define.split_once('=').expect("a macro has a value");
+        ("defines", name)
+    });
+    let conditions = shader
+        .conditions
+        .iter()
+        .map(|name| ("conditions", &name[..]));
+    let mut idle: Vec<(&str, &str)> = macros.chain(conditions).collect();
+    if idle.is_empty() {
+        return Ok(());
+    }
+    for (stage, path, bytes) in stages {
+        let text = read_text(stage, path, bytes)?;
+        let language = find_language(stage, path)?;
+        let sources = Sources::collect(find_folder(filter), stage, &text, language)?;
+        for text in sources.texts.values() {
+            // Names may be made of parts.
+            idle.retain(|(_, name)| !text.contains("##") && !has_word(text, name));
+        }
+    }
+    match idle.first() {
+        None => Ok(()),
+        Some((key, name)) => Err(FilterError::in_file(
+            &filter.lines.path,
+            None,
+            format!(
+                "{key}: {name} changes nothing: neither {} nor a file that it includes names it; allowed: names that occur \
+                 there; correct it, or leave it out",
+                shader.file.display()
+            ),
+        )),
+    }
+}
+
+/// Returns true if a text holds a name as a whole word.
+fn has_word(text: &str, name: &str) -> bool {
+    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    text.split(|c| !is_part(c)).any(|word| word == name)
 }
 
 /// Reads a compiled shader. `constants` are values of specialisation constants, which SPIR-V gets here.
