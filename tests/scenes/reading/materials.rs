@@ -1,9 +1,9 @@
 //! Materials and textures from MTL and picture files.
 
-use glam::Vec3;
-use tracer::{Material, Translucency};
+use glam::{Vec2, Vec3};
+use tracer::{Material, Scene, Translucency};
 
-use crate::{Folder, SCENE};
+use crate::{Folder, OBJ, SCENE};
 
 #[test]
 fn a_material_can_change_for_one_object_only() {
@@ -141,5 +141,158 @@ fn blended_opacity_lets_light_pass_and_other_objects_keep_their_holes() {
         assert_eq!(paint.translucency, expected, "{statements} then {keys}");
         let glow = glow.translucency;
         assert_eq!(glow, Some(Translucency::CLEAR), "its d is 0.25");
+    }
+}
+
+/// Loads the scene with other text in its files; returns it, and the index of the material `paint`.
+fn load_paint(obj: [&str; 2], mtl: [&str; 2], prepare: impl Fn(&Folder)) -> (Scene, usize) {
+    let folder = Folder::new();
+    folder.edit("mesh.obj", obj[0], obj[1]);
+    folder.edit("mesh.mtl", mtl[0], mtl[1]);
+    prepare(&folder);
+    let scene = folder.load().unwrap_or_else(|error| panic!("{error}"));
+    let paint = scene
+        .materials
+        .iter()
+        .position(|material| material.name == "paint");
+    (scene, paint.expect("it is there"))
+}
+
+const OLD: [&str; 2] = ["mtllib mesh.mtl", "mtllib mesh.mtl"];
+const SAME: [&str; 2] = ["newmtl paint", "newmtl paint"];
+
+#[test]
+fn options_of_a_texture_scale_and_move_it() {
+    let texcoords = |options: &str| {
+        let map = format!("map_Kd {options} dots.png");
+        let (scene, paint) = load_paint(OLD, ["map_Kd dots.png", &map], |_| {});
+        assert_eq!(scene.materials[paint].diffuse_texture, Some(0));
+        let mesh = &scene.meshes[0];
+        {
+            let notes = scene
+                .notes
+                .into_iter()
+                .filter(|note| note.contains("option"));
+            let texcoord = mesh.texcoords[mesh.triangles[0][2] as usize];
+            (texcoord, notes.collect::<Vec<String>>())
+        }
+    };
+    for (options, due) in [
+        ("-blendu off -texres 512", [1.0, 1.0]),
+        ("-s 4 3 1", [4.0, 3.0]),
+        ("-s 2", [2.0, 1.0]),
+        ("-o 0.25 0.5 0 -s 2 2 2", [2.25, 2.5]),
+        ("-clamp off -bm 1 -o -1 0", [0.0, 1.0]),
+        ("-mm 0 1 -cc off -boost 0 -type sphere", [1.0, 1.0]),
+    ] {
+        let (texcoord, notes) = texcoords(options);
+        assert_eq!((texcoord, notes), (Vec2::from(due), vec![]), "{options}");
+    }
+    for option in [
+        "-clamp on",
+        "-mm 0.1 2",
+        "-cc on",
+        "-boost 2",
+        "-t 1 1 1",
+        "-imfchan r",
+    ] {
+        let (texcoord, notes) = texcoords(option);
+        let name = option.split(' ').next().unwrap();
+        let due = format!("mesh.mtl:3: map_Kd's option {name} is not read");
+        assert!(
+            texcoord == Vec2::ONE && notes[0].ends_with(&due),
+            "{notes:?}"
+        );
+    }
+}
+
+#[test]
+fn several_libraries_are_read_from_one_statement_and_each_once() {
+    let more = |folder: &Folder| {
+        folder.write("my old.mtl", "newmtl old\n");
+        folder.write("plain.MTL", "newmtl plain\n");
+    };
+    for names in [
+        "my old.mtl plain.MTL mesh.mtl",
+        ".\\mesh.mtl",
+        "mesh.mtl mesh.mtl",
+        "mesh.mtl\nmtllib mesh.mtl",
+    ] {
+        let statement = format!("mtllib {names}");
+        load_paint(["mtllib mesh.mtl", &statement], SAME, more);
+    }
+    let folder = Folder::new();
+    folder.edit("mesh.obj", "mtllib mesh.mtl", "mtllib mesh.mtl gone.mtl");
+    let error = folder.load().err().expect("a library is missing");
+    assert!(
+        error.line == Some(1) && error.reason.contains("gone.mtl"),
+        "{error}"
+    );
+}
+
+#[test]
+fn statements_of_materials_are_read_as_other_programs_read_them() {
+    let read = |statement: &str| {
+        let text = format!("newmtl paint\n{statement}");
+        let (scene, paint) = load_paint(OLD, ["newmtl paint\nKd 0.5 0.6 0.7", &text], |_| {});
+        scene.materials[paint].clone()
+    };
+    let plain = read("Kd 0.5 0.6 0.7");
+    for statement in [
+        "Kd 0.5 0.6 0.7 # blue",
+        "\tKd\t0.5 \\\n0.6 0.7",
+        "Kd 0.5 0.6 0.7 1",
+        "Ka 1\nKs 2\nKd 0.5 0.6 0.7",
+    ] {
+        assert_eq!(read(statement), plain, "{statement}");
+    }
+    // A name may have backslashes and blanks, and may look like a comment.
+    let name = "Set\\Paint\\old  #2";
+    let folder = Folder::new();
+    folder.write(
+        "mesh.obj",
+        OBJ.replace("usemtl paint", &format!("usemtl\t{name} ")),
+    );
+    folder.edit("mesh.mtl", "newmtl paint", &format!("newmtl {name}"));
+    folder.edit(
+        "scene.toml",
+        "material.paint",
+        &format!("material.'{name}'"),
+    );
+    let scene = folder.load().unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(scene.materials[0].name, name);
+}
+
+#[test]
+fn a_translucent_material_is_noted_until_the_scene_says_what_its_opacity_means() {
+    let notes = |opacity: &str, alpha: &str| {
+        let folder = Folder::new();
+        folder.edit("mesh.mtl", "d 0.25", opacity);
+        let whole = "[object.body]\n";
+        folder.edit("scene.toml", whole, &format!("{whole}{alpha}\n"));
+        let left = "parent = \"body\"";
+        folder.edit("scene.toml", left, &format!("{left}\n{alpha}"));
+        folder
+            .load()
+            .unwrap_or_else(|error| panic!("{error}"))
+            .notes
+    };
+    for (opacity, what) in [
+        ("d 0.25", "a hole"),
+        ("d 0.75", "opaque"),
+        ("d 0\nillum 4", "a hole"),
+    ] {
+        let said = notes(opacity, "");
+        assert_eq!(said.len(), 1, "{said:?}");
+        assert!(
+            said[0].contains(what) && said[0].contains("alpha = \"blended\""),
+            "{said:?}"
+        );
+        for alpha in ["blended", "cutout"] {
+            assert_eq!(notes(opacity, &format!("alpha = \"{alpha}\"")), [""; 0]);
+        }
+    }
+    for opacity in ["d 1", "d 0", "map_d dots.png"] {
+        assert_eq!(notes(opacity, ""), [""; 0]);
     }
 }

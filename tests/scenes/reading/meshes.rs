@@ -153,3 +153,144 @@ fn faces_of_key_shapes_without_normals_are_flat_beside_smooth_ones() {
         assert_eq!(shape.normals[0], Vec3::Z);
     }
 }
+
+/// Loads the scene with other text in its OBJ file, and compares all meshes with those of the plain file.
+fn assert_same_meshes(obj: &str) {
+    let plain = Folder::new().load().unwrap();
+    let folder = Folder::new();
+    folder.write("mesh.obj", obj);
+    let other = folder.load().unwrap_or_else(|error| panic!("{error}"));
+    for (plain, other) in plain.meshes.iter().zip(&other.meshes) {
+        assert_eq!(plain.positions, other.positions);
+        assert_eq!(plain.normals, other.normals);
+        assert_eq!(plain.texcoords, other.texcoords);
+        assert_eq!(plain.triangles, other.triangles);
+        assert_eq!(plain.slots, other.slots);
+    }
+}
+
+/// Replaces texts, each of which must be there.
+fn replace_all(text: &str, changes: &[(&str, &str)]) -> String {
+    changes.iter().fold(text.to_owned(), |text, (from, to)| {
+        assert!(text.contains(from), "{from}");
+        text.replace(from, to)
+    })
+}
+
+#[test]
+fn a_byte_order_mark_changes_nothing() {
+    assert_same_meshes(&format!("\u{feff}{OBJ}"));
+    // Before a vertex it would shift all indices.
+    let vertices = OBJ.replace("mtllib mesh.mtl\n", "") + "mtllib mesh.mtl\n";
+    assert_same_meshes(&format!("\u{feff}{vertices}"));
+    let folder = Folder::new();
+    folder.write("mesh.mtl", format!("\u{feff}{MTL}"));
+    let scene = folder.load().unwrap_or_else(|error| panic!("{error}"));
+    assert!(
+        scene
+            .materials
+            .iter()
+            .any(|material| material.name == "paint")
+    );
+}
+
+#[test]
+fn lines_continue_after_a_backslash_and_comments_follow_numbers() {
+    assert_same_meshes(&replace_all(
+        OBJ,
+        &[
+            (
+                "f 1/1/1 2/2/1 3/3/1",
+                "f 1/1/1 \\\n  2/2/1\\  \r\n3/3/1 # front",
+            ),
+            ("v 1 1 0", "v 1 \\\n1 0 # left of it"),
+            ("vt 1 1", "vt 1 1 #"),
+            ("vn 0 0 2", "# made on C:\\\nvn 0 0 2#up"),
+        ],
+    ));
+    // Lines keep their numbers.
+    let folder = Folder::new();
+    let broken = [
+        ("f 1/1/1 2/2/1", "f 1/1/1 \\\n2/2/1"),
+        ("f 1/1/1 4/2/1 6/3/1 5", "f 1/1/1 4/2/1 6/3/1 9"),
+    ];
+    folder.write("mesh.obj", replace_all(OBJ, &broken));
+    let error = folder.load().err().expect("it has no vertex 9");
+    assert_eq!(
+        (error.line, error.reason.contains("index 9")),
+        (Some(19), true)
+    );
+}
+
+#[test]
+fn faces_may_come_before_what_they_refer_to() {
+    let elements = ["v", "vt", "vn", "mtllib"];
+    let is_element = |line: &&str| elements.contains(&line.split(' ').next().unwrap());
+    let [first, last] = [false, true].map(|due| {
+        let lines = OBJ.lines().filter(|line| is_element(line) == due);
+        lines.collect::<Vec<&str>>().join("\n")
+    });
+    assert_same_meshes(&format!("{first}\n{last}\n"));
+}
+
+#[test]
+fn a_file_of_all_colours_and_more_numbers_loads_the_same() {
+    let changes = [
+        ("v 1 1 0", "v 1 1 0 nan 2 0.5"),
+        ("vt 1 1", "vt 1 1 0 0"),
+        ("vn 0 0 2", "vn 0 0 2 0"),
+    ];
+    assert_same_meshes(&replace_all(OBJ, &changes));
+}
+
+/// Blender 4.4 writes `usemtl` without a name for a slot without a material.
+#[test]
+fn faces_of_an_empty_slot_have_no_material_and_all_others_keep_theirs() {
+    let folder = Folder::new();
+    folder.edit("mesh.obj", "usemtl glow\n", "usemtl \n");
+    let scene = folder.load().unwrap_or_else(|error| panic!("{error}"));
+    let whole = &scene.objects[0];
+    let names = whole
+        .materials
+        .iter()
+        .map(|index| scene.materials[*index].name.as_str());
+    assert_eq!(names.collect::<Vec<_>>(), ["paint", "default"]);
+    assert_eq!(scene.meshes[whole.mesh].slots, [0, 0, 1, 1, 0]);
+}
+
+#[test]
+fn faces_at_a_normal_without_length_are_flat() {
+    let folder = Folder::new();
+    folder.edit("mesh.obj", "vn 0 0 2\n", "vn 0 0 2\nvn 1 0 0\nvn 0 0 0\n");
+    folder.edit("mesh.obj", "f 1/1/1 2/2/1 3/3/1", "f 1/1/2 2/2/3 3/3/2");
+    let scene = folder.load().unwrap_or_else(|error| panic!("{error}"));
+    let mesh = &scene.meshes[0];
+    for (triangle, due) in mesh.triangles.iter().zip([Vec3::Z; 5]) {
+        let normals = triangle.map(|corner| mesh.normals[corner as usize]);
+        assert_eq!(normals, [due; 3]);
+    }
+}
+
+#[test]
+fn faces_of_one_group_may_have_different_kinds_of_indices() {
+    let folder = Folder::new();
+    folder.edit(
+        "mesh.obj",
+        "g left\nusemtl glow\nf 1/1/1 4/2/1 6/3/1 5/2/1",
+        "g left\nusemtl glow\nf 1 6 4\nf 1/1/1 6/3/1 5/2/1",
+    );
+    let scene = folder.load().unwrap_or_else(|error| panic!("{error}"));
+    let mesh = &scene.meshes[0];
+    assert_eq!(mesh.slots, [0, 0, 1, 1, 0]);
+    // Clockwise seen from +Z: the face without normals is flat.
+    assert_eq!(
+        mesh.triangles[2].map(|corner| mesh.normals[corner as usize]),
+        [Vec3::NEG_Z; 3]
+    );
+    assert_eq!(
+        mesh.triangles[3].map(|corner| mesh.normals[corner as usize]),
+        [Vec3::Z; 3]
+    );
+    assert_eq!(mesh.texcoords[mesh.triangles[3][1] as usize], Vec2::ONE);
+    assert_eq!(scene.meshes[1].triangles.len(), 3);
+}

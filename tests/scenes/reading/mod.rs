@@ -1,8 +1,10 @@
 //! Scenes read from files: the documented example, defaults and hashes, and the meaning of each kind of file.
 
+mod faces;
 mod materials;
 mod meshes;
 mod motions;
+mod polygons;
 
 use frame::{Efficiency, ShutterProfile};
 use glam::DVec3;

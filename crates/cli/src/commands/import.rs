@@ -8,7 +8,7 @@ use store::printable_path;
 use suite::Error;
 
 use crate::arguments::{parse_exposure, parse_named, parse_speed};
-use crate::output::print;
+use crate::output::{print, print_note};
 
 #[derive(Debug, Args)]
 pub struct ImportArgs {
@@ -56,7 +56,14 @@ pub fn execute(args: &ImportArgs) -> Result<(), Error> {
         },
         exposure: args.exposure,
     };
-    let Imported { exposes, triangles } = import(&plan)?;
+    let Imported {
+        exposes,
+        triangles,
+        notes,
+    } = import(&plan)?;
+    for note in &notes {
+        print_note(note);
+    }
     let folder = printable_path(&out);
     print(&format!(
         "{exposes}\n{triangles} triangles, the set's among them\nwritten: {folder}\nnext: shuttertruth run --scenes {}{folder}\n",

@@ -1,6 +1,6 @@
 //! Text of an imported scene's scene.toml.
 
-use crate::import::model::{Model, Up};
+use crate::import::model::{BLENDED, Model, Up};
 use crate::import::plan::ImportPlan;
 use crate::import::set::{STAND_HEIGHT, WALL_DISTANCE};
 
@@ -80,13 +80,14 @@ fn model_object(model: &Model) -> String {
     let [low, high] = model.corners;
     let middle = 0.5 * (low + high);
     format!(
-        "[object.model]\nmesh = {}\nparent = \"stand\"\ntranslation = {}\n{}",
+        "[object.model]\nmesh = {}\nparent = \"stand\"\ntranslation = {}\n{}{}",
         toml::Value::from(model.mesh.as_str()),
         vector([-middle.x, -low.y, -middle.z]),
         match model.up {
             Up::Y => "",
             Up::Z => "rotation = { axis = [1, 0, 0], degrees = -90 }\n",
-        }
+        },
+        if model.is_translucent { BLENDED } else { "" }
     )
 }
 

@@ -17,12 +17,17 @@ pub use self::model::Up;
 pub use self::plan::{ImportPlan, Motions};
 use crate::files::refuse;
 
+/// Note about a model with materials of an opacity below 1.
+const TRANSLUCENT: &str = "some materials have an opacity below 1, so that light passes through them: scene.toml has alpha = \"blended\"";
+
 /// An imported scene.
 pub struct Imported {
     /// Sentence about what the scene exposes.
     pub exposes: String,
     /// Triangles of the model and the set.
     pub triangles: usize,
+    /// Sentences about what was decided or not read.
+    pub notes: Vec<String>,
 }
 
 /// Makes the scene folder, complete or not at all.
@@ -46,7 +51,11 @@ pub fn import(plan: &ImportPlan) -> Result<Imported, Error> {
     let scene = load_scene(&folder, None)?;
 
     fs::rename(&folder, &plan.out).map_err(|source| FileError::io(&plan.out, "write", source))?;
+    let [staged, out] = [&folder, &plan.out].map(|path| path.display().to_string());
+    let notes = scene.notes.iter().map(|note| note.replace(&staged, &out));
+    let translucent = model.is_translucent.then(|| TRANSLUCENT.to_owned());
     Ok(Imported {
+        notes: notes.chain(translucent).collect(),
         exposes: scene.exposes,
         triangles: (scene.meshes.iter()).map(|mesh| mesh.triangles.len()).sum(),
     })

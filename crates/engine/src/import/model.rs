@@ -8,12 +8,15 @@ use frame::{FileError, read_bounded, write_atomically};
 use glam::DVec3;
 use suite::{Error, named};
 use tracer::limits::LARGEST_MESH_FILE;
-use tracer::{Mesh, SceneError, load_scene_and_files};
+use tracer::{Mesh, Scene, SceneError, load_scene_and_files};
 
 use crate::files::refuse;
 
 /// Name of the folder of the model's files, in the scene's folder.
 const FOLDER: &str = "model";
+
+/// Key of an object with materials that light passes through.
+pub const BLENDED: &str = "alpha = \"blended\"\n";
 
 /// Radii of models that can be imported, in metres.
 const RADII: RangeInclusive<f64> = 1e-6..=1e9;
@@ -36,6 +39,16 @@ pub struct Model {
     pub corners: [DVec3; 2],
     /// The axis of the file that points up.
     pub up: Up,
+    /// True if light passes through some of its materials: their opacity is below 1.
+    pub is_translucent: bool,
+}
+
+/// A model that has been loaded.
+struct Loaded {
+    mesh: Mesh,
+    is_translucent: bool,
+    /// The OBJ file and the files that it names.
+    files: Vec<PathBuf>,
 }
 
 impl Model {
@@ -45,7 +58,7 @@ impl Model {
         let path = (path.canonicalize()).map_err(|source| FileError::io(path, "read", source))?;
         let name = path.file_name().unwrap_or_default();
         let copy = folder.join(name);
-        let (mesh, files) = match plain {
+        let loaded = match plain {
             true => {
                 write_plain(&path, &copy)?;
                 // Line numbers are unchanged.
@@ -57,7 +70,7 @@ impl Model {
             false => load(scene, &path).map_err(|error| suggest_plain(error, &path, scene))?,
         };
         if !plain {
-            copy_all(&files, &path, &folder)?;
+            copy_all(&loaded.files, &path, &folder)?;
         }
         let Some(name) = name.to_str() else {
             return refuse!(path, "the name is not Unicode; rename the file");
@@ -66,6 +79,7 @@ impl Model {
             Up::Y => p,
             Up::Z => DVec3::new(p.x, p.z, -p.y),
         };
+        let mesh = &loaded.mesh;
         let vertices = mesh.triangles.iter().flatten();
         let used = vertices.map(|vertex| upright(mesh.positions[*vertex as usize].as_dvec3()));
         let model = Self {
@@ -75,6 +89,7 @@ impl Model {
                 used.fold(DVec3::NEG_INFINITY, DVec3::max),
             ],
             up,
+            is_translucent: loaded.is_translucent,
         };
         model.check_size(&path)?;
         Ok(model)
@@ -106,13 +121,29 @@ impl Model {
     }
 }
 
-/// Loads the model as a scene of its own; returns its mesh, the OBJ file and the files that it names.
-fn load(scene: &Path, obj: &Path) -> Result<(Mesh, Vec<PathBuf>), SceneError> {
+/// Loads the model as a scene of its own.
+fn load(scene: &Path, obj: &Path) -> Result<Loaded, SceneError> {
+    let (loaded, files) = load_with(scene, obj, "")?;
+    let is_translucent = (loaded.materials.iter()).any(|material| material.opacity < 1.0);
+    if is_translucent {
+        // Materials that let light pass are checked further.
+        load_with(scene, obj, BLENDED)?;
+    }
+    let mut meshes = loaded.meshes;
+    Ok(Loaded {
+        mesh: meshes.remove(0),
+        is_translucent,
+        files,
+    })
+}
+
+/// Loads a scene of the model with more keys; returns it with the paths of the model's files.
+fn load_with(scene: &Path, obj: &Path, keys: &str) -> Result<(Scene, Vec<PathBuf>), SceneError> {
     let document = scene.join("scene.toml");
     let text = format!(
         "exposes = \"the model\"\nfamily = \"limits\"\nexposure = 0.5\nsize = [1, 1]\n\
          [camera]\nposition = [0, 0, 0]\nlook_at = [0, 0, -1]\nvertical_fov = 40\n\
-         [background]\nconstant = [1, 1, 1]\n[object.model]\nmesh = {}\n",
+         [background]\nconstant = [1, 1, 1]\n[object.model]\nmesh = {}\n{keys}",
         toml::Value::from(obj.to_string_lossy().into_owned())
     );
     write_atomically(&document, text.as_bytes()).map_err(|error| SceneError {
@@ -120,7 +151,7 @@ fn load(scene: &Path, obj: &Path) -> Result<(Mesh, Vec<PathBuf>), SceneError> {
         line: None,
         reason: error.to_string(),
     })?;
-    let (mut scene, mut files) =
+    let (scene, mut files) =
         load_scene_and_files(scene, None).map_err(|error| match error.path == document {
             // The scene names the model and nothing else that could be wrong.
             true => SceneError {
@@ -131,7 +162,7 @@ fn load(scene: &Path, obj: &Path) -> Result<(Mesh, Vec<PathBuf>), SceneError> {
             false => error,
         })?;
     files.retain(|file| *file != document);
-    Ok((scene.meshes.remove(0), files))
+    Ok((scene, files))
 }
 
 /// Adds to an error that the model can be imported without materials, if it can.
@@ -155,7 +186,8 @@ fn suggest_plain(error: SceneError, path: &Path, scene: &Path) -> SceneError {
 fn write_plain(path: &Path, copy: &Path) -> Result<(), FileError> {
     let bytes = read_bounded(path, LARGEST_MESH_FILE)?;
     let mut plain = String::new();
-    for line in String::from_utf8_lossy(&bytes).lines() {
+    let text = String::from_utf8_lossy(&bytes);
+    for line in text.trim_start_matches('\u{feff}').lines() {
         let is_left_out = matches!(line.split_whitespace().next(), Some("mtllib" | "usemtl"));
         plain += if is_left_out { "" } else { line };
         plain += "\n";

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use glam::{DVec3, Vec2, Vec3};
 
 use super::error::SceneError;
-use super::face::{Corner, Face};
+use super::face_lines::list_faces;
 use super::material_list::MaterialList;
 use super::obj::{ObjFile, Part};
 use crate::{Material, Mesh, Shape};
@@ -46,16 +46,20 @@ pub(super) fn build_mesh(
             })
             .collect(),
         flat_triangles: Vec::new(),
-        with_normals: first.parts_of(group).any(|(_, part)| part.has_normals()),
-        with_texcoords: first.parts_of(group).any(|(_, part)| part.has_texcoords()),
+        with_normals: first
+            .parts_of(group)
+            .any(|(_, part)| !part.normals.is_empty()),
+        with_texcoords: first
+            .parts_of(group)
+            .any(|(_, part)| !part.texcoords.is_empty()),
     };
     let mut materials = MaterialList::default();
     let mut textured: Vec<bool> = Vec::new();
     for (index, part) in first.parts_of(group) {
         let slot = materials.add(first.material(part));
         textured.resize(materials.list.len(), true);
-        textured[slot] &= part.has_texcoords();
-        building.add_part(files, index, slot as u32);
+        textured[slot] &= !part.texcoords.is_empty();
+        building.add_part(files, index, slot as u32)?;
     }
     let mesh = building.finish();
     check_area(&mesh)?;
@@ -76,42 +80,55 @@ struct Building {
 }
 
 impl Building {
-    /// Adds the faces of a part, by its index in every file.
-    fn add_part(&mut self, files: &[(f64, &ObjFile)], index: usize, slot: u32) {
+    /// Adds the faces of a part, by its index in every file. The first file decides how they are cut.
+    fn add_part(
+        &mut self,
+        files: &[(f64, &ObjFile)],
+        index: usize,
+        slot: u32,
+    ) -> Result<(), SceneError> {
         let (_, first) = files[0];
-        let part = &first.parts[index];
-        let is_flat = self.with_normals && !part.has_normals();
-        let numbers = match is_flat {
-            // Flat faces share no vertices.
-            true => (0..3 * part.count_triangles() as u32).collect(),
-            false => number_vertices(files.iter().map(|(_, file)| &file.parts[index])),
+        let parts: Vec<&Part> = files.iter().map(|(_, file)| &file.parts[index]).collect();
+        let triangles = first.cut_faces(index)?;
+        let is_flat = |triangle: &[u32; 3]| {
+            let lacks_normal = |part: &&Part| {
+                let mut vertices = triangle.iter().map(|corner| part.corners[*corner as usize]);
+                vertices.any(|vertex| part.normal(vertex) == Vec3::ZERO)
+            };
+            self.with_normals && parts.iter().any(lacks_normal)
         };
+        let is_flat: Vec<bool> = triangles.iter().map(is_flat).collect();
+        let corners = triangles.as_flattened();
+        let numbers = number_vertices(&parts, corners, &is_flat);
         let start = self.shapes[0].positions.len() as u32;
-        for (shape, (_, file)) in self.shapes.iter_mut().zip(files) {
-            for corner in list_vertices(&file.parts[index], &numbers) {
-                let position = file.positions[corner.position as usize];
-                shape.positions.push(position);
+        for place in first_places(&numbers) {
+            let corner = corners[place] as usize;
+            for (shape, part) in self.shapes.iter_mut().zip(&parts) {
+                let vertex = part.corners[corner];
+                shape.positions.push(part.positions[vertex as usize]);
                 if self.with_normals {
-                    let normal = corner.normal.map(|normal| file.normals[normal as usize]);
-                    shape.normals.push(normal.unwrap_or(Vec3::ZERO));
+                    let normal = part.normal(vertex);
+                    shape.normals.push(if is_flat[place / 3] {
+                        Vec3::ZERO
+                    } else {
+                        normal
+                    });
                 }
             }
+            if self.with_texcoords {
+                let texcoord = parts[0].texcoords.get(parts[0].corners[corner] as usize);
+                self.mesh
+                    .texcoords
+                    .push(texcoord.copied().unwrap_or(Vec2::ZERO));
+            }
         }
-        if self.with_texcoords {
-            let texcoords = list_vertices(part, &numbers).map(|corner| {
-                let texcoord = corner
-                    .texcoord
-                    .map(|texcoord| first.texcoords[texcoord as usize]);
-                texcoord.unwrap_or(Vec2::ZERO)
-            });
-            self.mesh.texcoords.extend(texcoords);
-        }
-        for corners in numbers.chunks_exact(3) {
-            let triangle = [0, 1, 2].map(|corner| start + corners[corner]);
+        for (numbers, is_flat) in numbers.chunks_exact(3).zip(is_flat) {
+            let triangle = [0, 1, 2].map(|corner| start + numbers[corner]);
             self.flat_triangles.extend(is_flat.then_some(triangle));
             self.mesh.triangles.push(triangle);
             self.mesh.slots.push(slot);
         }
+        Ok(())
     }
 
     fn finish(self) -> Mesh {
@@ -133,28 +150,28 @@ impl Building {
 }
 
 /// Numbers the corners of triangles, in the order in which they are first met. Corners that are one vertex in every file have one
-/// number: equal normals share an index, so that files of the same faces may differ in theirs.
-fn number_vertices<'a>(parts: impl Iterator<Item = &'a Part>) -> Vec<u32> {
-    let mut numbers = Vec::new();
+/// number: equal normals share an index, so that files of the same faces may differ in theirs. Flat triangles share no vertices.
+fn number_vertices(parts: &[&Part], corners: &[u32], is_flat: &[bool]) -> Vec<u32> {
+    let mut numbers = vec![0; corners.len()];
     for part in parts {
-        numbers.resize(3 * part.count_triangles(), 0);
         let mut known = HashMap::new();
-        for (number, corner) in numbers.iter_mut().zip(part.triangle_corners()) {
+        for (place, (number, corner)) in numbers.iter_mut().zip(corners).enumerate() {
+            let vertex = part.corners[*corner as usize];
+            let alone = is_flat[place / 3].then_some(place);
             let next = known.len() as u32;
-            *number = *known.entry((*number, corner)).or_insert(next);
+            *number = *known.entry((*number, vertex, alone)).or_insert(next);
         }
     }
     numbers
 }
 
-/// Lists the first corner of every number.
-fn list_vertices<'a>(part: &'a Part, numbers: &'a [u32]) -> impl Iterator<Item = Corner> + 'a {
+/// Lists where each number is first met.
+fn first_places(numbers: &[u32]) -> impl Iterator<Item = usize> {
     let mut next = 0;
-    let corners = part.triangle_corners().zip(numbers);
-    corners.filter_map(move |(corner, number)| {
+    (numbers.iter().enumerate()).filter_map(move |(place, number)| {
         let is_first = *number == next;
         next += u32::from(is_first);
-        is_first.then_some(corner)
+        is_first.then_some(place)
     })
 }
 
@@ -178,46 +195,35 @@ fn check_area(mesh: &Mesh) -> Result<(), SceneError> {
 
 /// Refuses faces with other vertices than the first shape's.
 fn check_faces(first: &ObjFile, file: &ObjFile) -> Result<(), SceneError> {
-    let faces = |file: &'_ ObjFile| {
-        file.parts
-            .iter()
-            .map(|part| part.faces.len())
-            .sum::<usize>()
-    };
     let name = first.path.display();
-    if faces(file) != faces(first) {
+    let [expected, counted] = [first, file].map(|file| list_faces(&file.text).count());
+    if counted != expected {
         let reason = format!(
-            "has {} faces, {name} has {}; key shapes must have the same faces in the same order",
-            faces(file),
-            faces(first)
+            "has {counted} faces, {name} has {expected}; key shapes must have the same faces in the same order"
         );
         return Err(SceneError::in_file(&file.path, reason));
     }
-    let [expected, found] =
-        [first, file].map(|file| file.parts.iter().flat_map(|part| &part.faces));
-    for (expected, found) in expected.zip(found) {
-        if expected.vertices().ne(found.vertices()) {
-            let list = |face: &Face| face.vertices().collect::<Vec<u32>>();
+    let mut pairs = list_faces(&first.text).zip(list_faces(&file.text));
+    match pairs.find(|(expected, face)| expected.vertices != face.vertices) {
+        None => Ok(()),
+        Some((expected, face)) => {
             let reason = format!(
                 "the face has the vertices {:?}, in {name}:{} it has {:?}; key shapes must have the same faces in \
                  the same order",
-                list(found),
-                expected.line,
-                list(expected)
+                face.vertices, expected.line, expected.vertices
             );
-            return Err(SceneError::at_line(&file.path, found.line, reason));
+            Err(SceneError::at_line(&file.path, face.line, reason))
         }
     }
-    Ok(())
 }
 
 /// Refuses groups, materials and kinds of faces that differ from the first shape's.
 fn check_parts(first: &ObjFile, file: &ObjFile) -> Result<(), SceneError> {
     let describe = |file: &ObjFile, part: &Part| {
-        let normals = if part.has_normals() {
-            "with"
-        } else {
+        let normals = if part.normals.is_empty() {
             "without"
+        } else {
+            "with"
         };
         format!(
             "{} triangles of group \"{}\" {normals} normals in material \"{}\"",

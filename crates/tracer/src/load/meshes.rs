@@ -1,6 +1,6 @@
 //! The meshes and materials of objects; equal ones are shared.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
@@ -30,10 +30,12 @@ pub(super) struct MeshLoader<'a> {
     pub(super) textures: Textures,
     pub(super) materials: MaterialList,
     pub(super) meshes: Vec<Mesh>,
+    /// Sentences about what was not read, or is drawn otherwise than its file may mean.
+    pub(super) notes: BTreeSet<String>,
     obj_files: BTreeMap<PathBuf, ObjFile>,
     loaded: BTreeMap<MeshKey, Rc<LoadedMesh>>,
-    /// Materials of objects that change none, by mesh.
-    unchanged_materials: BTreeMap<usize, Vec<usize>>,
+    /// Materials of objects that change none, by mesh and by what opacities mean.
+    unchanged_materials: BTreeMap<(usize, Alpha), Vec<usize>>,
     triangles: usize,
 }
 
@@ -63,6 +65,7 @@ impl<'a> MeshLoader<'a> {
             textures: Textures::default(),
             materials: MaterialList::default(),
             meshes: Vec::new(),
+            notes: BTreeSet::new(),
             obj_files: BTreeMap::new(),
             loaded: BTreeMap::new(),
             unchanged_materials: BTreeMap::new(),
@@ -103,8 +106,9 @@ impl<'a> MeshLoader<'a> {
         table: &ObjectTable,
         alpha: Alpha,
     ) -> Result<Vec<usize>, SceneError> {
-        let is_unchanged = table.material.is_empty() && !alpha.is_blended;
-        if is_unchanged && let Some(materials) = self.unchanged_materials.get(&mesh.index) {
+        let key = (mesh.index, alpha);
+        let is_unchanged = table.material.is_empty();
+        if is_unchanged && let Some(materials) = self.unchanged_materials.get(&key) {
             return Ok(materials.clone());
         }
         let path = source.path.display();
@@ -130,6 +134,7 @@ impl<'a> MeshLoader<'a> {
             )?;
         }
         for slot in &mut slots {
+            self.notes.extend(alpha.note(&slot.material, &source.path));
             alpha.apply(&mut slot.material).map_err(|reason| {
                 let reason = format!("material \"{}\" of {path} {reason}", slot.material.name);
                 self.document.error(source.place.clone(), reason)
@@ -150,8 +155,7 @@ impl<'a> MeshLoader<'a> {
             .map(|slot| self.materials.add(slot.material))
             .collect();
         if is_unchanged {
-            self.unchanged_materials
-                .insert(mesh.index, materials.clone());
+            self.unchanged_materials.insert(key, materials.clone());
         }
         Ok(materials)
     }
@@ -200,6 +204,7 @@ impl<'a> MeshLoader<'a> {
                 self.document.error(source.place.clone(), reason)
             })?;
             let obj = ObjFile::read(&mut self.files, &mut self.textures, path, &text)?;
+            self.notes.extend(obj.notes.iter().cloned());
             self.obj_files.insert(path.clone(), obj);
         }
         Ok(())

@@ -6,20 +6,24 @@ mod camera;
 mod document;
 mod environment;
 mod error;
-mod face;
+mod face_lines;
 mod faces;
 mod files;
 mod finish;
 mod key_shapes;
 mod keyed_motion;
+mod libraries;
 mod light;
 mod listing;
+mod map_options;
 mod material;
 mod material_list;
 mod mesh_sources;
 mod meshes;
 mod mtl;
 mod obj;
+mod obj_fault;
+mod obj_text;
 mod object_motion;
 mod objects;
 mod parents;
@@ -32,6 +36,7 @@ mod statements;
 mod texture;
 mod transform_range;
 mod translucency;
+mod triangulation;
 mod variants;
 
 use std::path::PathBuf;
@@ -99,7 +104,8 @@ pub fn load_scene_and_files(
         mut meshes,
         ..
     } = loader;
-    let notes = faces::remove_redundant_faces(&mut meshes.meshes, &objects)?;
+    let mut notes: Vec<String> = meshes.notes.into_iter().collect();
+    notes.extend(faces::remove_redundant_faces(&mut meshes.meshes, &objects)?);
 
     let [width, height] = *table.size.get_ref();
     let paths = meshes.files.paths();

@@ -1,18 +1,19 @@
-//! Materials from MTL files: diffuse, glossy, emissive, cut-out and translucent surfaces. Other statements are skipped.
+//! Materials from the statements of MTL files: diffuse, glossy, emissive, cut-out and translucent surfaces.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use glam::Vec3;
 
-use super::error::{SceneError, join_names};
+use super::error::SceneError;
 use super::files::Files;
 use super::finish::FinishValues;
 use super::light::{check_albedo, check_radiance};
-use super::statements::{Statement, shorten, split_statements};
+use super::map_options::{Mapping, read_map};
+use super::statements::Statement;
 use super::texture::{Textures, Use};
 use super::translucency::GLASS;
-use crate::limits::MAX_MATERIALS;
+use crate::limits::LARGEST_NUMBER;
 use crate::{Material, Translucency};
 
 /// Albedo of faces without a material, and of materials with neither Kd nor map_Kd.
@@ -21,38 +22,33 @@ const DEFAULT_ALBEDO: f32 = 0.5;
 /// Name of the material of faces without one.
 const DEFAULT_NAME: &str = "default";
 
-/// Statements that are read.
-const KEYWORDS: [&str; 13] = [
-    "newmtl", "Kd", "Ke", "d", "map_Kd", "map_Ke", "map_d", "Pr", "Pm", "Ni", "Tf", "Tr", "illum",
-];
-
 /// Statements of roughness, metallic and index of refraction.
 const FINISH: [&str; 3] = ["Pr", "Pm", "Ni"];
+
+/// Statements of textures.
+pub(super) const MAPS: [&str; 3] = ["map_Kd", "map_Ke", "map_d"];
 
 /// Illumination model of glass: "Transparency: Glass on, Reflection: Ray trace on".
 const GLASS_MODEL: f32 = 4.0;
 /// Largest difference between a Tr and 1 - d, by rounding of decimals.
 const SAME_TRANSPARENCY: f32 = 1e-3;
 
-/// The MTL files of one OBJ file.
-#[derive(Default)]
-pub(super) struct Libraries {
-    /// Materials by name.
-    materials: BTreeMap<String, Statements>,
-}
-
 /// Statements of a material, by keyword.
 #[derive(Default)]
-struct Statements(BTreeMap<&'static str, Stated>);
+pub(super) struct Statements(pub(super) BTreeMap<&'static str, Stated>);
 
-/// Statement that has been checked.
-struct Stated {
-    path: PathBuf,
-    line: usize,
+/// Statement with what was read from it.
+pub(super) struct Stated {
+    pub(super) path: PathBuf,
+    pub(super) line: usize,
+    /// Text after the keyword, as tobj takes it.
+    pub(super) text: String,
     /// Numbers; empty for a name, and for words in the place of a number that may be ignored.
     numbers: Vec<f32>,
-    /// Text after the keyword.
-    text: String,
+    /// Options of a texture.
+    pub(super) mapping: Mapping,
+    /// Options of a texture that would change the picture, and are not read.
+    pub(super) unread: Vec<String>,
 }
 
 /// Material of faces without one.
@@ -64,73 +60,74 @@ pub(super) fn default_material() -> Material {
     }
 }
 
-impl Libraries {
-    /// Returns whether one of the files defines a material.
-    pub(super) fn defines(&self, material: &str) -> bool {
-        self.materials.contains_key(material)
-    }
-
-    /// Lists the names of all materials, for messages.
-    pub(super) fn list_names(&self) -> String {
-        join_names(self.materials.keys().map(String::as_str))
-    }
-
-    /// Builds all materials, with their textures.
-    pub(super) fn build_materials(
-        &self,
-        files: &mut Files,
-        textures: &mut Textures,
-    ) -> Result<BTreeMap<String, Material>, SceneError> {
-        let materials = self.materials.iter();
-        materials
-            .map(|(name, own)| Ok((name.clone(), own.build(name, files, textures)?)))
-            .collect()
-    }
-
-    /// Reads and checks the text of a file.
-    pub(super) fn read(&mut self, path: &Path, text: &str) -> Result<(), SceneError> {
-        let mut current = None;
-        let mut materials = 0;
-        for statement in split_statements(text) {
-            let fail = |reason| SceneError::at_line(path, statement.line, reason);
-            let Some(keyword) = KEYWORDS.into_iter().find(|k| *k == statement.keyword) else {
-                continue;
-            };
-            let numbers = read_values(&statement).map_err(fail)?;
-            if keyword == "newmtl" {
-                current = Some(statement.rest);
-                materials += 1;
-                if materials > MAX_MATERIALS {
-                    return Err(fail(format!(
-                        "the file has more than {MAX_MATERIALS} materials; leave out those that no mesh uses"
-                    )));
+impl Stated {
+    /// Reads the text of a statement as tobj takes it: no comment after numbers, no options before a file, and three numbers for a
+    /// colour, since tobj panics on fewer.
+    pub(super) fn read(keyword: &str, statement: &Statement, path: &Path) -> Result<Self, String> {
+        let mut mapping = Mapping::NONE;
+        let mut unread = Vec::new();
+        let text = match number_count(keyword) {
+            Some(count) => {
+                if statement.words().count() < count {
+                    statement.read_first_numbers(count)?;
                 }
+                statement.words().collect::<Vec<&str>>().join(" ")
             }
-            let material = current.ok_or_else(|| {
-                fail(format!(
-                    "{keyword} comes before the first newmtl; move it below the newmtl of its material"
-                ))
-            })?;
-            let stated = Stated {
-                path: path.to_owned(),
-                line: statement.line,
-                numbers,
-                text: statement.rest.to_owned(),
-            };
-            let own = self.materials.entry(material.to_owned()).or_default();
-            if let Some(first) = own.0.insert(keyword, stated) {
-                return Err(fail(format!(
-                    "{keyword} of material \"{material}\" is given twice, first in {}:{}; delete one",
-                    first.path.display(),
-                    first.line
-                )));
+            None if keyword == "illum" => {
+                // Programs write words too, which are ignored as other models are.
+                let model = statement
+                    .words()
+                    .next()
+                    .and_then(|word| word.parse::<f32>().ok());
+                (model.unwrap_or_default() as u8).to_string()
             }
-        }
-        Ok(())
+            None if MAPS.contains(&keyword) => {
+                statement.check_name()?;
+                let map =
+                    read_map(statement.rest).map_err(|reason| format!("{keyword} {reason}"))?;
+                mapping = map.mapping;
+                unread = map
+                    .unread
+                    .iter()
+                    .map(|option| (*option).to_owned())
+                    .collect();
+                // Programs on Windows write backslashes.
+                map.file.replace('\\', "/")
+            }
+            None if statement.rest.is_empty() => {
+                return Err(format!("{keyword} names no material; give it a name"));
+            }
+            None => {
+                statement.check_name()?;
+                statement.rest.to_owned()
+            }
+        };
+        Ok(Self {
+            path: path.to_owned(),
+            line: statement.line,
+            text,
+            numbers: Vec::new(),
+            mapping,
+            unread,
+        })
     }
 }
 
 impl Statements {
+    /// Takes the numbers that tobj read, and checks them.
+    pub(super) fn read_numbers(&mut self, material: &tobj::Material) -> Result<(), SceneError> {
+        for (keyword, stated) in &mut self.0 {
+            let fail = |reason| SceneError::at_line(&stated.path, stated.line, reason);
+            let statement = Statement {
+                line: stated.line,
+                keyword,
+                rest: &stated.text,
+            };
+            stated.numbers = read_numbers(material, &statement).map_err(fail)?;
+        }
+        Ok(())
+    }
+
     /// The numbers after a keyword.
     fn numbers(&self, keyword: &str) -> Option<&[f32]> {
         self.0.get(keyword).map(|stated| stated.numbers.as_slice())
@@ -147,28 +144,28 @@ impl Statements {
         SceneError::at_line(path, *line, reason)
     }
 
-    fn build(
+    pub(super) fn build(
         &self,
-        name: &str,
+        material: &tobj::Material,
         files: &mut Files,
         textures: &mut Textures,
     ) -> Result<Material, SceneError> {
         self.check_transparency()
             .map_err(|reason| self.error("Tr", reason))?;
-        let mut texture = |keyword, usage| {
-            let Some(stated) = self.0.get(keyword) else {
+        let mut texture = |keyword, file: Option<&String>, usage| {
+            let Some(file) = file else {
                 return Ok(None);
             };
-            // Programs on Windows write backslashes.
-            let name = stated.text.replace('\\', "/");
-            let index = textures.load(files, &stated.path.with_file_name("").join(name), usage);
+            let path = self.0[keyword].path.with_file_name("").join(file);
+            let index = textures.load(files, &path, usage);
             index
                 .map(Some)
                 .map_err(|reason| self.error(keyword, reason))
         };
-        let diffuse_texture = texture("map_Kd", Use::Color)?;
-        let emission_texture = texture("map_Ke", Use::Color)?;
-        let opacity_texture = texture("map_d", Use::Opacity)?;
+        let diffuse_texture = texture("map_Kd", material.diffuse_texture.as_ref(), Use::Color)?;
+        let emission_file = material.unknown_param.get("map_Ke");
+        let emission_texture = texture("map_Ke", emission_file, Use::Color)?;
+        let opacity_texture = texture("map_d", material.dissolve_texture.as_ref(), Use::Opacity)?;
         let color = |keyword, default| {
             let numbers = self.numbers(keyword);
             numbers.map_or(Vec3::splat(default), Vec3::from_slice)
@@ -180,7 +177,7 @@ impl Statements {
         };
         let is_glass = self.number("illum") == Some(GLASS_MODEL);
         Ok(Material {
-            name: name.to_owned(),
+            name: material.name.clone(),
             finish: (finish.build(FINISH))
                 .map_err(|(wrong, reason)| self.error(FINISH[wrong], reason))?,
             // A texture alone is shown as it is.
@@ -219,15 +216,34 @@ impl Statements {
     }
 }
 
-/// Reads the numbers of a statement, and checks its values.
-fn read_values(statement: &Statement) -> Result<Vec<f32>, String> {
-    let Statement { keyword, rest, .. } = *statement;
-    let numbers = match keyword {
-        "Kd" | "Ke" | "Tf" => statement.read_numbers(&[3])?,
-        "d" | "Pr" | "Pm" | "Ni" | "Tr" => statement.read_numbers(&[1])?,
-        // Programs write words too, which are ignored as other models are.
-        "illum" => statement.read_numbers(&[1]).unwrap_or_default(),
-        _ => Vec::new(),
+/// Returns how many numbers a statement holds; none for other statements than those of numbers.
+pub(super) fn number_count(keyword: &str) -> Option<usize> {
+    match keyword {
+        "Kd" | "Ke" | "Tf" => Some(3),
+        "d" | "Pr" | "Pm" | "Ni" | "Tr" => Some(1),
+        _ => None,
+    }
+}
+
+/// Takes the numbers of a statement from what tobj read, and checks them.
+fn read_numbers(material: &tobj::Material, statement: &Statement) -> Result<Vec<f32>, String> {
+    let keyword = statement.keyword;
+    let read = match keyword {
+        "Kd" => material.diffuse.map(Vec::from),
+        "Ke" => material.emissive.map(Vec::from),
+        "d" => material.dissolve.map(|opacity| vec![opacity]),
+        "Ni" => material.optical_density.map(|index| vec![index]),
+        "illum" => material
+            .illumination_model
+            .map(|model| vec![f32::from(model)]),
+        // tobj keeps what it does not know as text.
+        _ => None,
+    };
+    let is_allowed = |number: &f32| f64::from(number.abs()) <= LARGEST_NUMBER;
+    let numbers = match (read, number_count(keyword)) {
+        (Some(numbers), _) if numbers.iter().all(is_allowed) => numbers,
+        (_, Some(count)) => statement.read_first_numbers(count)?,
+        (_, None) => Vec::new(),
     };
     let checked = match (keyword, numbers.as_slice()) {
         ("Kd" | "Tf", &[r, g, b]) => check_albedo([r, g, b]),
@@ -238,19 +254,8 @@ fn read_values(statement: &Statement) -> Result<Vec<f32>, String> {
         ("Pm", [metallic]) if ![0.0, 1.0].contains(metallic) => Err(format!(
             "is {metallic}; allowed: 0 (paint, wood, plastic) or 1 (bare metal), nothing between"
         )),
-        ("newmtl", _) if rest.is_empty() => Err("names no material; give it a name".into()),
-        ("map_Kd" | "map_Ke" | "map_d", _) if rest.is_empty() => {
-            Err("names no file; give it one".into())
-        }
-        ("map_Kd" | "map_Ke" | "map_d", _) if rest.starts_with('-') => Err(format!(
-            "has options (\"{}\"); allowed: a file name alone",
-            shorten(rest)
-        )),
         _ => Ok(()),
     };
     checked.map_err(|reason| format!("{keyword} {reason}"))?;
-    if numbers.is_empty() && keyword != "illum" {
-        statement.check_name()?;
-    }
     Ok(numbers)
 }

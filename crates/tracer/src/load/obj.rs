@@ -1,73 +1,135 @@
-//! OBJ files: their vertices, and their faces by group and material.
+//! OBJ files: tobj reads them. What it read is checked here.
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use glam::{Vec2, Vec3};
+use tobj::LoadOptions;
 
 use super::error::SceneError;
-use super::face::{Corner, Face};
+use super::face_lines::list_faces;
 use super::files::Files;
-use super::mtl::{Libraries, default_material};
-use super::statements::{Statement, shorten, split_statements};
+use super::libraries::Libraries;
+use super::mtl::default_material;
+use super::obj_fault::find_fault;
+use super::obj_text::ObjText;
+use super::statements::clean_text;
 use super::texture::Textures;
+use super::triangulation::triangulate;
 use crate::Material;
-use crate::limits::{LARGEST_MATERIAL_FILE, LARGEST_NUMBER, MAX_TRIANGLES, MAX_VERTICES};
+use crate::limits::{LARGEST_NUMBER, MAX_CORNERS, MAX_TRIANGLES};
 
-/// Group of faces before the first `g` or `o`, and after one without a name.
-const UNNAMED: &str = "unnamed_object";
+/// One index for all attributes of a corner. Faces are cut later: tobj would fill concave ones.
+const OPTIONS: LoadOptions = LoadOptions {
+    single_index: true,
+    triangulate: false,
+    ignore_points: false,
+    ignore_lines: false,
+};
 
 /// OBJ file with its materials.
-#[derive(Default)]
 pub(super) struct ObjFile {
     pub(super) path: PathBuf,
-    pub(super) positions: Vec<Vec3>,
-    pub(super) texcoords: Vec<Vec2>,
-    /// Unit normals.
-    pub(super) normals: Vec<Vec3>,
+    /// Text of the file, for the lines of its faces.
+    pub(super) text: String,
     /// Runs of faces with one group and one material.
     pub(super) parts: Vec<Part>,
-    materials: BTreeMap<String, Material>,
-    /// Number of triangles of all faces.
-    triangles: usize,
+    materials: Vec<Material>,
+    /// Sentences about what was not read.
+    pub(super) notes: Vec<String>,
 }
 
 /// Faces of one group and one material. Their corners have the same kinds of indices.
 pub(super) struct Part {
     pub(super) group: String,
-    /// Name in the MTL files; none for the default.
-    pub(super) material: Option<String>,
-    pub(super) faces: Vec<Face>,
+    /// Index into the materials of the file; none for the default.
+    material: Option<usize>,
+    pub(super) positions: Vec<Vec3>,
+    /// Texture coordinates, one per position or none.
+    pub(super) texcoords: Vec<Vec2>,
+    /// Unit normals, one per position or none; zero where the file gives one without length.
+    pub(super) normals: Vec<Vec3>,
+    /// Vertices of all corners, face by face.
+    pub(super) corners: Vec<u32>,
+    /// Number of corners of each face.
+    arities: Vec<u32>,
 }
 
 impl Part {
-    fn new(group: String, material: Option<String>) -> Self {
-        Self {
-            group,
-            material,
-            faces: Vec::new(),
+    /// Takes what tobj read; returns none if faces, indices or numbers are not allowed.
+    fn new(model: tobj::Model) -> Option<Self> {
+        let tobj::Model { mesh, name } = model;
+        let arities = match mesh.face_arities {
+            // tobj lists none if all are triangles.
+            arities if arities.is_empty() => vec![3; mesh.indices.len() / 3],
+            arities => arities,
+        };
+        let is_allowed = |number: &f32| f64::from(number.abs()) <= LARGEST_NUMBER;
+        let mut numbers = mesh
+            .positions
+            .iter()
+            .chain(&mesh.texcoords)
+            .chain(&mesh.normals);
+        let mut counts = arities.iter().map(|count| *count as usize);
+        if !numbers.all(is_allowed) || !counts.all(|count| (3..=MAX_CORNERS).contains(&count)) {
+            return None;
         }
+        let part = Self {
+            group: name,
+            material: mesh.material_id,
+            positions: mesh
+                .positions
+                .chunks_exact(3)
+                .map(Vec3::from_slice)
+                .collect(),
+            texcoords: mesh
+                .texcoords
+                .chunks_exact(2)
+                .map(Vec2::from_slice)
+                .collect(),
+            normals: mesh.normals.chunks_exact(3).map(unit_normal).collect(),
+            corners: mesh.indices,
+            arities,
+        };
+        // tobj leaves out what a corner does not have.
+        let lengths = [part.texcoords.len(), part.normals.len()];
+        let is_complete = |length| length == 0 || length == part.positions.len();
+        lengths.into_iter().all(is_complete).then_some(part)
     }
 
-    pub(super) fn has_texcoords(&self) -> bool {
-        self.faces[0].kinds()[0]
-    }
-
-    pub(super) fn has_normals(&self) -> bool {
-        self.faces[0].kinds()[1]
-    }
-
-    /// Cuts the faces into triangles that have the first corner in common, and lists the corners of these.
-    pub(super) fn triangle_corners(&self) -> impl Iterator<Item = Corner> {
-        self.faces.iter().flat_map(|Face { corners, .. }| {
-            let pairs = corners[1..].windows(2);
-            pairs.flat_map(|pair| [corners[0], pair[0], pair[1]])
-        })
+    /// Normal of a vertex; zero if there is none.
+    pub(super) fn normal(&self, vertex: u32) -> Vec3 {
+        let normal = self.normals.get(vertex as usize);
+        normal.copied().unwrap_or(Vec3::ZERO)
     }
 
     pub(super) fn count_triangles(&self) -> usize {
-        self.faces.iter().map(|face| face.corners.len() - 2).sum()
+        self.corners.len() - 2 * self.arities.len()
     }
+
+    /// Cuts all faces into triangles, as indices into the corners. The error is the number of a face that cannot be cut.
+    fn cut_faces(&self) -> Result<Vec<[u32; 3]>, usize> {
+        let mut triangles = Vec::with_capacity(self.count_triangles());
+        let mut start = 0;
+        for (face, arity) in self.arities.iter().enumerate() {
+            let vertices = &self.corners[start as usize..][..*arity as usize];
+            let positions = vertices
+                .iter()
+                .map(|vertex| self.positions[*vertex as usize]);
+            let cut = triangulate(&positions.collect::<Vec<_>>()).ok_or(face)?;
+            triangles.extend(
+                cut.iter()
+                    .map(|corners| corners.map(|corner| start + corner)),
+            );
+            start += arity;
+        }
+        Ok(triangles)
+    }
+}
+
+fn unit_normal(numbers: &[f32]) -> Vec3 {
+    let normal = Vec3::from_slice(numbers).as_dvec3();
+    normal.normalize_or_zero().as_vec3()
 }
 
 impl ObjFile {
@@ -78,36 +140,37 @@ impl ObjFile {
         path: &Path,
         text: &str,
     ) -> Result<Self, SceneError> {
-        let mut file = Self {
-            path: path.to_owned(),
-            parts: vec![Part::new(UNNAMED.into(), None)],
-            ..Self::default()
-        };
-        let mut libraries = Libraries::default();
-        for statement in split_statements(text) {
-            let fail = |reason: String| SceneError::at_line(path, statement.line, reason);
-            if statement.keyword == "mtllib" {
-                statement.check_name().map_err(fail)?;
-                let library = path.with_file_name("").join(statement.rest);
-                let text = files.read_text(&library, LARGEST_MATERIAL_FILE);
-                let text = text.map_err(|error| {
-                    let name = library.display();
-                    fail(format!("material library {name} cannot be read: {error}"))
-                })?;
-                libraries.read(&library, &text)?;
-            } else {
-                file.read_statement(&statement, &libraries).map_err(fail)?;
+        let text = clean_text(text);
+        let fault = || find_fault(path, &text);
+        let prepared = ObjText::prepare(&text).ok_or_else(fault)?;
+        let libraries = Libraries::read(files, path, &prepared.libraries)?;
+        libraries.check_materials(path, prepared.materials.values())?;
+        let loaded = tobj::load_obj_buf(&mut prepared.reader(), &OPTIONS, |_| libraries.loaded());
+        let (models, _) = loaded.map_err(|_| fault())?;
+        let models = models.into_iter().filter(|model| !is_empty(&model.mesh));
+        let parts: Option<Vec<Part>> = models.map(Part::new).collect();
+        let mut parts = parts.ok_or_else(fault)?;
+        if parts.iter().map(Part::count_triangles).sum::<usize>() > MAX_TRIANGLES {
+            return Err(fault());
+        }
+        for part in &mut parts {
+            if let Some(material) = part.material {
+                libraries.mapping(material)?.apply(&mut part.texcoords);
             }
         }
-        file.parts.retain(|part| !part.faces.is_empty());
-        file.materials = libraries.build_materials(files, textures)?;
-        Ok(file)
+        Ok(Self {
+            path: path.to_owned(),
+            materials: libraries.build_materials(files, textures)?,
+            notes: libraries.notes,
+            parts,
+            text: text.into_owned(),
+        })
     }
 
     /// Material of a part.
     pub(super) fn material(&self, part: &Part) -> Material {
-        let name = part.material.as_ref();
-        name.map_or_else(default_material, |name| self.materials[name].clone())
+        let index = part.material;
+        index.map_or_else(default_material, |index| self.materials[index].clone())
     }
 
     /// Lists the names of groups and objects that have faces, each once, in the order of the file.
@@ -123,128 +186,19 @@ impl ObjFile {
         parts.filter(move |(_, part)| group.is_none_or(|group| part.group == group))
     }
 
-    /// Reads a statement of the mesh; skips all others.
-    fn read_statement(
-        &mut self,
-        statement: &Statement,
-        libraries: &Libraries,
-    ) -> Result<(), String> {
-        match statement.keyword {
-            "o" | "g" => {
-                statement.check_name()?;
-                self.next_part().group = match statement.rest {
-                    "" => UNNAMED.to_owned(),
-                    name => name.to_owned(),
-                };
-                Ok(())
+    /// Cuts the faces of a part into triangles, as indices into its corners.
+    pub(super) fn cut_faces(&self, part: usize) -> Result<Vec<[u32; 3]>, SceneError> {
+        self.parts[part].cut_faces().map_err(|face| {
+            let faces = self.parts[..part].iter().map(|part| part.arities.len());
+            SceneError {
+                path: self.path.clone(),
+                line: (list_faces(&self.text).nth(face + faces.sum::<usize>())).map(|face| face.line),
+                reason: "the face crosses itself, so that its surface is not defined; cut it into triangles".into(),
             }
-            "usemtl" => {
-                statement.check_name()?;
-                check_material(statement, libraries)?;
-                let name = Some(statement.rest.to_owned());
-                if self.last_part().material != name {
-                    self.next_part().material = name;
-                }
-                Ok(())
-            }
-            "f" => self.read_face(statement),
-            "v" => {
-                self.positions.push(read_position(statement)?);
-                check_count(self.positions.len(), MAX_VERTICES, "vertices")
-            }
-            "vt" => {
-                let numbers = statement.read_numbers(&[2, 3])?;
-                self.texcoords.push(Vec2::from_slice(&numbers));
-                check_count(self.texcoords.len(), MAX_VERTICES, "texture coordinates")
-            }
-            "vn" => {
-                let normal = Vec3::from_slice(&statement.read_numbers(&[3])?);
-                if normal.length_squared() == 0.0 {
-                    return Err("vn has no length; give it a direction".into());
-                }
-                self.normals.push(normal.as_dvec3().normalize().as_vec3());
-                check_count(self.normals.len(), MAX_VERTICES, "normals")
-            }
-            _ => Ok(()),
-        }
-    }
-
-    /// The part that faces are added to.
-    fn last_part(&mut self) -> &mut Part {
-        self.parts.last_mut().expect("a file begins with a part")
-    }
-
-    /// Begins a part after the last, unless that has no faces yet.
-    fn next_part(&mut self) -> &mut Part {
-        let last = self.last_part();
-        if !last.faces.is_empty() {
-            let next = Part::new(last.group.clone(), last.material.clone());
-            self.parts.push(next);
-        }
-        self.last_part()
-    }
-
-    /// Reads a face of the last part.
-    fn read_face(&mut self, statement: &Statement) -> Result<(), String> {
-        let lengths = [
-            self.positions.len(),
-            self.texcoords.len(),
-            self.normals.len(),
-        ];
-        let face = Face::read(statement, lengths)?;
-        self.triangles += face.corners.len() - 2;
-        let faces = &mut self.last_part().faces;
-        if faces
-            .first()
-            .is_some_and(|first| first.kinds() != face.kinds())
-        {
-            return Err(
-                "the face has other kinds of indices than the faces before it; give texture coordinates and normals to all \
-                 faces of a group and material, or to none"
-                    .into(),
-            );
-        }
-        faces.push(face);
-        check_count(self.triangles, MAX_TRIANGLES, "triangles")
+        })
     }
 }
 
-/// Refuses more elements than are allowed.
-fn check_count(count: usize, most: usize, what: &str) -> Result<(), String> {
-    if count <= most {
-        return Ok(());
-    }
-    Err(format!(
-        "the file has more than {most} {what}, as many as are allowed; simplify the mesh, or split it into several files"
-    ))
-}
-
-/// Reads a position: three numbers, with a weight or a colour, which is not used.
-fn read_position(statement: &Statement) -> Result<Vec3, String> {
-    let numbers = statement.read_numbers(&[3, 4, 6])?;
-    let position = Vec3::from_slice(&numbers);
-    let &[_, _, _, weight] = &numbers[..] else {
-        return Ok(position);
-    };
-    if weight == 0.0 {
-        return Err("v has the weight 0, which puts it at infinity; leave the weight out".into());
-    }
-    let position = position / weight;
-    if f64::from(position.abs().max_element()) > LARGEST_NUMBER {
-        return Err(format!(
-            "v has the weight {weight:e}, which puts it beyond {LARGEST_NUMBER:e}; leave the weight out"
-        ));
-    }
-    Ok(position)
-}
-
-fn check_material(statement: &Statement, libraries: &Libraries) -> Result<(), String> {
-    if libraries.defines(statement.rest) {
-        return Ok(());
-    }
-    Err(format!(
-        "usemtl names material \"{}\", which no mtllib above it defines; materials: {}",
-        shorten(statement.rest),
-        libraries.list_names()
-    ))
+fn is_empty(mesh: &tobj::Mesh) -> bool {
+    mesh.indices.is_empty() && mesh.face_arities.is_empty()
 }

@@ -1,6 +1,8 @@
 //! The translucency of materials: the meaning of opacities by an object's `alpha`, and
 //! checks of its materials' requests.
 
+use std::path::Path;
+
 use toml::Spanned;
 
 use super::document::Document;
@@ -13,10 +15,12 @@ use crate::{Finish, Material, Translucency};
 pub(super) const GLASS: f32 = 1.5;
 
 /// Choices of an object about its translucent surfaces.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Alpha {
     /// True if opacity mixes a surface with what is behind it; else it cuts holes.
     pub(super) is_blended: bool,
+    /// True if the scene.toml chooses.
+    is_written: bool,
     /// True if velocity, depth and object id come from the translucent surfaces.
     in_buffers: bool,
 }
@@ -32,8 +36,29 @@ impl Alpha {
         let buffers = table.buffers.as_ref().map(|buffers| *buffers.get_ref());
         Ok(Self {
             is_blended,
+            is_written: table.alpha.is_some(),
             in_buffers: buffers == Some(BuffersWord::Own),
         })
+    }
+
+    /// Says what becomes of a material that its file calls translucent, if the scene.toml does not choose.
+    pub(super) fn note(self, material: &Material, mesh: &Path) -> Option<String> {
+        let opacity = material.opacity;
+        let is_clear = material.translucency == Some(Translucency::CLEAR);
+        if self.is_written || opacity == 1.0 || opacity == 0.0 && is_clear {
+            return None;
+        }
+        Some(format!(
+            "material \"{}\" of {} has the opacity {opacity} and is drawn {}; write alpha = \"blended\" to let light through, or \
+             alpha = \"cutout\" to keep this",
+            material.name,
+            mesh.display(),
+            if opacity < Material::HOLE {
+                "as a hole"
+            } else {
+                "opaque"
+            }
+        ))
     }
 
     /// Sets the translucency of a material of the object, from what its file asks for. A material that is opaque everywhere has

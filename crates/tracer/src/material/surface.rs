@@ -8,9 +8,6 @@ use crate::material::glossy_material::GlossyMaterial;
 use crate::motion::pose::Pose;
 use crate::scene::{Material, Mesh, Scene};
 
-/// Opacity below which a surface has a hole.
-const HOLE: f32 = 0.5;
-
 /// A point of a surface at one time, in the world.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Surface {
@@ -43,7 +40,7 @@ pub(crate) enum Sight {
 pub(crate) fn find_solid_objects(scene: &Scene) -> Vec<bool> {
     let is_solid = |&material: &usize| {
         let material = &scene.materials[material];
-        material.opacity >= HOLE
+        material.opacity >= Material::HOLE
             && material.opacity_texture.is_none()
             && material.translucency.is_none()
     };
@@ -62,7 +59,7 @@ pub(crate) fn is_seen(
 ) -> bool {
     let opacity = || opacity(scene, object, triangle, weights);
     let Some(own) = find_material(scene, object, triangle).translucency else {
-        return opacity() >= HOLE;
+        return opacity() >= Material::HOLE;
     };
     let changes_light = || own.glass.is_some() || own.filter != Vec3::ONE || opacity() > 0.0;
     match sight {
@@ -132,7 +129,7 @@ pub(crate) fn emission(scene: &Scene, object: usize, triangle: u32, weights: [f6
     let opacity = opacity(scene, object, triangle, weights);
     let material = find_material(scene, object, triangle);
     let is_translucent = material.translucency.is_some();
-    if opacity < HOLE && !is_translucent {
+    if opacity < Material::HOLE && !is_translucent {
         return Vec3::ZERO;
     }
     let mesh = &scene.meshes[scene.objects[object].mesh];

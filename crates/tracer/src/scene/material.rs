@@ -81,6 +81,9 @@ impl Translucency {
 }
 
 impl Material {
+    /// Opacity below which a surface has a hole, unless it is translucent.
+    pub const HOLE: f32 = 0.5;
+
     /// Makes a surface that sends out its albedo and reflects nothing; one that emits keeps its radiance.
     pub(super) fn unlit(self) -> Self {
         let (emission, emission_texture) = match self.emission == Vec3::ZERO {
