@@ -66,3 +66,45 @@ fn a_check_with_a_failed_case_is_broken() {
     assert_eq!(found["failures"][0]["scene"], "dim");
     assert_done(&check("--scenes plate"));
 }
+
+/// A `switch` that the driver makes an endless loop of, and the device is lost: naga writes a wrong jump.
+const FALLING: &str = "#version 450
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0) uniform sampler2D color;
+layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D result;
+void main() {
+    ivec2 at = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(at, imageSize(result)))) return;
+    vec4 sum = texelFetch(color, at, 0);
+    switch (at.x % 5) {
+    case 3:
+    case 2:
+        sum *= 2.0;
+    default:
+        sum *= 3.0;
+    }
+    imageStore(result, at, sum);
+}
+";
+
+#[test]
+fn a_shader_that_would_lose_the_device_is_refused_and_the_others_are_measured() {
+    let sandbox = set_up();
+    let bindings = "[[pass]]\nshader = \"falling.comp\"\n[[pass.binding]]\nname = \"color\"\n\
+                    [[pass.binding]]\nname = \"result\"\ntexture = \"output\"\n";
+    let manifest = format!(
+        "name = \"falling\"\nsummary = \"It serves a test.\"\nalignment = \"trailing\"\n{bindings}"
+    );
+    sandbox.put("falling/filter.toml", &manifest);
+    sandbox.put("falling/falling.comp", FALLING);
+    let words = "falling/falling.comp: a `case` falls through into the next one";
+    sandbox.refuse(
+        "list --filter ./falling",
+        &[words, "end the case with `break`"],
+    );
+    let filters = ["--filters", "./falling,identity", "--scenes", "plate"];
+    let output = sandbox.run(&filters);
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    assert_contains(&stderr(&output), &["1 case failed", words]);
+    assert_eq!(sandbox.read_case_names(), ["plate identity:default"]);
+}

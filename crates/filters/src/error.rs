@@ -83,6 +83,21 @@ pub enum FilterError {
         /// Time limit in seconds.
         time_limit: f64,
     },
+    /// The driver gave up the device while it compiled or ran a pass. The next filter gets a new one.
+    #[error(
+        "filter {filter}, pass {pass}: adapter \"{adapter}\" lost its device ({reason}); its driver cannot run this shader; \
+         write it otherwise, or choose another adapter"
+    )]
+    Lost {
+        /// The filter.
+        filter: String,
+        /// Entry point of the pass, or a step around the passes.
+        pass: String,
+        /// Name of the adapter.
+        adapter: String,
+        /// Message of the driver.
+        reason: String,
+    },
     /// wgpu or the driver refused a pass.
     #[error("filter {filter}, pass {pass}: {reason}")]
     Gpu {

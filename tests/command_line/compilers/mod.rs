@@ -104,6 +104,8 @@ fn slang_hlsl_and_wesl_go_through_their_compilers() {
     }
     let sandbox = Sandbox::new();
     write_pass(&sandbox, "blur.wesl", "conditions = [\"FAST\", \"FINE\"]\n");
+    let text = "@if(FAST) const taps = 4;\n@if(FINE) const step = 1;\n";
+    sandbox.put("translated/blur.wesl", text);
     let manifest = sandbox.path("translated/filter.toml");
     let text = fs::read_to_string(&manifest).unwrap();
     let (texture, binding) = (

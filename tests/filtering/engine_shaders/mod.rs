@@ -3,6 +3,7 @@
 mod camera;
 mod constants;
 mod conventions;
+mod flows;
 mod fragment;
 mod further_inputs;
 mod guide;

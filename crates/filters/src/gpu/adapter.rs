@@ -1,18 +1,10 @@
 //! Choice and opening of the adapter that runs the filters.
 
-use super::device::{AdapterDescription, Clock, Gpu, LoopLimit};
+use std::sync::RwLock;
+
+use super::device::{AdapterDescription, Clock, Device, FEATURES, Gpu, LoopLimit, TIMESTAMPS};
 use super::loop_probe::find_loop_limit;
 use crate::{FilterError, Format};
-
-/// Features that read the GPU's own clock between passes.
-const TIMESTAMPS: wgpu::Features =
-    wgpu::Features::TIMESTAMP_QUERY.union(wgpu::Features::TIMESTAMP_QUERY_INSIDE_ENCODERS);
-
-/// Features that shaders of engines may need: samplers that interpolate 32-bit floats, and storage textures in more formats.
-const SHADERS_OF_ENGINES: wgpu::Features = wgpu::Features::FLOAT32_FILTERABLE
-    .union(wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES)
-    .union(wgpu::Features::RG11B10UFLOAT_RENDERABLE)
-    .union(wgpu::Features::SHADER_F64);
 
 /// Lists every adapter of this machine; index or name choose one in [`Gpu::new`].
 pub fn list_adapters() -> Vec<AdapterDescription> {
@@ -40,32 +32,20 @@ impl Gpu {
                 names.collect::<Vec<_>>().join("; ")
             ))
         })?;
-        let descriptor = wgpu::DeviceDescriptor {
-            label: Some("shuttertruth"),
-            required_features: chosen.features() & (TIMESTAMPS | SHADERS_OF_ENGINES),
-            required_limits: chosen.limits(),
-            ..Default::default()
-        };
-        let description = describe(chosen);
-        let opened = pollster::block_on(chosen.request_device(&descriptor));
-        let (device, queue) = opened.map_err(|error| {
-            FilterError::Refused(format!(
-                "adapter \"{}\" cannot be used: {error}; choose another adapter",
-                description.name
-            ))
-        })?;
+        let device = Device::open(chosen)?;
         let lanes = chosen.get_info().subgroup_max_size;
         let mut gpu = Self {
-            adapter: description,
-            clock: match device.features().contains(TIMESTAMPS) {
-                true => Clock::Timestamps,
-                false => Clock::WallClock,
+            adapter: describe(chosen),
+            clock: if chosen.features().contains(TIMESTAMPS) {
+                Clock::Timestamps
+            } else {
+                Clock::WallClock
             },
             loop_limit: None,
-            stored_formats: list_stored_formats(chosen, &device),
+            stored_formats: list_stored_formats(chosen),
             interrupted: || false,
-            device,
-            queue,
+            opened: chosen.clone(),
+            device: RwLock::new(device),
         };
         gpu.loop_limit = find_loop_limit(&gpu)?.map(|iterations| LoopLimit { iterations, lanes });
         Ok(gpu)
@@ -73,8 +53,8 @@ impl Gpu {
 }
 
 /// Lists the formats in which shaders can store textures.
-fn list_stored_formats(adapter: &wgpu::Adapter, device: &wgpu::Device) -> Vec<Format> {
-    let features = device.features();
+fn list_stored_formats(adapter: &wgpu::Adapter) -> Vec<Format> {
+    let features = adapter.features() & FEATURES;
     let is_open = features.contains(wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES);
     let is_stored = |format: &Format| {
         let granted = match is_open {

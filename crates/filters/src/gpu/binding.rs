@@ -68,7 +68,7 @@ impl CompiledStage {
         let entries: Vec<wgpu::BindGroupEntry> = (used.chain(counted))
             .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
             .collect();
-        gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        gpu.device().create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some(&entry.name),
             layout: &self.layout,
             entries: &entries,
@@ -127,7 +127,7 @@ fn create_layout(
             count: None,
         })
         .collect();
-    gpu.device
+    gpu.device()
         .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some(&entry.name),
             entries: &entries,
@@ -152,7 +152,7 @@ pub(super) fn create_pipeline(
     let (stage, entry) = &stages[0];
     let layouts: Vec<_> = (stages.iter().map(|(stage, _)| Some(&stage.layout))).collect();
     let layout = gpu
-        .device
+        .device()
         .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some(&entry.name),
             bind_group_layouts: &layouts,
@@ -162,7 +162,7 @@ pub(super) fn create_pipeline(
         return Pipeline::Render(create_render_pipeline(gpu, &layout, stages, targets));
     }
     let pipeline = gpu
-        .device
+        .device()
         .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some(&entry.name),
             layout: Some(&layout),
@@ -216,7 +216,7 @@ fn create_render_pipeline(
         Some((vertex, entry)) => (&vertex.module, &entry.name[..]),
         None => {
             triangle = gpu
-                .device
+                .device()
                 .create_shader_module(wgpu::ShaderModuleDescriptor {
                     label: Some("triangle"),
                     source: wgpu::ShaderSource::Naga(Cow::Owned(make_triangle(&entry.inputs))),
@@ -233,7 +233,7 @@ fn create_render_pipeline(
             })
         })
         .collect();
-    gpu.device
+    gpu.device()
         .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(&entry.name),
             layout: Some(layout),
@@ -271,7 +271,7 @@ fn create_sampler(gpu: &Gpu, label: &str, sampling: Sampling) -> wgpu::Sampler {
         SamplerFilter::Nearest => wgpu::MipmapFilterMode::Nearest,
         SamplerFilter::Linear => wgpu::MipmapFilterMode::Linear,
     };
-    gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+    gpu.device().create_sampler(&wgpu::SamplerDescriptor {
         label: Some(label),
         address_mode_u: wrap,
         address_mode_v: wrap,

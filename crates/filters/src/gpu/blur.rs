@@ -271,16 +271,19 @@ impl<'g> Blur<'g> {
     fn run_dispatch(&self, dispatch: &Dispatch) -> Result<(), FilterError> {
         let place = self.place(&dispatch.entry);
         self.gpu.catch_errors(place, || {
-            let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+            let mut encoder = self
+                .gpu
+                .device()
+                .create_command_encoder(&Default::default());
             dispatch.encode(&mut encoder);
-            self.gpu.queue.submit([encoder.finish()]);
+            self.gpu.queue().submit([encoder.finish()]);
         })?;
         self.gpu.wait(place, self.filter().time_limit)
     }
 }
 
 fn check_size(gpu: &Gpu, filter: &Filter, width: u32, height: u32) -> Result<(), FilterError> {
-    let limits = gpu.device.limits();
+    let limits = gpu.device().limits();
     let side = limits.max_texture_dimension_2d;
     let image = row_bytes(width, Format::Rgba32Float) * u64::from(height);
     let reason = if width == 0 || height == 0 {

@@ -95,7 +95,7 @@ impl BoundPasses {
                 None => frame.value(name),
             };
             for (block, buffer) in &dispatch.blocks {
-                gpu.queue.write_buffer(buffer, 0, &block.encode(&value));
+                gpu.queue().write_buffer(buffer, 0, &block.encode(&value));
             }
         }
     }

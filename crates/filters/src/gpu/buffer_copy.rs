@@ -25,7 +25,7 @@ const PLACE: Place = Place {
 impl<'g> BufferCopy<'g> {
     /// Makes buffers of 128 MiB, or of as much as the adapter allows.
     pub fn new(gpu: &'g Gpu) -> Result<Self, FilterError> {
-        let size = BUFFER_BYTES.min(gpu.device.limits().max_buffer_size);
+        let size = BUFFER_BYTES.min(gpu.device().limits().max_buffer_size);
         let buffer = |usage| gpu.create_buffer("copy", size, usage);
         let (from, to) = gpu.catch_errors(PLACE, || {
             (

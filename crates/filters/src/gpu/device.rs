@@ -1,8 +1,23 @@
 //! An opened GPU.
 
+use std::sync::{Arc, OnceLock, PoisonError, RwLock, RwLockReadGuard};
+
 use serde::{Deserialize, Serialize};
 
-use crate::Format;
+use crate::{FilterError, Format};
+
+/// Features that read the GPU's own clock between passes.
+pub(super) const TIMESTAMPS: wgpu::Features =
+    wgpu::Features::TIMESTAMP_QUERY.union(wgpu::Features::TIMESTAMP_QUERY_INSIDE_ENCODERS);
+
+/// Features that shaders of engines may need: samplers that interpolate 32-bit floats, and storage textures in more formats.
+const SHADERS_OF_ENGINES: wgpu::Features = wgpu::Features::FLOAT32_FILTERABLE
+    .union(wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES)
+    .union(wgpu::Features::RG11B10UFLOAT_RENDERABLE)
+    .union(wgpu::Features::SHADER_F64);
+
+/// Features that filters use where an adapter has them.
+pub(super) const FEATURES: wgpu::Features = TIMESTAMPS.union(SHADERS_OF_ENGINES);
 
 /// Description of an adapter, as a run records it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -57,11 +72,80 @@ pub struct Gpu {
     pub(super) stored_formats: Vec<Format>,
     /// Function polled while the GPU works; work stops when it returns true. The default never does.
     pub interrupted: fn() -> bool,
-    pub(super) device: wgpu::Device,
-    pub(super) queue: wgpu::Queue,
+    pub(super) opened: wgpu::Adapter,
+    pub(super) device: RwLock<Device>,
+}
+
+/// An open device. It may get lost, and is opened again then.
+#[derive(Debug)]
+pub(super) struct Device {
+    device: wgpu::Device,
+    queue: wgpu::Queue,
+    /// What the driver says once the device is lost.
+    lost: Arc<OnceLock<String>>,
+}
+
+impl Device {
+    /// Opens a device of an adapter with all features that filters need and all its limits.
+    pub fn open(adapter: &wgpu::Adapter) -> Result<Self, FilterError> {
+        let descriptor = wgpu::DeviceDescriptor {
+            label: Some("shuttertruth"),
+            required_features: adapter.features() & FEATURES,
+            required_limits: adapter.limits(),
+            ..Default::default()
+        };
+        let opened = pollster::block_on(adapter.request_device(&descriptor));
+        let (device, queue) = opened.map_err(|error| {
+            FilterError::Refused(format!(
+                "adapter \"{}\" cannot be used: {error}; choose another adapter",
+                adapter.get_info().name
+            ))
+        })?;
+        let lost = Arc::new(OnceLock::new());
+        let said = lost.clone();
+        device.set_device_lost_callback(move |_, reason| _ = said.set(reason));
+        let is_lost = lost.clone();
+        // After a loss, everything fails, and the loss is reported.
+        device.on_uncaptured_error(Arc::new(move |error| {
+            assert!(is_lost.get().is_some(), "wgpu error: {error}");
+        }));
+        Ok(Self {
+            device,
+            queue,
+            lost,
+        })
+    }
 }
 
 impl Gpu {
+    /// Returns the open device.
+    pub(super) fn device(&self) -> wgpu::Device {
+        self.read_device().device.clone()
+    }
+
+    /// Returns the open device's queue.
+    pub(super) fn queue(&self) -> wgpu::Queue {
+        self.read_device().queue.clone()
+    }
+
+    /// Says why the device is lost, if it is.
+    pub(super) fn find_loss(&self) -> Option<String> {
+        self.read_device().lost.get().cloned()
+    }
+
+    fn read_device(&self) -> RwLockReadGuard<'_, Device> {
+        self.device.read().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Opens the device again if it is lost. What was made for the lost one stays unusable.
+    pub(super) fn reopen_if_lost(&self) -> Result<(), FilterError> {
+        if self.find_loss().is_some() {
+            let device = Device::open(&self.opened)?;
+            *self.device.write().unwrap_or_else(PoisonError::into_inner) = device;
+        }
+        Ok(())
+    }
+
     /// Creates a buffer.
     pub(super) fn create_buffer(
         &self,
@@ -69,11 +153,65 @@ impl Gpu {
         size: u64,
         usage: wgpu::BufferUsages,
     ) -> wgpu::Buffer {
-        self.device.create_buffer(&wgpu::BufferDescriptor {
+        self.device().create_buffer(&wgpu::BufferDescriptor {
             label: Some(label),
             size,
             usage,
             mapped_at_creation: false,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use frame::{Image, Plane, Raster, Vectors};
+
+    use super::*;
+    use crate::{Blur, Filter, Input, Kernels};
+
+    /// Blurs a picture of 4x3 pixels.
+    fn run(blur: &mut Blur) -> Result<Vec<Image>, FilterError> {
+        let color = Raster::from_fn(4, 3, |x, y| [x as f32, y as f32, 1.0]);
+        let velocity: Vectors = Raster::filled(4, 3, [1.0, 0.0]);
+        let depth: Plane = Raster::filled(4, 3, 2.0);
+        blur.run(&Input {
+            color: &[&color],
+            velocity: &velocity,
+            velocity_next: None,
+            velocity_z: None,
+            exclusion: None,
+            depth: &depth,
+            reprojection: None,
+            camera: None,
+            exposure: 1.0,
+            frames_per_second: None,
+            frame_index: 0,
+        })
+    }
+
+    #[test]
+    fn a_filter_that_loses_the_device_is_named_and_others_get_a_new_one() {
+        let gpu = Gpu::new(None).unwrap();
+        let filter = Filter::builtin("velocity_gather").unwrap();
+        let settings = filter.settings(None).unwrap();
+        let kernels = Kernels::compile(&gpu, &filter).unwrap();
+        let make = || Blur::with_kernels(&kernels, &settings, 4, 3).unwrap();
+        let mut blur = make();
+        let expected = run(&mut blur).unwrap();
+        gpu.device().destroy();
+        let _ = gpu.device().poll(wgpu::PollType::Poll);
+        for _ in 0..2 {
+            let error = run(&mut blur).unwrap_err();
+            let is_named =
+                matches!(&error, FilterError::Lost { filter, .. } if filter == "velocity_gather");
+            assert!(is_named, "{error}");
+        }
+        assert_eq!(run(&mut make()).unwrap(), expected);
+        gpu.device().destroy();
+        let _ = gpu.device().poll(wgpu::PollType::Poll);
+        let other = Filter::builtin("identity").unwrap();
+        let settings = other.settings(None).unwrap();
+        let mut blur = Blur::new(&gpu, &other, &settings, 4, 3).unwrap();
+        assert_eq!(run(&mut blur).unwrap()[0].at(3, 2), &[3.0, 2.0, 1.0]);
     }
 }

@@ -13,7 +13,8 @@ use super::limits::Limits;
 use super::targets::list_target_formats;
 use crate::printable::escape_controls;
 use crate::shader::{
-    Shader, Varying, count_loop_iterations, follow_interpolation, run_on_large_stack,
+    Shader, Varying, count_loop_iterations, falls_through_wrongly, follow_interpolation,
+    run_on_large_stack,
 };
 use crate::translate::{list_constants, specialise};
 use crate::{Filter, FilterError, Pass, Settings};
@@ -23,7 +24,9 @@ use crate::{Filter, FilterError, Pass, Settings};
 pub struct Kernels<'g> {
     pub(super) gpu: &'g Gpu,
     pub(super) filter: Filter,
-    /// Kernels for the settings of the first preset, then for settings with other values of specialisation constants.
+    /// Values of specialisation constants that the filter's shaders have: those of the first preset.
+    constants: Vec<Constants>,
+    /// Kernels for those, then for other values of specialisation constants.
     specialised: Mutex<Vec<Arc<Specialised>>>,
 }
 
@@ -33,6 +36,8 @@ type Constants = Vec<(String, f64)>;
 /// Kernels whose specialisation constants are set.
 #[derive(Debug)]
 pub(super) struct Specialised {
+    /// Device that they were compiled for.
+    device: wgpu::Device,
     /// Constants of each pass.
     constants: Vec<Constants>,
     pub filter: Filter,
@@ -61,11 +66,14 @@ impl<'g> Kernels<'g> {
                 reason: "it is a command and has no kernels that an adapter could run".into(),
             });
         }
+        // An earlier filter may have lost it.
+        gpu.reopen_if_lost()?;
         let constants = list_all_constants(filter, &filter.settings(None)?);
-        let first = compile(gpu, filter.clone(), constants, None)?;
+        let first = compile(gpu, filter.clone(), constants.clone(), None)?;
         Ok(Self {
             gpu,
             filter: filter.clone(),
+            constants,
             specialised: Mutex::new(vec![Arc::new(first)]),
         })
     }
@@ -74,15 +82,18 @@ impl<'g> Kernels<'g> {
     pub(super) fn specialise(&self, settings: &Settings) -> Result<Arc<Specialised>, FilterError> {
         let constants = list_all_constants(&self.filter, settings);
         let lock = || (self.specialised.lock()).unwrap_or_else(|broken| broken.into_inner());
+        self.gpu.reopen_if_lost()?;
+        let device = self.gpu.device();
         let first = {
-            let cached = lock();
+            let mut cached = lock();
+            cached.retain(|known| known.device == device);
             if let Some(known) = cached.iter().find(|known| known.constants == constants) {
                 return Ok(known.clone());
             }
-            cached[0].clone()
+            cached.first().cloned()
         };
         let mut filter = self.filter.clone();
-        let changed = constants.iter().zip(&first.constants);
+        let changed = constants.iter().zip(&self.constants);
         for (pass, (own, cached)) in self.filter.passes.iter().zip(changed) {
             let Some(shader) = pass.shader.as_ref().filter(|_| own != cached) else {
                 continue;
@@ -92,7 +103,7 @@ impl<'g> Kernels<'g> {
                 filter.shaders[*index] = specialise(&self.filter, stage, made, settings)?;
             }
         }
-        let made = Arc::new(compile(self.gpu, filter, constants, Some(&first))?);
+        let made = Arc::new(compile(self.gpu, filter, constants, first.as_deref())?);
         let mut cached = lock();
         if cached.len() > MAX_KEPT {
             cached.remove(1);
@@ -137,6 +148,7 @@ fn compile(
         Err(refuse(gpu, &filter, "kernels", &reason))
     })?;
     Ok(Specialised {
+        device: gpu.device(),
         constants,
         filter,
         passes,
@@ -170,6 +182,7 @@ fn compile_pass(
         let stages = stages.into_iter().map(|(stage, _)| stage).collect();
         Compiled { stages, pipeline }
     });
+    gpu.check_loss(filter.place(&pass.entry))?;
     compiled.map_err(|reason| refuse(gpu, filter, &pass.entry, &reason))
 }
 
@@ -181,6 +194,13 @@ fn compile_shader(
     shader: &Shader,
     read: &[Varying],
 ) -> Result<(wgpu::ShaderModule, Option<u32>), FilterError> {
+    if falls_through_wrongly(&shader.module) {
+        return Err(filter.place("kernels").refuse(format!(
+            "{}: a `case` falls through into the next one, in a `switch` in which several labels share a body; naga, which \
+             writes it for the adapter, makes another jump of it; end the case with `break`, and write what follows once more",
+            shader.path.display()
+        )));
+    }
     let mut entries = shader.entry_points.iter();
     let is_vertex = entries.any(|entry| entry.stage == ShaderStage::Vertex);
     let limit = gpu.loop_limit.filter(|_| !is_vertex);
@@ -194,12 +214,13 @@ fn compile_shader(
     }
     let source = wgpu::ShaderSource::Naga(Cow::Owned(module));
     let module = gpu.catch(|| {
-        gpu.device
+        gpu.device()
             .create_shader_module(wgpu::ShaderModuleDescriptor {
                 label: Some(&filter.name),
                 source,
             })
     });
+    gpu.check_loss(filter.place("kernels"))?;
     let module = module.map_err(|reason| refuse(gpu, filter, "kernels", &reason))?;
     Ok((module, counted_at))
 }

@@ -32,8 +32,8 @@ impl Limits {
     pub fn of(gpu: &Gpu) -> Self {
         Self {
             owner: format!("adapter \"{}\"", gpu.adapter.name),
-            limits: gpu.device.limits(),
-            interpolates_floats: (gpu.device.features())
+            limits: gpu.device().limits(),
+            interpolates_floats: (gpu.device().features())
                 .contains(wgpu::Features::FLOAT32_FILTERABLE),
             stored_formats: gpu.stored_formats.clone(),
         }

@@ -15,7 +15,7 @@ pub(super) struct LoopCounts {
 
 impl LoopCounts {
     pub fn new(gpu: &Gpu, limit: LoopLimit, dispatches: u32) -> Self {
-        let alignment = gpu.device.limits().min_storage_buffer_offset_alignment;
+        let alignment = gpu.device().limits().min_storage_buffer_offset_alignment;
         let stride = u64::from(alignment.max(4));
         let size = stride * u64::from(dispatches);
         let buffer = |usage| gpu.create_buffer("loop iterations", size, usage);
@@ -42,10 +42,12 @@ impl LoopCounts {
         gpu: &Gpu,
         place: impl Fn(usize) -> Place<'p>,
     ) -> Result<(), FilterError> {
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        let size = self.counts.size();
-        encoder.copy_buffer_to_buffer(&self.counts, 0, &self.readable, 0, size);
-        gpu.queue.submit([encoder.finish()]);
+        gpu.catch_errors(place(0), || {
+            let mut encoder = gpu.device().create_command_encoder(&Default::default());
+            let size = self.counts.size();
+            encoder.copy_buffer_to_buffer(&self.counts, 0, &self.readable, 0, size);
+            gpu.queue().submit([encoder.finish()]);
+        })?;
         let words: Vec<u32> = gpu.read_buffer(&self.readable, place(0))?;
         self.readable.unmap();
         let counts = words.chunks(self.stride as usize / 4).map(|row| row[0]);

@@ -35,13 +35,13 @@ pub(super) fn find_loop_limit(gpu: &Gpu) -> Result<Option<u32>, FilterError> {
     };
     let readable = gpu.catch_errors(place, || {
         let module = gpu
-            .device
+            .device()
             .create_shader_module(wgpu::ShaderModuleDescriptor {
                 label: Some(place.pass),
                 source: wgpu::ShaderSource::Wgsl(PROBE.into()),
             });
         let pipeline = gpu
-            .device
+            .device()
             .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
                 label: Some(place.pass),
                 layout: None,
@@ -53,9 +53,9 @@ pub(super) fn find_loop_limit(gpu: &Gpu) -> Result<Option<u32>, FilterError> {
         let buffer = |usage| gpu.create_buffer(place.pass, 8, usage | wgpu::BufferUsages::COPY_DST);
         let found = buffer(wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC);
         let readable = buffer(wgpu::BufferUsages::MAP_READ);
-        gpu.queue
+        gpu.queue()
             .write_buffer(&found, 0, bytemuck::cast_slice(&[PROBED, 1]));
-        let bind_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        let bind_group = gpu.device().create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some(place.pass),
             layout: &pipeline.get_bind_group_layout(0),
             entries: &[wgpu::BindGroupEntry {
@@ -63,14 +63,14 @@ pub(super) fn find_loop_limit(gpu: &Gpu) -> Result<Option<u32>, FilterError> {
                 resource: found.as_entire_binding(),
             }],
         });
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let mut encoder = gpu.device().create_command_encoder(&Default::default());
         let mut pass = encoder.begin_compute_pass(&Default::default());
         pass.set_pipeline(&pipeline);
         pass.set_bind_group(0, &bind_group, &[]);
         pass.dispatch_workgroups(1, 1, 1);
         drop(pass);
         encoder.copy_buffer_to_buffer(&found, 0, &readable, 0, 8);
-        gpu.queue.submit([encoder.finish()]);
+        gpu.queue().submit([encoder.finish()]);
         readable
     })?;
     let iterations = gpu.read_buffer::<u32>(&readable, place)?[0];

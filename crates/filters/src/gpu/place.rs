@@ -1,6 +1,7 @@
 //! Place of an error on the GPU: the filter and the pass.
 
 use super::device::Gpu;
+use crate::printable::escape_controls;
 use crate::{Filter, FilterError};
 
 /// Filter and pass that an error belongs to.
@@ -32,23 +33,38 @@ impl Filter {
 }
 
 impl Gpu {
-    /// Does `work`, and returns an error that names the place if wgpu refuses any of it.
+    /// Does `work`, and returns an error that names the place if wgpu refuses any of it or the device gets lost.
     pub(super) fn catch_errors<T>(
         &self,
         place: Place,
         work: impl FnOnce() -> T,
     ) -> Result<T, FilterError> {
-        self.catch(work).map_err(|error| place.refuse(error))
+        let done = self.catch(work);
+        self.check_loss(place)?;
+        done.map_err(|error| place.refuse(error))
     }
 
-    /// Does `work`, and returns what wgpu says if it refuses any of it.
+    /// Returns an error that names the place if the device is lost.
+    pub(super) fn check_loss(&self, place: Place) -> Result<(), FilterError> {
+        match self.find_loss() {
+            None => Ok(()),
+            Some(reason) => Err(FilterError::Lost {
+                filter: place.filter.to_owned(),
+                pass: place.pass.to_owned(),
+                adapter: self.adapter.name.clone(),
+                reason: escape_controls(&reason),
+            }),
+        }
+    }
+
+    /// Does `work`, and returns what wgpu says if it refuses any of it. After a loss of the device, everything seems to work.
     pub(super) fn catch<T>(&self, work: impl FnOnce() -> T) -> Result<T, String> {
         let [memory, internal, validation] = [
             wgpu::ErrorFilter::OutOfMemory,
             wgpu::ErrorFilter::Internal,
             wgpu::ErrorFilter::Validation,
         ]
-        .map(|kind| self.device.push_error_scope(kind));
+        .map(|kind| self.device().push_error_scope(kind));
         let value = work();
         let errors = [validation, internal, memory].map(|scope| pollster::block_on(scope.pop()));
         match errors.into_iter().flatten().next() {

@@ -34,14 +34,14 @@ impl Gpu {
         let size = u64::from(stamps) * u64::from(wgpu::QUERY_SIZE);
         let buffer = |usage| self.create_buffer("timestamps", size, usage);
         let readable = self.catch_errors(place, || {
-            let queries = self.device.create_query_set(&wgpu::QuerySetDescriptor {
+            let queries = self.device().create_query_set(&wgpu::QuerySetDescriptor {
                 label: Some("timestamps"),
                 ty: wgpu::QueryType::Timestamp,
                 count: stamps,
             });
             let resolved = buffer(wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC);
             let readable = buffer(wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ);
-            let mut encoder = self.device.create_command_encoder(&Default::default());
+            let mut encoder = self.device().create_command_encoder(&Default::default());
             for index in 0..count {
                 encoder.write_timestamp(&queries, index as u32);
                 encode(index, &mut encoder);
@@ -49,11 +49,11 @@ impl Gpu {
             encoder.write_timestamp(&queries, count as u32);
             encoder.resolve_query_set(&queries, 0..stamps, &resolved, 0);
             encoder.copy_buffer_to_buffer(&resolved, 0, &readable, 0, size);
-            self.queue.submit([encoder.finish()]);
+            self.queue().submit([encoder.finish()]);
             readable
         })?;
         let ticks: Vec<u64> = self.read_buffer(&readable, place)?;
-        let tick = f64::from(self.queue.get_timestamp_period()) * 1e-9;
+        let tick = f64::from(self.queue().get_timestamp_period()) * 1e-9;
         Ok(ticks
             .windows(2)
             .map(|pair| pair[1].saturating_sub(pair[0]) as f64 * tick)
@@ -66,13 +66,13 @@ impl Gpu {
         encode: impl FnOnce(&mut wgpu::CommandEncoder),
     ) -> Result<f64, FilterError> {
         let commands = self.catch_errors(place, || {
-            let mut encoder = self.device.create_command_encoder(&Default::default());
+            let mut encoder = self.device().create_command_encoder(&Default::default());
             encode(&mut encoder);
             encoder.finish()
         })?;
         self.wait(place, DEFAULT_TIME_LIMIT)?;
         let start = Instant::now();
-        self.catch_errors(place, || self.queue.submit([commands]))?;
+        self.catch_errors(place, || self.queue().submit([commands]))?;
         self.wait(place, DEFAULT_TIME_LIMIT)?;
         Ok(start.elapsed().as_secs_f64())
     }

@@ -177,7 +177,7 @@ impl Gpu {
         format: Format,
         usage: wgpu::TextureUsages,
     ) -> Target {
-        let texture = self.device.create_texture(&wgpu::TextureDescriptor {
+        let texture = self.device().create_texture(&wgpu::TextureDescriptor {
             label: Some(label),
             size: wgpu::Extent3d {
                 width,
@@ -212,7 +212,7 @@ impl Gpu {
     /// Fills a texture with rows of `target.format` without padding.
     pub(super) fn upload(&self, target: &Target, values: &[f32]) {
         let row = target.texture.width() * target.format.texel_bytes() as u32;
-        self.queue.write_texture(
+        self.queue().write_texture(
             target.texture.as_image_copy(),
             &target.format.encode(values),
             wgpu::TexelCopyBufferLayout {
@@ -226,13 +226,13 @@ impl Gpu {
 
     /// Copies one texture to another of the same size and format, without leaving the GPU.
     pub(super) fn copy(&self, from: &Target, to: &Target) {
-        let mut encoder = self.device.create_command_encoder(&Default::default());
+        let mut encoder = self.device().create_command_encoder(&Default::default());
         encoder.copy_texture_to_texture(
             from.texture.as_image_copy(),
             to.texture.as_image_copy(),
             from.texture.size(),
         );
-        self.queue.submit([encoder.finish()]);
+        self.queue().submit([encoder.finish()]);
     }
 
     /// Waits for the GPU and reads a texture; components that its format lacks are 0.
@@ -246,7 +246,7 @@ impl Gpu {
         let buffer = self.catch_errors(place, || {
             let usage = wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ;
             let buffer = self.create_buffer("read back", padded * u64::from(height), usage);
-            let mut encoder = self.device.create_command_encoder(&Default::default());
+            let mut encoder = self.device().create_command_encoder(&Default::default());
             encoder.copy_texture_to_buffer(
                 target.texture.as_image_copy(),
                 wgpu::TexelCopyBufferInfo {
@@ -259,7 +259,7 @@ impl Gpu {
                 },
                 target.texture.size(),
             );
-            self.queue.submit([encoder.finish()]);
+            self.queue().submit([encoder.finish()]);
             buffer
         })?;
         let bytes: Vec<u8> = self.read_buffer(&buffer, place)?;
@@ -289,9 +289,11 @@ impl Gpu {
         place: Place,
     ) -> Result<Vec<T>, FilterError> {
         let (sender, receiver) = std::sync::mpsc::channel();
-        buffer.map_async(wgpu::MapMode::Read, .., move |result| {
-            _ = sender.send(result);
-        });
+        self.catch_errors(place, || {
+            buffer.map_async(wgpu::MapMode::Read, .., move |result| {
+                _ = sender.send(result);
+            });
+        })?;
         self.wait(place, DEFAULT_TIME_LIMIT)?;
         match receiver.try_recv() {
             Ok(Ok(())) => {}

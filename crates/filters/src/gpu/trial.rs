@@ -54,7 +54,10 @@ pub fn try_out(gpu: &Gpu, filter: &Filter) -> Result<(), FilterError> {
             .and_then(|mut blur| blur.run(&input));
         let error = match blurred {
             Ok(_) => continue,
-            Err(FilterError::Interrupted) => return Err(FilterError::Interrupted),
+            // No other value would help.
+            Err(error @ (FilterError::Interrupted | FilterError::Lost { .. })) => {
+                return Err(error);
+            }
             Err(error) => error,
         };
         // The adapter may still be at work on a pass that was given up.

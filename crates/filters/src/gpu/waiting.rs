@@ -20,10 +20,13 @@ impl Gpu {
                 submission_index: None,
                 timeout: Some(SLICE.min(left)),
             };
-            match self.device.poll(slice) {
-                Ok(_) => return Ok(()),
+            match self.device().poll(slice) {
+                Ok(_) => return self.check_loss(place),
                 Err(wgpu::PollError::Timeout) => {}
-                Err(error) => return Err(place.refuse(error)),
+                Err(error) => {
+                    self.check_loss(place)?;
+                    return Err(place.refuse(error));
+                }
             }
             let error = match (self.interrupted)() {
                 true => FilterError::Interrupted,
@@ -41,6 +44,6 @@ impl Gpu {
 
     /// Keeps the device open until the process ends: closing it would wait for the work that was given up.
     fn abandon(&self) {
-        std::mem::forget((self.device.clone(), self.queue.clone()));
+        std::mem::forget((self.device(), self.queue()));
     }
 }

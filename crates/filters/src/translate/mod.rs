@@ -4,14 +4,17 @@
 //! panics of the libraries are caught by the caller.
 
 mod bind;
+mod branches;
 mod closed;
 mod combined;
 mod compile;
 mod compiler;
 mod constants;
+mod control_flow;
 #[cfg(test)]
 mod deep;
 mod entry;
+mod flow_reader;
 mod includes;
 mod language;
 mod matrices;

@@ -5,10 +5,12 @@ use std::path::Path;
 
 use wgpu::naga::{AddressSpace, Module, ResourceBinding, front};
 
+use super::branches::drop_default_cases;
 use super::combined::split_combined_samplers;
 use super::compile::{compile, list_installed};
 use super::compiler::Compiler;
 use super::constants::set_constants;
+use super::control_flow::check_control_flow;
 use super::language::{Language, SHADER_LAB};
 use super::matrices::find_by_rows;
 use super::shader_lab::cut_hlsl;
@@ -17,7 +19,7 @@ use super::storage::StorageImages;
 use super::words::{Place, Words};
 use crate::filter::{BindingPlace, PassShader, Stage};
 use crate::printable::explain;
-use crate::shader::{parse_wgsl, tidy, written_texture};
+use crate::shader::{parse_wgsl, settle_fall_through, tidy, written_texture};
 use crate::{Filter, FilterError, Format};
 
 /// A module that is not validated yet.
@@ -219,6 +221,7 @@ fn read_spirv(
         adjust_coordinate_space: is_vertex && !is_hlsl,
         ..front::spv::Options::default()
     };
+    drop_default_cases(&mut words);
     let module = front::spv::parse_u8_slice(&words.write(), &options);
     let mut module = module.map_err(|error| {
         format!(
@@ -226,6 +229,8 @@ fn read_spirv(
             tidy(&explain(&error))
         )
     })?;
+    check_control_flow(&words, &options)?;
+    settle_fall_through(&mut module);
     images.narrow(&mut module, |place, name, is_open| {
         choose(place, name).filter(|_| is_hlsl || is_open)
     });

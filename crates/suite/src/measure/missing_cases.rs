@@ -132,7 +132,9 @@ impl SceneContext<'_> {
     /// Turns an error of one case into its failure. Returns any other error, which ends the run.
     fn failure(&self, error: Error, planned: &PlannedCase) -> Result<Failure, Error> {
         match &error {
-            Error::Filter(FilterError::Gpu { .. } | FilterError::Command { .. })
+            Error::Filter(
+                FilterError::Gpu { .. } | FilterError::Lost { .. } | FilterError::Command { .. },
+            )
             | Error::Measure(_) => Ok(Failure {
                 scene: planned.id.scene.clone(),
                 filter: planned.id.name(),
