@@ -207,7 +207,12 @@ fn judge_finished(args: &CheckArgs, path: &Path, compared: bool) -> Result<Judge
     if args.evidence {
         add_evidence(&run, &mut findings, &folder)?;
     }
-    Judgement::new(&folder, findings.clone())?.write(&folder)?;
+    match Judgement::new(&folder, findings.clone())?.write(&folder) {
+        Err(Error::File(error @ FileError::Io { .. })) => print_note(&format!(
+            "{error}; `report` shows an earlier judgement of this run, or none"
+        )),
+        written => written?,
+    }
     let pages = match &args.html {
         Some(html) => write_run_page(&run, &findings, &folder, html)?,
         None => Vec::new(),
