@@ -6,6 +6,7 @@ use std::process::ExitCode;
 
 use judge::{Agreement, FilterAtSizes, Results, SizeComparison, compare_sizes};
 use metrics::Metric;
+use store::{escape_markdown, markdown_code};
 use suite::{Error, Run};
 
 fn main() -> ExitCode {
@@ -40,7 +41,7 @@ fn print_tables(paths: &[String]) -> Result<(), Error> {
                 comparison
                     .scenes
                     .iter()
-                    .map(|scene| scene.to_string())
+                    .map(|scene| escape_markdown(&scene.to_string()))
                     .collect::<Vec<_>>()
                     .join(", ")
             );
@@ -68,7 +69,7 @@ fn print_means(comparison: &SizeComparison, metric: Metric) {
             let [low, high] = mean.interval.map(|end| metric.number(end));
             format!(" {} ({low} to {high}), {rank} |", metric.number(mean.mean))
         });
-        println!("| `{name}` |{}", cells.collect::<String>());
+        println!("| {} |{}", markdown_code(name), cells.collect::<String>());
     }
     println!();
 }
@@ -107,9 +108,9 @@ fn print_reversals(comparison: &SizeComparison) {
     for ((width, height), agreement) in comparison.sizes.iter().zip(&comparison.agreement) {
         for reversal in &agreement.reversed {
             println!(
-                "- {width}x{height} says that `{}` is better than `{}` by {:.3}; the largest size says that it is worse by {:.3}.",
-                reversal.better_here,
-                reversal.better_at_largest,
+                "- {width}x{height} says that {} is better than {} by {:.3}; the largest size says that it is worse by {:.3}.",
+                markdown_code(&reversal.better_here),
+                markdown_code(&reversal.better_at_largest),
                 reversal.differences[0],
                 -reversal.differences[1]
             );

@@ -4,6 +4,7 @@ use cli::{markdown_table, range_text};
 use frame::Alignment;
 use judge::{RANK_RULE, RankedFilter, ResultScores, Results, SizeComparison, compare_sizes};
 use metrics::Metric;
+use store::{escape_markdown, markdown_code};
 use suite::{Bench, Error, IDENTITY};
 
 use super::engines::{Change, Engine, Measured, list_engines, measured};
@@ -83,9 +84,12 @@ impl<'a> Kept<'a> {
             ("{SCENES}", results.scenes().len().to_string()),
             ("{SIZE}", format!("{width}x{height}")),
             ("{SAMPLES}", results.samples_per_pixel.to_string()),
-            ("{ADAPTER}", results.adapter.clone().unwrap_or_default()),
+            (
+                "{ADAPTER}",
+                escape_markdown(results.adapter.as_deref().unwrap_or_default()),
+            ),
             ("{RANK_RULE}", RANK_RULE.to_owned()),
-            ("{CARD}", bench.adapter.name.clone()),
+            ("{CARD}", escape_markdown(&bench.adapter.name)),
             ("{TIMED_SIZE}", format!("{}x{}", bench.width, bench.height)),
         ];
         let fill = |text: &str| {
@@ -129,7 +133,11 @@ impl<'a> Kept<'a> {
         let number = |value: f64| Metric::FLIP.number(value);
         let row = |own: &Measured| -> Vec<String> {
             let scores = [own.shipped.mean, own.none].map(number);
-            let name = format!("{}, `{}`", self.link(&own.engine), own.engine.ships);
+            let name = format!(
+                "{}, {}",
+                self.link(&own.engine),
+                markdown_code(&own.engine.ships)
+            );
             let names = [name, own.shipped.alignment.to_string()];
             let changed = own.changed.map_or("-".to_owned(), number);
             let time = find_time(self.bench, &own.engine.ships);
@@ -149,8 +157,12 @@ impl<'a> Kept<'a> {
     /// Names an engine, with a link to its page if it has one.
     fn link(&self, engine: &Engine) -> String {
         match self.is_site {
-            true => format!("[{}]({})", engine.name, engine.page_name()),
-            false => engine.name.clone(),
+            true => format!(
+                "[{}]({})",
+                escape_markdown(&engine.name),
+                engine.page_name()
+            ),
+            false => escape_markdown(&engine.name),
         }
     }
 
@@ -175,7 +187,7 @@ impl<'a> Kept<'a> {
         text += "\n";
         if let Some(worst) = self.results.worst_of(ships) {
             let file = picture_name(worst);
-            let scene = &worst.scene;
+            let scene = escape_markdown(&worst.scene.to_string());
             text += &format!("\n![truth, {ships} and FLIP on {scene}](pictures/{file})\n");
         }
         text
@@ -206,10 +218,14 @@ impl<'a> Kept<'a> {
             };
             let mut row = vec![
                 ranked.rank_text(),
-                format!("{bold}`{}`{bold}{none}", ranked.name),
+                format!("{bold}{}{bold}{none}", markdown_code(&ranked.name)),
                 mean(ranked),
                 other.map_or("-".to_owned(), RankedFilter::rank_text),
-                format!("{scene} {}", Metric::FLIP.number(*worst)),
+                format!(
+                    "{} {}",
+                    escape_markdown(&scene.to_string()),
+                    Metric::FLIP.number(*worst)
+                ),
             ];
             if self.is_site {
                 let time = find_time(self.bench, &ranked.name);
@@ -298,7 +314,8 @@ fn times(cards: &[&Bench]) -> String {
         let picture = format!("{}x{}, {}", own.width, own.height, own.frame_text());
         let name = format!("{}:{}", case.filter, case.preset);
         let time = find_time(own, &name);
-        vec![own.adapter.name.clone(), picture, format!("`{name}`"), time]
+        let [card, picture] = [&own.adapter.name, &picture].map(|text| escape_markdown(text));
+        vec![card, picture, markdown_code(&name), time]
     });
     if cards.is_empty() {
         return String::new();
@@ -350,8 +367,9 @@ fn agreement(results: &Results, sealed: &Results, alignment: Alignment) -> Resul
     );
     for turned in &own.reversed {
         text += &format!(
-            "`{}` is better than `{}` on the scenes, and worse on the variants.\n",
-            turned.better_here, turned.better_at_largest
+            "{} is better than {} on the scenes, and worse on the variants.\n",
+            markdown_code(&turned.better_here),
+            markdown_code(&turned.better_at_largest)
         );
     }
     Ok(text)

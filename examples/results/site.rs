@@ -7,6 +7,7 @@ use std::process::Command;
 
 use frame::FileError;
 use judge::Results;
+use maud::html;
 use suite::{Bench, Error};
 
 use super::page::site_pages;
@@ -177,7 +178,7 @@ fn read_page(top: &Path, path: &str) -> Result<String, Error> {
     let show = |name: &str| -> Result<String, Error> {
         let bytes = read(&top.join(name))?;
         let text = String::from_utf8(bytes).unwrap_or_else(|_| "not a text".to_owned());
-        Ok(format!("\n``````text\n{}\n``````\n", text.trim_end()))
+        Ok(format!("\n{}\n", as_html(text.trim_end())))
     };
     if top.join(path).is_file() {
         let text = read(&top.join(path))?;
@@ -195,6 +196,13 @@ fn read_page(top: &Path, path: &str) -> Result<String, Error> {
         page += &format!("\n## {}\n{}", name[shown.len() + 1..].trim(), show(name)?);
     }
     Ok(page)
+}
+
+/// Shows a file's text. Markdown, links and the book's includes have no meaning in it.
+pub fn as_html(text: &str) -> String {
+    let shown = html! { pre { code."language-text" { (text) } } };
+    let shown = shown.into_string().replace('{', "&#123;");
+    shown.replace("](", "&#93;(")
 }
 
 /// Reads a file.

@@ -1,6 +1,7 @@
 //! The program in a folder without scenes: it includes its own.
 
 use std::fs;
+use std::process::Command;
 
 use serde_json::Value;
 use tests::{root, scenes};
@@ -98,6 +99,25 @@ fn copied_scenes_are_those_of_the_program_and_nothing_is_overwritten() {
     let listed = sandbox.done("list scenes");
     assert!(listed.contains("two_spheres") && !listed.contains("fence"));
     sandbox.refuse("list fann --copy-to scenes", &["did you mean fan?"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_killed_copy_leaves_no_half_scene_and_does_not_block_the_next() {
+    let sandbox = empty();
+    // The system kills a program that writes a larger file than the shell allows, here 8 KiB.
+    let line = "ulimit -f 8; exec \"$0\" list --copy-to scenes fan";
+    let program = env!("CARGO_BIN_EXE_shuttertruth");
+    let mut shell = Command::new("bash");
+    shell
+        .current_dir(sandbox.path(""))
+        .args(["-c", line, program]);
+    assert!(!shell.output().unwrap().status.success());
+    assert!(!sandbox.path("scenes/fan").exists());
+    sandbox.done("list fan --copy-to scenes");
+    let copied = read_below(&sandbox.path("scenes/fan"));
+    assert_same_files(&copied, &read_below(&scenes().join("fan")));
+    assert!(!sandbox.done("list scenes").contains("shuttertruth-"));
 }
 
 #[test]

@@ -244,10 +244,6 @@ fn missing_truncated_and_altered_files_are_made_again() {
         };
         let whole = read();
         for kind in ["missing", "cut", "altered"] {
-            // A record has the hashes of its files, but not its own: whoever can change it can write any hash into it.
-            if kind == "altered" && files.ends_with(".json") {
-                continue;
-            }
             for name in split(files) {
                 damage(&path(name), kind);
             }

@@ -19,6 +19,7 @@ mod exclusion;
 mod failures;
 mod fidelity;
 mod finished_sequence;
+mod foreign_pictures;
 mod frame_rates;
 mod further_velocities;
 #[cfg(unix)]

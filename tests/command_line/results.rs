@@ -23,7 +23,7 @@ use tracer::{Location, SceneId, Seal, list_scenes};
 
 use self::engines::{Engine, list_engines};
 use self::page::{main_results, picture_name, results_page};
-use self::site::Site;
+use self::site::{Site, as_html};
 use crate::links::find_pages;
 use crate::sandbox::Sandbox;
 
@@ -65,6 +65,51 @@ fn the_page_of_results_is_made_from_the_files_beside_it() {
     let page = results_page(&results, &cards).unwrap();
     let row = "1920x1080, the scene fan | `babylon:default` | 0.06 |";
     assert_contains(&page, &["## Readers' cards", row]);
+}
+
+#[test]
+fn names_of_others_are_text_on_the_page_and_on_the_site() {
+    let hostile =
+        "RTX <img src=x onerror=\"a()\"> `b`|c [d](javascript:e()) ![f](g)\n# h {{#include i}}";
+    let mut results = Results::read_all(&folder()).unwrap();
+    let mut cards = Bench::read_all(&folder().join("bench")).unwrap();
+    let mut reader = cards[0].clone();
+    reader.scene = Some(hostile.to_owned());
+    (reader.speed, reader.adapter.name) = (None, hostile.to_owned());
+    (reader.cases[0].filter, reader.cases[0].preset) = (hostile.to_owned(), hostile.to_owned());
+    cards.push(reader);
+    // The program's own bench names the card of the times, and a file of results the adapter and a filter.
+    cards[0].adapter.name = hostile.to_owned();
+    for own in &mut results {
+        own.adapter = Some(hostile.to_owned());
+        for score in own
+            .scores
+            .iter_mut()
+            .filter(|score| score.name == "kino:default")
+        {
+            score.name = hostile.to_owned();
+        }
+    }
+    let pages = page::site_pages(&results, &cards).unwrap().into_iter();
+    let shown = [results_page(&results, &cards).unwrap()];
+    for page in pages.map(|(_, text)| text).chain(shown) {
+        for part in [
+            "RTX <",
+            "](javascript",
+            "![f]",
+            "`b`",
+            "|c [",
+            "\n# h",
+            "{{#",
+        ] {
+            assert!(!page.contains(part), "{part}: {page}");
+        }
+    }
+    let shown = as_html("{{#include a}} <b> [c](d)\n``````\n");
+    assert_eq!(
+        shown,
+        "<pre><code class=\"language-text\">&#123;&#123;#include a}} &lt;b&gt; [c&#93;(d)\n``````\n</code></pre>"
+    );
 }
 
 #[test]

@@ -99,7 +99,7 @@ impl Drawn {
 
     fn depth(&self) -> Plane {
         let depth = self.file("depth.exr").plane("Z").unwrap();
-        self.convention().restore_depth(&depth)
+        self.convention().restore_depth(&depth).unwrap()
     }
 
     /// Audits the capture; returns the exit code and the output.
@@ -138,7 +138,8 @@ impl Drawn {
         let exposure = self.frame.exposure;
         let own = self
             .convention()
-            .restore_velocity(&self.velocity(), exposure);
+            .restore_velocity(&self.velocity(), exposure)
+            .unwrap();
         own.zip(&self.frame.velocity, difference)
     }
 }

@@ -1,6 +1,7 @@
 //! Finishes and environments read from a scene's files.
 
 use image::{ImageBuffer, Rgb32FImage};
+use tests::exr_attribute::{ACES_CG, bytes_of, set_exr_attribute, to_aces_cg};
 use tracer::{Background, Finish};
 
 use crate::Folder;
@@ -56,6 +57,61 @@ pub fn folder_with_background(background: &str) -> Folder {
     let folder = Folder::new();
     folder.edit("scene.toml", "constant = [0, 0, 0]", background);
     folder
+}
+
+#[test]
+fn an_environment_in_other_primaries_is_converted_and_one_of_odd_pixels_is_refused() {
+    let folder = folder_with_background("image = \"sky.exr\"");
+    let path = folder.path.join("sky.exr");
+    let color = [0.25, 0.5, 0.125];
+    let [r, g, b] = to_aces_cg(color);
+    let save = || {
+        let image: Rgb32FImage = ImageBuffer::from_pixel(4, 2, image::Rgb([r, g, b]));
+        image.save(&path).unwrap();
+    };
+    save();
+    set_exr_attribute(
+        &path,
+        "chromaticities",
+        "chromaticities",
+        &bytes_of(&ACES_CG),
+    );
+    let Background::Map(map) = folder.load().unwrap().background else {
+        panic!("it is a map");
+    };
+    for texel in map.texels {
+        let is_near = texel
+            .iter()
+            .zip(color)
+            .all(|(part, due)| (part - due).abs() < 1e-4);
+        assert!(is_near, "{texel:?}");
+    }
+    let window = [1_i32, 0, 4, 1].map(i32::to_le_bytes).concat();
+    for (name, kind, value, part) in [
+        (
+            "pixelAspectRatio",
+            "float",
+            bytes_of(&[2.0]),
+            "its pixels are 2 times as wide as high",
+        ),
+        (
+            "displayWindow",
+            "box2i",
+            window,
+            "is not its display window",
+        ),
+        (
+            "whiteLuminance",
+            "float",
+            bytes_of(&[100.0]),
+            "a whiteLuminance of 100 cd/m2",
+        ),
+    ] {
+        save();
+        set_exr_attribute(&path, name, kind, &value);
+        let error = folder.load().unwrap_err().to_string();
+        assert!(error.contains(part), "{error}");
+    }
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Code shared by several integration tests.
 
 pub mod brute_force;
+pub mod exr_attribute;
 pub mod filter_folder;
 mod gpu;
 pub mod half_plane;

@@ -1,6 +1,6 @@
 //! Files from a user, and files for one.
 
-use std::path::Path;
+use std::path::{Display, Path};
 
 use frame::{FileError, write_atomically};
 use serde::Serialize;
@@ -12,6 +12,11 @@ macro_rules! refuse {
     };
 }
 pub(crate) use refuse;
+
+/// Returns the name of a file without its folder, for notes.
+pub fn name_of(path: &Path) -> Display<'_> {
+    Path::new(path.file_name().unwrap_or_default()).display()
+}
 
 /// Writes plain data as JSON.
 pub fn write_json(path: &Path, content: &impl Serialize) -> Result<(), FileError> {

@@ -51,10 +51,13 @@ pub use at_instant::AtInstant;
 pub use camera::{Camera, CameraPose};
 pub use display::{Display, FlipExposures, MAX_STOPS, decode_srgb, display_srgb, scene_linear};
 pub use exr::{
-    Channel, ExrFile, LARGEST_EXR_RATIO, LARGEST_EXR_SIDE, MAX_EXR_BYTES, MAX_EXR_CHANNELS,
-    Samples, read_attribute, read_exr, read_exr_header, write_exr, write_half_exr, write_small_exr,
+    Channel, ColorMeaning, ExrFile, LARGEST_EXR_RATIO, LARGEST_EXR_SIDE, MAX_EXR_BYTES,
+    MAX_EXR_CHANNELS, Samples, decode_exr, read_attribute, read_exr, read_exr_header, read_passes,
+    write_exr, write_half_exr, write_small_exr,
 };
-pub use file::{FileError, read_bounded, remove_leftovers, write_atomically, write_streamed};
+pub use file::{
+    FileError, open_regular, read_bounded, remove_leftovers, write_atomically, write_streamed,
+};
 pub use frame::{FAR_DEPTH, Frame, read_frame_rate};
 pub use frame_options::{ColorSampling, FrameOptions, VelocityKind};
 pub use hidden::is_hidden;

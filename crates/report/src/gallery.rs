@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use frame::{Alignment, Image, read_png, tile_pictures, write_atomically, write_jpeg, write_png};
 use metrics::Metric;
-use store::RenderFile;
+use store::{RenderFile, escape_markdown, markdown_code, printable, printable_path};
 use suite::{Case, Error, IDENTITY, Run};
 
 use crate::label::label;
@@ -96,9 +96,9 @@ fn introduction(run: &Run, folder: &Path, out: &Path) -> String {
         run.render.width,
         run.render.height,
         run.render.samples_per_pixel,
-        command(run),
-        folder.display(),
-        out.display(),
+        printable(&command(run)),
+        printable_path(folder),
+        printable_path(out),
     )
 }
 
@@ -106,11 +106,17 @@ fn section(shutters: &[Extremes]) -> String {
     let scene = &shutters[0].best.scene;
     let exposes = &shutters[0].best.exposes;
     let text = |own: &Extremes| {
-        let [best, worst] = [own.best, own.worst]
-            .map(|case| format!("`{}` {}", case.name(), case.score_text(Metric::FLIP)));
+        let [best, worst] = [own.best, own.worst].map(|case| {
+            format!(
+                "{} {}",
+                markdown_code(&case.name()),
+                case.score_text(Metric::FLIP)
+            )
+        });
         format!("{}: {best}, {worst}", own.best.alignment)
     };
     let texts: Vec<String> = shutters.iter().map(text).collect();
+    let [scene, exposes] = [scene.to_string(), exposes.clone()].map(|text| escape_markdown(&text));
     format!(
         "\n## {scene}\n\n{exposes}\n\n![{scene}]({scene}.jpg)\n\nShutter {}\n",
         texts.join("; ")

@@ -99,10 +99,13 @@ fn lock(out: &Path, sharing: Sharing) -> Result<Option<File>, Error> {
     }
 }
 
-/// Removes leftovers in a scene's folder and in those below it: of later frames, and of cases and replicates.
+/// Removes leftovers in a scene's folder and in those below it: of later frames, and of cases and replicates. Nothing beyond a
+/// link is ours.
 fn remove_all_leftovers(folder: &Path) {
+    if folder.is_symlink() {
+        return;
+    }
     remove_leftovers(folder);
-    // Nothing beyond a link is ours.
     let entries = WalkDir::new(folder).min_depth(1).max_depth(2);
     for entry in entries.into_iter().flatten() {
         if entry.file_type().is_dir() {

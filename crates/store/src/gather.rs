@@ -39,7 +39,7 @@ pub fn gather<'a>(
 /// Refuses two files of one name with different bytes.
 fn check_same(one: &Path, other: &Path) -> Result<(), Error> {
     let read = |path: &Path| read_bounded(path, MAX_TAKEN_BYTES);
-    if is_same_file(one, other).is_ok_and(|same| same) || read(one)? == read(other)? {
+    if is_one_file(one, other) || read(one)? == read(other)? {
         return Ok(());
     }
     Err(Error::Refused(format!(
@@ -48,6 +48,11 @@ fn check_same(one: &Path, other: &Path) -> Result<(), Error> {
         one.display(),
         other.display()
     )))
+}
+
+/// Returns whether two paths lead to one regular file. Others are not opened: a FIFO would block.
+fn is_one_file(one: &Path, other: &Path) -> bool {
+    one.is_file() && other.is_file() && is_same_file(one, other).is_ok_and(|same| same)
 }
 
 /// Places gathered files below a folder.
@@ -71,7 +76,7 @@ pub fn place_file(from: &Path, to: &Path) -> Result<(), FileError> {
             reason: "is no regular file; allowed: files as this program writes them".to_owned(),
         });
     }
-    if is_same_file(from, to).is_ok_and(|same| same) {
+    if is_one_file(from, to) {
         return Ok(());
     }
     if let Some(folder) = to.parent() {

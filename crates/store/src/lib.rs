@@ -9,6 +9,7 @@ mod folder_lock;
 mod gather;
 mod json;
 mod json_lines;
+mod markdown;
 mod printable;
 mod record;
 mod render_file;
@@ -19,9 +20,10 @@ pub use clear::clear_scene;
 pub use error::Error;
 pub use folder::{is_below, refuse_long_names, refuse_scene, scene_folder};
 pub use folder_lock::{FolderLock, Sharing, lock_folder};
-pub use gather::{Files, gather, place_files};
+pub use gather::{Files, MAX_TAKEN_BYTES, gather, place_files};
 pub use json::{MAX_JSON_BYTES, MAX_RUN_BYTES, read_text, read_text_within};
 pub use json_lines::to_lines;
+pub use markdown::{escape_markdown, markdown_code};
 pub use printable::{printable, printable_lines, printable_path};
 pub use record::{
     CASE_RECORD, hash_inputs, hash_program, look_up, look_up_alone, put, remove_altered_files,

@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use filters::{EXCLUSION, Filter};
-use frame::{Alignment, FileError, Frame, Ladder, Picture, Plane, Provenance, Truth, read_exr};
+use frame::{Alignment, Frame, Ladder, Picture, Plane, Provenance, Truth, read_bounded, read_exr};
 use serde::{Deserialize, Serialize};
-use store::{RenderFile, read_text};
+use store::{MAX_TAKEN_BYTES, RenderFile, read_text};
 use tracer::SceneId;
 
 use crate::Error;
@@ -208,8 +208,8 @@ impl EngineScene {
     /// Copies a file, unless the same bytes are there; returns its new path.
     fn copy(&self, file: RenderFile, folder: &Path) -> Result<PathBuf, Error> {
         let [from, to] = [&*self.folder, folder].map(|folder| folder.join(file.path()));
-        let bytes = std::fs::read(&from).map_err(|source| FileError::io(&from, "read", source))?;
-        if std::fs::read(&to).ok().as_ref() != Some(&bytes) {
+        let bytes = read_bounded(&from, MAX_TAKEN_BYTES)?;
+        if read_bounded(&to, MAX_TAKEN_BYTES).ok().as_ref() != Some(&bytes) {
             frame::write_atomically(&to, &bytes)?;
         }
         Ok(to)

@@ -218,6 +218,25 @@ fn a_finished_run_is_judged_without_an_adapter() {
 }
 
 #[test]
+fn a_finished_run_that_cannot_be_written_to_is_judged_all_the_same() {
+    for (limit, code) in [(0.2, 1), (0.9, 0)] {
+        let sandbox = make_bounded(0.2, "required");
+        check(&sandbox, "", 1, &["BROKEN flip_moving"]);
+        sandbox.write("bounds.toml", &bound("flip_moving", limit, "required"));
+        // Nobody writes a file where a folder is, not even root on a read-only disk.
+        let place = sandbox.path("out/judgement.json");
+        fs::remove_file(&place).unwrap();
+        fs::create_dir(&place).unwrap();
+        let output = sandbox.without_adapter(&split("check out/run.json"));
+        assert_ends(&output, code, &["1 required bound: 1"]);
+        assert_contains(
+            &stderr(&output),
+            &["note: out/judgement.json: cannot write"],
+        );
+    }
+}
+
+#[test]
 fn a_judgement_of_another_run_is_refused() {
     let sandbox = make_bounded(0.2, "required");
     let run = sandbox.path("out/run.json");

@@ -54,13 +54,43 @@ fn one_file_of_blender_s_passes_gives_the_same_frame() {
     }
     write_exr(&capture.path("color.exr"), &file).unwrap();
     assert_eq!(show(&sandbox), expected);
+    // The compositor's copy of the view layer, as Blender adds it.
+    let mut both = file.clone();
+    both.push_color(
+        "Composite.Combined",
+        &file.color("ViewLayer.Combined").unwrap(),
+    );
+    write_exr(&capture.path("color.exr"), &both).unwrap();
+    assert_eq!(show(&sandbox), expected);
+    // The File Output node has other names.
+    for channel in &mut both.channels {
+        channel.name = channel
+            .name
+            .replace("ViewLayer.Combined", "Image")
+            .replace("ViewLayer.", "");
+        channel.name = channel
+            .name
+            .replace("Depth.Z", "Depth.V")
+            .replace("IndexOB.X", "IndexOB.V");
+    }
+    both.channels
+        .retain(|channel| !channel.name.starts_with("Composite"));
+    write_exr(&capture.path("color.exr"), &both).unwrap();
+    assert_eq!(show(&sandbox), expected);
+    // Its vectors may end before the motion to the next frame, which is then no motion of the last one.
+    both.push_plane("Vector.Z", &expected.2);
+    write_exr(&capture.path("color.exr"), &both).unwrap();
+    ingest(&sandbox);
+    let frame = Frame::read(&sandbox.path(OUT).join("frame.exr")).unwrap();
+    assert_eq!(frame.velocity_next, None);
+    write_exr(&capture.path("color.exr"), &file).unwrap();
     // A render of its own for colour.
     fs::rename(capture.path("color.exr"), capture.path("buffers.exr")).unwrap();
     capture.write_color("color.exr", &capture.frame.color);
     assert_eq!(show(&sandbox), expected);
     file.push_plane("Other.Depth.Z", &expected.2);
     write_exr(&capture.path("buffers.exr"), &file).unwrap();
-    let parts = "buffers.exr: has the channels Other.Depth.Z and ViewLayer.Depth.Z | allowed: one view layer";
+    let parts = "buffers.exr: has the channels Other.Depth.Z and ViewLayer.Depth.Z, which differ | allowed: one of them";
     sandbox.refuse(INGEST, &parts);
 }
 
@@ -103,6 +133,19 @@ fn raw_dumps_give_the_same_frame_and_need_their_layout() {
         let (from, to) = change.split_once('/').unwrap();
         capture.write("capture.toml", described.replace(from, to));
         sandbox.refuse(INGEST, &parts);
+    }
+    capture.write("capture.toml", &described);
+    for (name, each) in [("color", 2), ("velocity", 4), ("depth", 4)] {
+        let path = capture.path(&format!("{name}.raw"));
+        let little = fs::read(&path).unwrap();
+        let big = little
+            .chunks(each)
+            .flat_map(|bytes| bytes.iter().rev().copied());
+        fs::write(&path, big.collect::<Vec<u8>>()).unwrap();
+        let parts =
+            format!("{name}.raw: holds | big-endian; allowed: little-endian | capture.toml");
+        sandbox.refuse(INGEST, &*parts);
+        fs::write(&path, little).unwrap();
     }
     capture.write("capture.toml", DESCRIPTION);
     let parts = "color.raw: is a raw dump without a layout | add [raw.color]";

@@ -90,6 +90,55 @@ fn pictures_that_cannot_be_right_are_refused() {
 }
 
 #[test]
+fn conventions_that_make_impossible_numbers_are_refused() {
+    let sandbox = Sandbox::new();
+    let capture = Capture::new(&sandbox);
+    for (line, file, parts) in [
+        (
+            "color_scale = 1e-320",
+            "color.exr",
+            "becomes inf by the [convention] | correct color_scale",
+        ),
+        (
+            "color_scale = 1e-30",
+            "color.exr",
+            "has the colour | allowed: radiance up to 1e12",
+        ),
+        (
+            "color_scale = 1e300",
+            "color.exr",
+            "becomes 0 by the [convention] | correct color_scale",
+        ),
+        (
+            "velocity_scale = 1e-320",
+            "velocity.exr",
+            "becomes | inf by the [convention] | velocity_scale",
+        ),
+        (
+            "velocity_scale = 1e300",
+            "velocity.exr",
+            "becomes | 0 by the [convention] | velocity_scale",
+        ),
+        (
+            "near = 1e-320",
+            "depth.exr",
+            "becomes 0 m by the [convention] | above 0 | near",
+        ),
+    ] {
+        let (key, _) = line.split_once(' ').unwrap();
+        let lines = CONVENTION.lines().filter(|own| !own.starts_with(key));
+        let convention: String = lines
+            .chain([line])
+            .map(|line| format!("{line}\n"))
+            .collect();
+        capture.write("engine.toml", convention);
+        sandbox.refuse(INGEST, &*format!("{file}: | {parts}"));
+    }
+    capture.write("engine.toml", CONVENTION);
+    sandbox.done(INGEST);
+}
+
+#[test]
 fn sub_frames_that_make_no_truth_are_refused() {
     let sandbox = Sandbox::new();
     let capture = Capture::new(&sandbox).with_subframes(5);

@@ -1,6 +1,7 @@
 //! Packs as a source of a run's truths, and verification of kept truths: tiles traced again.
 
 use std::fs;
+use std::process::Output;
 
 use frame::{Frame, Ladder, Replicate, read_exr, write_exr};
 use serde_json::Value;
@@ -47,7 +48,61 @@ fn assert_same_scores(sandbox: &Sandbox, outs: [&str; 2]) {
 fn run_from_pack(sandbox: &Sandbox, line: &str) -> String {
     let output = quick(sandbox, &format!("run {line} --truths truths.tar.zst"));
     assert_done(&output);
+    assert_says_whom_it_believes(&output, "truths.tar.zst");
     stderr(&output)
+}
+
+/// Asserts that a command said once who decides its verdict.
+#[track_caller]
+fn assert_says_whom_it_believes(output: &Output, truths: &str) {
+    let said = stderr(output);
+    let note = format!(
+        "note: whoever wrote {truths} decides the scores and the verdict: its truths are believed\n"
+    );
+    assert_eq!(said.matches(&note).count(), 1, "{said}");
+}
+
+#[test]
+fn a_check_with_truths_of_others_says_who_decides_its_verdict() {
+    let sandbox = packed();
+    sandbox.write_bound(1.0);
+    for truths in ["truths.tar.zst", "out"] {
+        let line = format!("check --filter identity --out fresh --truths {truths}");
+        assert_says_whom_it_believes(&quick(&sandbox, &line), truths);
+    }
+}
+
+#[test]
+fn replicates_of_another_seed_in_a_finished_folder_are_named_with_a_way_out_that_works() {
+    let sandbox = packed();
+    let render = format!(
+        "truths render --scenes plate --seed 2 --replicates 0..2 {}",
+        QUICK.replace(" --jitter-frames 2", "")
+    );
+    sandbox.done(&render);
+    let remove = "remove out/plate/truth_trailing.exr and the folder out/plate/truth_trailing, and";
+    let refuse = |what: &str| {
+        let parts = [
+            what,
+            "truth_trailing/replicate_000.exr: ",
+            remove,
+            "run it again",
+        ];
+        sandbox.refuse("truths pack", &parts);
+    };
+    refuse("something was rendered into this folder since");
+    let verified = sandbox.shuttertruth(&split("truths verify out"));
+    assert_refused(
+        &verified,
+        1,
+        &["truth_trailing.exr: ", "from other inputs", remove],
+    );
+    // Only the replicates are gone; the truth would be read back without them.
+    fs::remove_dir_all(sandbox.path("out/plate/truth_trailing")).unwrap();
+    refuse("there is no such file");
+    fs::remove_file(sandbox.path("out/plate/truth_trailing.exr")).unwrap();
+    run(&sandbox, "--filter identity");
+    sandbox.done("truths pack");
 }
 
 #[test]

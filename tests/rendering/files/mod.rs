@@ -6,8 +6,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use frame::{
-    AtInstant, Channel, ExrFile, FileError, Frame, Ladder, Replicate, Samples, Truth, read_exr,
-    rung_file, write_atomically, write_exr,
+    AtInstant, Channel, ExrFile, FileError, Frame, Ladder, Raster, Replicate, Samples, Truth,
+    read_exr, read_passes, rung_file, write_atomically, write_exr, write_small_exr,
 };
 use made::{HEIGHT, WIDTH, a_frame, a_ladder, a_replicate, a_truth, image, plane, profiles};
 use tempfile::TempDir;
@@ -162,6 +162,43 @@ fn channels_have_the_names_that_compositors_use() {
     for name in attributes.split(' ') {
         assert!(file.attributes.contains_key(name), "no attribute {name}");
     }
+}
+
+#[test]
+fn a_flipped_bit_in_a_foreign_picture_s_deflated_chunks_is_refused_or_changes_no_pixel() {
+    let (_folder, path) = folder_with("picture.exr");
+    let mut file = ExrFile::new(24, 40);
+    // Irregular, since Adler-32 does not tell some permutations of a pattern apart; and few values, which deflate.
+    let steps = Raster::from_fn(24, 40, |x, y| {
+        let word = (x + 24 * y + 1).wrapping_mul(0x9E37_79B9);
+        ((word ^ word >> 15).wrapping_mul(0x85EB_CA6B) >> 28) as f32 / 7.0
+    });
+    file.push_plane("R", &steps);
+    write_small_exr(&path, file).unwrap();
+    let (bytes, whole) = (fs::read(&path).unwrap(), read_passes(&path).unwrap());
+    // The table of three chunks of at most 16 rows begins 24 bytes before the first chunk, and says where that is.
+    let number = |at: usize| u64::from_le_bytes(bytes[at..at + 8].try_into().unwrap());
+    let mut places = 0..bytes.len() - 24;
+    let chunks = places.find(|at| number(*at) == *at as u64 + 24).unwrap() + 24;
+    assert!(
+        bytes.len() - chunks < 2 * 24 * 40,
+        "the chunks are deflated"
+    );
+    let mut kept = 0;
+    for at in chunks..bytes.len() {
+        for bit in 0..8 {
+            let mut flipped = bytes.clone();
+            flipped[at] ^= 1 << bit;
+            fs::write(&path, flipped).unwrap();
+            if let Ok(read) = read_passes(&path) {
+                kept += 1;
+                assert!(read.channels == whole.channels, "bit {bit} of byte {at}");
+            }
+        }
+    }
+    // A few bits are hints that decoders ignore.
+    let all = 8 * (bytes.len() - chunks);
+    assert!(kept * 20 < all, "{kept} of {all}");
 }
 
 #[test]

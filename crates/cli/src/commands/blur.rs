@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use filters::{Convention, EXCLUSION, FilterError, Gpu, Input};
 use frame::{
-    Camera, ExrFile, Image, Plane, Reprojection, Vectors, read_exr, read_frame_rate, write_exr,
+    Camera, ExrFile, FileError, Image, Plane, Reprojection, Vectors, read_frame_rate, read_passes,
+    write_exr,
 };
 use store::printable_path;
 use suite::{Error, FilterChoice, Runner, file_at_frame, numbered_file, open_gpu};
@@ -206,7 +207,7 @@ struct Buffers {
 impl Buffers {
     /// Reads the buffers, and converts them from their engine's convention.
     fn read(path: PathBuf, exposure: Option<f64>, convention: &Convention) -> Result<Self, Error> {
-        let file = read_exr(&path)?;
+        let mut file = read_passes(&path)?;
         let has = |attribute| file.attributes.contains_key(attribute);
         let guard_band = if has("guard_band") {
             file.get("guard_band")?
@@ -215,6 +216,7 @@ impl Buffers {
         };
         let velocity = file.vectors("velocity")?;
         let next = file.optional("velocity_next.X", || file.vectors("velocity_next"))?;
+        let refuse = |reason| FileError::foreign(&path, reason);
         let exposure = match exposure {
             Some(exposure) => exposure,
             None if has("exposure") => file.get("exposure")?,
@@ -225,17 +227,21 @@ impl Buffers {
                 );
             }
         };
+        let restore_velocity =
+            |velocity: &Vectors| (convention.restore_velocity(velocity, exposure)).map_err(refuse);
         let reprojection = match has("reprojection") {
             true => Some(Reprojection::from_exr(&file)?.moved(f64::from(guard_band))),
             false => None,
         };
         Ok(Self {
-            color: convention.restore_color(&file.color("")?),
-            velocity: convention.restore_velocity(&velocity, exposure),
-            velocity_next: next.map(|next| convention.restore_velocity(&next, exposure)),
+            color: convention.read_color(&mut file)?,
+            velocity: restore_velocity(&velocity)?,
+            velocity_next: next.as_ref().map(restore_velocity).transpose()?,
             velocity_z: file.optional("velocity_z", || file.plane("velocity_z"))?,
             exclusion: file.optional(EXCLUSION, || file.plane(EXCLUSION))?,
-            depth: convention.restore_depth(&file.plane("Z")?),
+            depth: convention
+                .restore_depth(&file.plane("Z")?)
+                .map_err(refuse)?,
             reprojection,
             camera: Camera::from_exr(&file)?,
             exposure,

@@ -238,7 +238,13 @@ fn judge_finished(args: &CheckArgs, path: &Path, judging: &Judging) -> Result<Ju
     }
     let checked = judging.check(&run, findings)?;
     let (findings, verdict) = (&checked.findings, page_verdict(&checked));
-    Judgement::new(&folder, findings.clone(), Some(verdict.clone()))?.write(&folder)?;
+    let judgement = Judgement::new(&folder, findings.clone(), Some(verdict.clone()))?;
+    match judgement.write(&folder) {
+        Err(Error::File(error @ FileError::Io { .. })) => print_note(&format!(
+            "{error}; `report` shows an earlier judgement of this run, or none"
+        )),
+        written => written?,
+    }
     let pages = match &args.html {
         Some(html) => write_run_page(&run, findings, Some(&verdict), &folder, html)?,
         None => Vec::new(),

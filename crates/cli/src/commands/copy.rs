@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use frame::write_atomically;
+use frame::{FileError, write_atomically};
 use store::printable_path;
 use suite::Error;
 use tracer::{Location, list_scenes};
@@ -22,18 +22,30 @@ pub fn copy_scenes(names: &[String], out: &Path) -> Result<(), Error> {
             folder.display()
         );
     }
-    let is_chosen = |path: &&str| {
-        (path.split_once('/')).is_none_or(|(scene, _)| scenes.iter().any(|own| own == scene))
-    };
+    let fail = |source| FileError::io(out, "write", source);
+    std::fs::create_dir_all(out).map_err(fail)?;
+    // A killed copy leaves no half scene: each is written elsewhere, and then moved as a whole.
+    let whole = tempfile::Builder::new()
+        .prefix(".shuttertruth-")
+        .suffix(".tmp")
+        .tempdir_in(out);
+    let whole = whole.map_err(fail)?;
     let mut text = String::new();
-    for path in (catalogue::SCENES.list)().into_iter().filter(is_chosen) {
-        let to = out.join(path);
-        if to.exists() {
-            text += &format!("kept: {}\n", printable_path(&to));
-            continue;
+    for path in (catalogue::SCENES.list)() {
+        let unpack = || (catalogue::SCENES.unpack)(path).expect("the bundle lists its files");
+        match path.split_once('/') {
+            Some((scene, _)) if scenes.iter().any(|own| own == scene) => {
+                write_atomically(&whole.path().join(path), &unpack())?;
+            }
+            Some(_) => {}
+            None if out.join(path).exists() => {
+                text += &format!("kept: {}\n", printable_path(&out.join(path)));
+            }
+            None => write_atomically(&out.join(path), &unpack())?,
         }
-        let bytes = (catalogue::SCENES.unpack)(path).expect("the bundle lists its files");
-        write_atomically(&to, &bytes)?;
+    }
+    for scene in &scenes {
+        std::fs::rename(whole.path().join(scene), out.join(scene)).map_err(fail)?;
     }
     let count = count_text(scenes.len(), "scene", "scenes");
     text += &format!("written: {} ({count})\n", printable_path(out));

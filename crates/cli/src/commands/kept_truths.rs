@@ -12,12 +12,12 @@ use crate::output::{count_text, print_note};
 /// Files that a note names before it counts the rest.
 const MAX_NAMED: usize = 4;
 
-/// Refuses a path that is neither a folder nor a pack, before anything is rendered.
+/// Refuses a path that is neither a folder nor a pack, before anything is rendered, and says whom the run believes.
 pub fn check_truths(truths: &Path) -> Result<(), Error> {
-    match truths.is_file() {
-        true => Ok(Pack::open(truths).map(drop)?),
-        false if truths.is_dir() => Ok(()),
-        false => refuse!(
+    if truths.is_file() {
+        Pack::open(truths)?;
+    } else if !truths.is_dir() {
+        refuse!(
             "--truths {}: {}; allowed: a folder into which `shuttertruth truths render --ladders` or `run` \
              wrote, or a pack",
             truths.display(),
@@ -25,8 +25,13 @@ pub fn check_truths(truths: &Path) -> Result<(), Error> {
                 true => "is neither a folder nor a regular file",
                 false => "there is no such folder or file",
             }
-        ),
+        );
     }
+    print_note(&format!(
+        "whoever wrote {} decides the scores and the verdict: its truths are believed",
+        truths.display()
+    ));
+    Ok(())
 }
 
 /// Unpacks the truths that the plan needs into the plan's locked folder, and says so. A folder is left for the run to read.

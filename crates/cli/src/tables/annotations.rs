@@ -2,7 +2,7 @@
 
 use judge::{Check, Decision, Finding, number};
 use report::{finding_line, length_text, limit_text, way_out};
-use store::printable;
+use store::{escape_markdown, printable};
 
 use super::{comparison_line, count_lines, markdown_table, range_text};
 
@@ -45,11 +45,13 @@ pub fn summary(check: &Check) -> String {
     let mut text = format!(
         "## Shuttertruth: {}\n\n{}\n\n",
         check.decision.word(),
-        count_lines(check).join("\n\n")
+        (count_lines(check).iter().map(|line| escape_markdown(line)))
+            .collect::<Vec<_>>()
+            .join("\n\n")
     );
     for failure in &check.failures {
         let case = format!("{} / {}", failure.scene, failure.filter);
-        let [case, reason] = [&case, &failure.reason].map(|text| escape_cell(text));
+        let [case, reason] = [&case, &failure.reason].map(|text| escape_markdown(text));
         text += &format!("- **{case} failed**: {reason}\n\n");
     }
     let notable: Vec<&Finding> = (check.findings.iter())
@@ -77,7 +79,7 @@ pub fn summary(check: &Check) -> String {
     if !check.comparisons.is_empty() {
         text += "\n### Comparison with the baseline\n\n";
         for comparison in &check.comparisons {
-            text += &format!("- {}\n", escape_cell(&comparison_line(comparison)));
+            text += &format!("- {}\n", escape_markdown(&comparison_line(comparison)));
         }
     }
     text
@@ -104,7 +106,7 @@ fn summary_row(finding: &Finding) -> Vec<String> {
         alike.map(|alike| alike.decoy.clone()).unwrap_or_default(),
         decision_word(finding.decision()).to_owned(),
     ];
-    cells.map(|text| escape_cell(&text)).to_vec()
+    cells.map(|text| escape_markdown(&text)).to_vec()
 }
 
 /// Names the metric, and the length of the sequence.
@@ -124,19 +126,6 @@ fn decision_word(decision: Decision) -> &'static str {
     }
 }
 
-/// Escapes a cell's text: a vertical bar would end it, and other characters in names make links or pictures.
-fn escape_cell(text: &str) -> String {
-    let mut cell = String::new();
-    for letter in printable(&text.replace('\n', " ")).chars() {
-        cell.extend(MARKDOWN.contains(letter).then_some('\\'));
-        cell.push(letter);
-    }
-    cell
-}
-
-/// Characters with a meaning in Markdown, which could fetch an image that a name refers to, or show HTML.
-const MARKDOWN: &str = "\\`|*<[&";
-
 /// Escapes the message of a workflow command.
 fn escape_message(text: &str) -> String {
     let lines: Vec<_> = text.split('\n').map(printable).collect();
@@ -153,13 +142,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_would_end_a_command_or_make_a_picture_is_escaped() {
+    fn what_would_end_a_command_is_escaped() {
         assert_eq!(escape_message("95 %\nof it: a, b"), "95 %25%0Aof it: a, b");
         assert_eq!(escape_property("a:b, 5 %"), "a%3Ab%2C 5 %25");
         assert_eq!(escape_message("a\r\u{1b}[2J"), "a\\r\\u001b[2J");
-        assert_eq!(
-            escape_cell("![a](b)<img src=c> `d`\ne|f"),
-            "!\\[a](b)\\<img src=c> \\`d\\` e\\|f"
-        );
     }
 }

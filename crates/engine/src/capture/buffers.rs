@@ -4,13 +4,15 @@ use std::path::{Path, PathBuf};
 
 use filters::{Convention, DepthKind, EXCLUSION};
 use frame::{
-    ExrFile, FAR_DEPTH, Image, Plane, Raster, Samples, Vectors, read_exr, read_png, scene_linear,
+    ExrFile, FAR_DEPTH, FileError, Image, Plane, Raster, Samples, Vectors, read_passes, read_png,
+    scene_linear,
 };
 use store::printable;
 use suite::{Error, SIDES};
+use tracer::limits::BRIGHTEST;
 
 use crate::capture::description::{CAPTURE_FILE, CaptureDescription};
-use crate::files::refuse;
+use crate::files::{name_of, refuse};
 
 /// Largest rounding of a number beyond the range of a depth buffer.
 const RANGE_ROUNDING: f32 = 1e-3;
@@ -25,18 +27,6 @@ pub const COLOR_ENDINGS: [&str; 3] = ["exr", "png", "raw"];
 const BUFFER_ENDINGS: [&str; 2] = ["exr", "raw"];
 /// Files that may hold several buffers.
 const SHARED_FILES: [&str; 2] = ["buffers.exr", "color.exr"];
-/// Channels of Blender's passes, after the name of a view layer, and their names elsewhere.
-const PASSES: [(&str, &str); 9] = [
-    ("Combined.R", "R"),
-    ("Combined.G", "G"),
-    ("Combined.B", "B"),
-    ("Vector.X", "velocity.X"),
-    ("Vector.Y", "velocity.Y"),
-    ("Vector.Z", "velocity_next.X"),
-    ("Vector.W", "velocity_next.Y"),
-    ("Depth.Z", "Z"),
-    ("IndexOB.X", "object"),
-];
 
 /// Finds the file of a picture, whatever its ending; none if there is none.
 pub fn find_picture(folder: &Path, stem: &str) -> Result<Option<PathBuf>, Error> {
@@ -80,23 +70,41 @@ fn has_ending(path: &Path, ending: &str) -> bool {
     path.extension().is_some_and(|own| own == ending)
 }
 
+/// Scene-linear radiance, and what its file lost or was converted from.
+pub struct Color {
+    pub image: Image,
+    /// A sentence; none for a file that keeps all.
+    pub note: Option<String>,
+}
+
 /// Reads colour as scene-linear radiance. A PNG is decoded from sRGB, and the capture's display exposure undone.
 pub fn read_color(
     path: &Path,
     convention: &Convention,
     description: &CaptureDescription,
-) -> Result<Image, Error> {
-    let color = match is_png(path) {
-        true => scene_linear(&read_png(path)?, description.stops.unwrap_or(0.0)),
-        false => {
-            let file = open(path, description, "color")?;
-            let names = ["R", "G", "B"];
-            check_finite(&file, &names)?;
-            file.color("")?
+) -> Result<Color, Error> {
+    let name = name_of(path);
+    let color = if is_png(path) {
+        let color = scene_linear(&read_png(path)?, description.stops.unwrap_or(0.0));
+        let restored = convention.restore_color(&color);
+        Color {
+            image: restored.map_err(|reason| FileError::foreign(path, reason))?,
+            note: Some(format!(
+                "{name} has 8 bits per channel of a display: what is brighter than display white is lost, and dark colours come in \
+                 steps; save OpenEXR for scores that can be trusted"
+            )),
+        }
+    } else {
+        let mut file = open(path, description, "color")?;
+        check_finite(&file, &["R", "G", "B"])?;
+        Color {
+            image: convention.read_color(&mut file)?,
+            note: file.meaning.note().map(|note| format!("{name}: {note}")),
         }
     };
-    check_sides(path, (color.width, color.height))?;
-    Ok(convention.restore_color(&color))
+    check_sides(path, (color.image.width, color.image.height))?;
+    check_brightness(path, &color.image)?;
+    Ok(color)
 }
 
 /// Reads velocity, or `velocity_next`, as the engine stores it.
@@ -113,8 +121,9 @@ pub fn read_velocity(
         ["X", "Y"],
         ["R", "G"],
     ];
-    let has_both = |pair: &&[&str; 2]| pair.iter().all(|name| file.has_channel(name));
-    let Some(names) = pairs.iter().find(has_both) else {
+    // A file with half of a pair lacks the other half, and no other pair is meant.
+    let has_any = |pair: &&[&str; 2]| pair.iter().any(|name| file.has_channel(name));
+    let Some(names) = pairs.iter().find(has_any) else {
         return refuse_channels(&file, "velocity.X and velocity.Y, X and Y, or R and G");
     };
     check_finite(&file, names)?;
@@ -227,39 +236,13 @@ pub fn check_size<T>(path: &Path, raster: &Raster<T>, color: &Image) -> Result<(
 /// Opens the file of a buffer, whose name finds the layout of a raw dump in `capture.toml`.
 fn open(path: &Path, description: &CaptureDescription, buffer: &str) -> Result<ExrFile, Error> {
     match (has_ending(path, "raw"), description.raw.get(buffer)) {
-        (false, _) => read_passes(path),
-        (true, Some(layout)) => layout.read(path),
+        (false, _) => Ok(read_passes(path)?),
+        (true, Some(layout)) => layout.read(path, buffer),
         (true, None) => refuse!(
             path,
             "is a raw dump without a layout; add [raw.{buffer}] with width, height, components and type to {CAPTURE_FILE}"
         ),
     }
-}
-
-/// Reads an OpenEXR file. Blender's passes get the names of other engines' channels.
-fn read_passes(path: &Path) -> Result<ExrFile, Error> {
-    let mut file = read_exr(path)?;
-    file.expect_no_padding()?;
-    for (pass, own) in PASSES {
-        let is_pass = |name: &str| {
-            let layer = name.strip_suffix(pass);
-            layer.is_some_and(|layer| layer.is_empty() || layer.ends_with('.'))
-        };
-        let mut found = file.channels.iter_mut().filter(|it| is_pass(&it.name));
-        match (found.next(), found.next()) {
-            (Some(one), Some(other)) => {
-                let names = format!("{} and {}", one.name, other.name);
-                return refuse!(
-                    path,
-                    "has the channels {}; allowed: one view layer; save only the one that the capture shows",
-                    printable(&names)
-                );
-            }
-            (Some(one), None) => one.name = own.to_owned(),
-            (None, _) => {}
-        }
-    }
-    Ok(file)
 }
 
 fn check_sides(path: &Path, (width, height): (u32, u32)) -> Result<(), Error> {
@@ -272,6 +255,20 @@ fn check_sides(path: &Path, (width, height): (u32, u32)) -> Result<(), Error> {
             SIDES.end()
         ),
     }
+}
+
+/// Refuses colours that no picture has.
+fn check_brightness(path: &Path, color: &Image) -> Result<(), Error> {
+    let is_allowed = |pixel: &[f32; 3]| pixel.iter().all(|value| value.abs() <= BRIGHTEST);
+    let Some(at) = color.pixels.iter().position(|pixel| !is_allowed(pixel)) else {
+        return Ok(());
+    };
+    let (x, y) = (at % color.width as usize, at / color.width as usize);
+    refuse!(
+        path,
+        "has the colour {:?} at pixel ({x}, {y}); allowed: radiance up to {BRIGHTEST:e}; correct its layout, or color_scale in [convention]",
+        color.pixels[at]
+    )
 }
 
 /// Finds the first of some channels in a file.

@@ -9,12 +9,12 @@ use store::read_text;
 use suite::Error;
 
 use crate::capture::buffers::{
-    COLOR_ENDINGS, check_size, find_buffer, find_picture, is_png, read_color, read_depth,
-    read_exclusion, read_objects, read_objects_beside_color, read_velocity, read_velocity_z,
+    COLOR_ENDINGS, check_size, find_buffer, find_picture, read_color, read_depth, read_exclusion,
+    read_objects, read_objects_beside_color, read_velocity, read_velocity_z,
 };
 use crate::capture::description::{CAPTURE_FILE, CaptureDescription};
 use crate::capture::half_floats::{are_halves, rounding_of};
-use crate::files::refuse;
+use crate::files::{name_of, refuse};
 
 /// Name of the file with a capture's convention.
 pub const CONVENTION_FILE: &str = "engine.toml";
@@ -67,36 +67,43 @@ impl Capture {
             return refuse_missing(&folder.join("color.exr"), "the radiance of one instant");
         };
         let color = read_color(&color_path, &convention, &description)?;
-        let mut notes = Vec::new();
-        notes.extend(is_png(&color_path).then(|| png_note("color.png")));
+        let mut notes: Vec<String> = color.note.into_iter().collect();
+        let color = color.image;
 
         let path = require(folder, ["velocity", "velocity.X"], "every pixel's motion")?;
         let velocity = read_velocity(&path, &description, "velocity")?;
         check_size(&path, &velocity, &color)?;
         let is_half = are_halves(velocity.pixels.iter().flatten().copied());
         let exposure = find_velocity_exposure(folder, &description, &convention)?;
-        let velocity = convention.restore_velocity(&velocity, exposure);
+        let restore_velocity = |velocity: &Vectors, path: &Path| {
+            let restored = convention.restore_velocity(velocity, exposure);
+            restored.map_err(|reason| FileError::foreign(path, reason))
+        };
+        let velocity = restore_velocity(&velocity, &path)?;
         notes.extend(is_half.then(|| velocity_note(&path, &velocity)));
-        let read_next = |path: &Path| read_velocity(path, &description, "velocity_next");
+        let read_next = |path: &Path| {
+            let next = read_velocity(path, &description, "velocity_next")?;
+            Ok(restore_velocity(&next, path)?)
+        };
         let names = ["velocity_next", "velocity_next.X"];
-        let next = read_optional(folder, names, &color, read_next)?;
-        let velocity_next = next.map(|next| convention.restore_velocity(&next, exposure));
+        let velocity_next = read_optional(folder, names, &color, read_next)?;
 
         let path = require(folder, ["depth", "Z"], "the distance of every pixel")?;
         let depth = read_depth(&path, &convention, &description)?;
         check_size(&path, &depth, &color)?;
         let is_half = are_halves(depth.pixels.iter().copied());
         notes.extend(is_half.then(|| depth_note(&path, &convention)).flatten());
-        let depth = convention.restore_depth(&depth);
+        let depth = (convention.restore_depth(&depth))
+            .map_err(|reason| FileError::foreign(&path, reason))?;
 
         let read_z = |path: &Path| read_velocity_z(path, &description);
         let read_ids = |path: &Path| read_objects(path, &description);
         let mut blurred = None;
         if let Some(path) = find_picture(folder, "blurred")? {
             let picture = read_color(&path, &convention, &description)?;
-            check_size(&path, &picture, &color)?;
-            notes.extend(is_png(&path).then(|| png_note("blurred.png")));
-            blurred = Some(picture);
+            check_size(&path, &picture.image, &color)?;
+            notes.extend(picture.note);
+            blurred = Some(picture.image);
         }
         Ok(Self {
             subframes: list_subframes(folder, &color_path)?,
@@ -118,7 +125,7 @@ impl Capture {
     /// Reads one of the sub-frames as scene-linear radiance.
     pub fn read_subframe(&self, index: usize) -> Result<Image, Error> {
         let path = &self.subframes[index];
-        let subframe = read_color(path, &self.convention, &self.description)?;
+        let subframe = read_color(path, &self.convention, &self.description)?.image;
         check_size(path, &subframe, &self.color)?;
         Ok(subframe)
     }
@@ -265,17 +272,6 @@ fn list_subframes(folder: &Path, color: &Path) -> Result<Vec<PathBuf>, Error> {
         }
     }
     Ok(paths)
-}
-
-fn name_of(path: &Path) -> std::path::Display<'_> {
-    Path::new(path.file_name().unwrap_or_default()).display()
-}
-
-fn png_note(name: &str) -> String {
-    format!(
-        "{name} has 8 bits per channel of a display: what is brighter than display white is lost, and dark colours come in \
-         steps; save OpenEXR for scores that can be trusted"
-    )
 }
 
 fn velocity_note(path: &Path, velocity: &Vectors) -> String {

@@ -5,9 +5,12 @@ use std::path::Path;
 use filters::EXCLUSION;
 use frame::{
     Display, ExrFile, FAR_DEPTH, Frame, FrameOptions, Image, Provenance, Raster, Reprojection,
-    Truth, VelocityKind, display_srgb, write_exr, write_png,
+    Truth, VelocityKind, display_srgb, read_bounded, write_exr, write_png,
 };
-use store::{RenderFile, Sharing, ladder_folder, lock_folder, refuse_long_names, refuse_scene};
+use store::{
+    MAX_TAKEN_BYTES, RenderFile, Sharing, ladder_folder, lock_folder, refuse_long_names,
+    refuse_scene,
+};
 use suite::{
     BLURRED, EXCLUSION_FILE, EngineScene, Error, INGESTED_FILE, INGESTED_FORMAT, PROGRAM,
     engine_name, name_in_one_word, velocity_wheel,
@@ -268,9 +271,7 @@ fn hash_capture(capture: &Capture) -> Result<String, Error> {
         hasher.update(&value.to_le_bytes());
     }
     for path in &capture.subframes {
-        let bytes =
-            std::fs::read(path).map_err(|source| frame::FileError::io(path, "read", source))?;
-        hasher.update(&bytes);
+        hasher.update(&read_bounded(path, MAX_TAKEN_BYTES)?);
     }
     Ok(hasher.finalize().to_hex().to_string())
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command as Process;
 use std::time::Duration;
 
-use frame::{ExrFile, FileError, Image, read_exr, write_exr};
+use frame::{ExrFile, Image, read_passes, write_exr};
 use process::{End, Limits, OutputFile, half_of_memory};
 
 use super::environment::collect_environment;
@@ -184,18 +184,9 @@ impl CommandBlur {
     /// Reads the picture that the program wrote, or says what is wrong with it.
     fn read(&self, out: &Path) -> Result<Image, String> {
         self.check_file(out)?;
-        let color = read_exr(out)
-            .and_then(|file| file.color(""))
-            .map_err(|error| {
-                let reason = match error {
-                    FileError::Broken { reason, .. } => {
-                        format!("not a complete OpenEXR file: {reason}")
-                    }
-                    FileError::Foreign { reason, .. } => reason,
-                    error @ FileError::Io { .. } => error.to_string(),
-                };
-                format!("wrote an {{out}} that cannot be used: {reason}")
-            })?;
+        let color = read_passes(out).and_then(|file| file.color(""));
+        let color = color
+            .map_err(|error| format!("wrote an {{out}} that cannot be used: {}", error.reason()))?;
         let [width, height] = self.size;
         if [color.width, color.height] != [width, height] {
             return Err(format!(

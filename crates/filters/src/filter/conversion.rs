@@ -1,6 +1,6 @@
 //! Conversion of velocity, depth and colour between frames and the convention of an engine.
 
-use frame::{FAR_DEPTH, Image, Plane, Vectors};
+use frame::{ExrFile, FAR_DEPTH, FileError, Image, Plane, Raster, Vectors};
 
 use super::convention::{
     Convention, DepthKind, VelocitySign, VelocityTime, VelocityUnit, VerticalDirection,
@@ -14,9 +14,19 @@ impl Convention {
     }
 
     /// Converts the engine's velocity to pixels per frame.
-    pub fn restore_velocity(&self, velocity: &Vectors, exposure: f64) -> Vectors {
+    ///
+    /// # Errors
+    /// A velocity becomes infinite, or all become 0; the text names keys.
+    pub fn restore_velocity(&self, velocity: &Vectors, exposure: f64) -> Result<Vectors, String> {
         let [x, y] = self.velocity_factors([velocity.width, velocity.height], exposure);
-        velocity.map(|v| [(f64::from(v[0]) / x) as f32, (f64::from(v[1]) / y) as f32])
+        let restored =
+            velocity.map(|v| [(f64::from(v[0]) / x) as f32, (f64::from(v[1]) / y) as f32]);
+        check_restored(
+            velocity,
+            &restored,
+            "velocity, velocity_per and velocity_scale",
+        )?;
+        Ok(restored)
     }
 
     /// Returns the engine's velocity of a surface that moves by a pixel per frame to the right and down.
@@ -62,23 +72,40 @@ impl Convention {
         })
     }
 
-    /// Converts the engine's depth to metres. The value of a cleared buffer becomes the background.
-    pub fn restore_depth(&self, depth: &Plane) -> Plane {
+    /// Converts the engine's depth to metres. The value of a cleared buffer becomes the background, and so do distances beyond it.
+    ///
+    /// # Errors
+    /// A depth is not above 0; the text names keys.
+    pub fn restore_depth(&self, depth: &Plane) -> Result<Plane, String> {
+        if self.depth == DepthKind::Linear {
+            return Ok(depth.clone());
+        }
         let near = self.near.unwrap_or(1.0);
-        depth.map(|depth| {
+        let restored = depth.map(|depth| {
             let stored = f64::from(*depth);
             let reversed = match self.depth {
-                DepthKind::Linear => return *depth,
+                DepthKind::Linear => stored,
                 DepthKind::Reversed => stored,
                 DepthKind::Forward => 1.0 - stored,
                 DepthKind::Ndc => 0.5 - 0.5 * stored,
             };
             match (reversed == 0.0, self.far) {
                 (true, _) => FAR_DEPTH,
-                (false, None) => (near / reversed) as f32,
+                (false, None) => ((near / reversed) as f32).min(FAR_DEPTH),
                 (false, Some(far)) => (near * far / (near + reversed * (far - near))) as f32,
             }
-        })
+        });
+        let pairs = depth.pixels.iter().zip(&restored.pixels);
+        match pairs
+            .into_iter()
+            .find(|(_, metres)| !(metres.is_finite() && **metres > 0.0))
+        {
+            None => Ok(restored),
+            Some((stored, metres)) => Err(format!(
+                "its depth {stored} becomes {metres} m by the [convention]; allowed: finite distances above 0; correct depth, \
+                 near and far"
+            )),
+        }
     }
 
     /// Converts scene-linear colour to the engine's.
@@ -88,9 +115,49 @@ impl Convention {
     }
 
     /// Converts the engine's colour to scene-linear.
-    pub fn restore_color(&self, color: &Image) -> Image {
+    ///
+    /// # Errors
+    /// A colour becomes infinite, or all become 0; the text names the key.
+    pub fn restore_color(&self, color: &Image) -> Result<Image, String> {
         let scale = self.color_scale.unwrap_or(1.0) as f32;
-        color.map(|pixel| pixel.map(|value| value / scale))
+        let restored = color.map(|pixel| pixel.map(|value| value / scale));
+        check_restored(color, &restored, "color_scale")?;
+        Ok(restored)
+    }
+
+    /// Reads the colours of an engine's file as scene-linear Rec.709.
+    ///
+    /// # Errors
+    /// The file lacks colours or says that they are of an unknown kind, or the convention makes impossible ones of them.
+    pub fn read_color(&self, file: &mut ExrFile) -> Result<Image, FileError> {
+        // The factor gives colours the unit that they lack.
+        if self.color_scale.is_some() {
+            file.meaning.white_luminance = None;
+        }
+        let color = file.color("")?;
+        (self.restore_color(&color)).map_err(|reason| FileError::foreign(&file.path, reason))
+    }
+}
+
+/// Refuses a conversion that makes infinite numbers of finite ones, or of every number 0 or less than a float has digits for.
+fn check_restored<const N: usize>(
+    stored: &Raster<[f32; N]>,
+    restored: &Raster<[f32; N]>,
+    keys: &str,
+) -> Result<(), String> {
+    let [from, to] = [stored, restored].map(|raster| raster.pixels.as_flattened());
+    let is_lost = |(from, to): &(&f32, &f32)| from.is_finite() && !to.is_finite();
+    let lost = from.iter().zip(to).find(is_lost).or_else(|| {
+        let vanishes = !to.iter().any(|value| value.is_normal());
+        from.iter()
+            .zip(to)
+            .find(|(from, _)| vanishes && from.is_normal())
+    });
+    match lost {
+        None => Ok(()),
+        Some((from, to)) => Err(format!(
+            "its {from} becomes {to} by the [convention]; allowed: finite numbers, and others than 0; correct {keys}"
+        )),
     }
 }
 
@@ -138,7 +205,7 @@ mod tests {
                     converted.pixels
                 );
             }
-            let back = form.restore_depth(&converted);
+            let back = form.restore_depth(&converted).unwrap();
             // A surface at the far plane looks like the background.
             let last = if far.is_some() { FAR_DEPTH } else { 8.0 };
             for (found, expected) in back.pixels.iter().zip([0.5, 1.0, last, FAR_DEPTH]) {

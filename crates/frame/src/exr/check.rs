@@ -14,7 +14,7 @@ impl ExrFile {
         match self.attributes.get("kind").map(String::as_str) {
             Some(found) if found == kind => {
                 self.expect_checksum()?;
-                self.expect_no_padding()?;
+                self.expect_plain_pixels()?;
                 self.expect_finite()
             }
             Some(found) => Err(self.foreign(format!("is a {found}; a {kind} is needed"))),
@@ -25,14 +25,31 @@ impl ExrFile {
         }
     }
 
-    /// Refuses a file whose pixels are a part of its display window, or extend beyond it.
-    pub fn expect_no_padding(&self) -> Result<(), FileError> {
-        match &self.padding {
+    /// Refuses a file whose pixels are a part of its display window, or extend beyond it, or are not square.
+    pub fn expect_plain_pixels(&self) -> Result<(), FileError> {
+        match &self.odd_pixels {
             None => Ok(()),
-            Some(padding) => Err(self.foreign(format!(
-                "{padding}; both must be one: write the picture without cropping or padding"
-            ))),
+            Some(reason) => Err(self.foreign(reason.clone())),
         }
+    }
+
+    /// Refuses colours that the file's attribute `colorInteropID` calls other than linear, or names primaries of, without stating them.
+    pub(super) fn expect_linear(&self) -> Result<(), FileError> {
+        const NAME: &str = "colorInteropID";
+        let Some(space) = self.attributes.get(NAME) else {
+            return Ok(());
+        };
+        let is_known = match self.meaning.note() {
+            Some(_) => space.starts_with("lin_"),
+            None => ["lin_rec709_scene", "data", "unknown"].contains(&space.as_str()),
+        };
+        if is_known {
+            return Ok(());
+        }
+        Err(self.foreign(format!(
+            "states {NAME} = \"{space}\"; allowed: lin_rec709_scene, or other linear colours with the attribute chromaticities; \
+             save the picture in linear Rec.709"
+        )))
     }
 
     /// Refuses a channel that holds infinity or NaN.

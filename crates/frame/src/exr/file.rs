@@ -5,7 +5,11 @@ use std::fmt::Display;
 use std::path::PathBuf;
 use std::str::FromStr;
 
+use super::colors::{ColorMeaning, convert};
 use crate::{FileError, Image, Plane, Raster, Vectors};
+
+/// Upper limit on channels that an error names.
+const MOST_SHOWN: usize = 16;
 
 /// The samples of one channel, row by row from the top left.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,9 +42,10 @@ pub struct ExrFile {
     pub channels: Vec<Channel>,
     /// Text attributes of the header.
     pub attributes: BTreeMap<String, String>,
-    /// Description of a display window that differs from the pixels' in place or size; `None` if both are the same, as
-    /// in every file of this program.
-    pub padding: Option<String>,
+    /// Reason why the pixels are not a whole picture of square pixels; `None` in every file of this program.
+    pub odd_pixels: Option<String>,
+    /// Meaning of the colours, by the file's attributes.
+    pub meaning: ColorMeaning,
 }
 
 impl ExrFile {
@@ -52,7 +57,8 @@ impl ExrFile {
             height,
             channels: Vec::new(),
             attributes: BTreeMap::new(),
-            padding: None,
+            odd_pixels: None,
+            meaning: ColorMeaning::default(),
         }
     }
 
@@ -173,9 +179,18 @@ impl ExrFile {
         }
     }
 
-    /// Reads `R G B`, of a named layer or at the top.
+    /// Reads `R G B`, of a named layer or at the top, and converts them to Rec.709.
+    ///
+    /// # Errors
+    /// The file lacks a channel, or its attributes say that the colours are not linear, or of an unknown kind.
     pub fn color(&self, layer: &str) -> Result<Image, FileError> {
-        self.join(["R", "G", "B"].map(|name| in_layer(layer, name)))
+        let color = self.join(["R", "G", "B"].map(|name| in_layer(layer, name)))?;
+        self.expect_linear()?;
+        let matrix = (self.meaning.to_rec_709()).map_err(|reason| self.foreign(reason))?;
+        Ok(match matrix {
+            None => color,
+            Some(matrix) => color.map(|pixel| convert(&matrix, pixel)),
+        })
     }
 
     /// Reads `X Y`, of a named layer.
@@ -254,9 +269,22 @@ impl ExrFile {
 
     fn samples(&self, name: &str) -> Result<&Samples, FileError> {
         let channel = self.channels.iter().find(|channel| channel.name == name);
-        Ok(&channel
-            .ok_or_else(|| self.foreign(format!("lacks the channel \"{name}\"")))?
-            .samples)
+        let lacking = || {
+            let reason = format!("lacks the channel \"{name}\"; {}", self.describe_channels());
+            self.foreign(reason)
+        };
+        Ok(&channel.ok_or_else(lacking)?.samples)
+    }
+
+    /// Names the channels, or the first of many.
+    pub(crate) fn describe_channels(&self) -> String {
+        let names = self.channels.iter().map(|channel| channel.name.as_str());
+        let shown: Vec<&str> = names.take(MOST_SHOWN).collect();
+        let more = match self.channels.len() - shown.len() {
+            0 => String::new(),
+            more => format!(" and {more} more"),
+        };
+        format!("it has {}{more}", shown.join(", "))
     }
 }
 

@@ -67,8 +67,19 @@ pub(crate) fn check_header(headers: &[Header], file_bytes: u64) -> Result<(), St
     Ok(())
 }
 
-/// Describes a display window that is not the data window; `None` if both are the same.
-pub(crate) fn describe_padding(header: &Header) -> Option<String> {
+/// Largest difference of a pixel's width and height that is rounding.
+const SQUARE: f32 = 1e-4;
+
+/// Describes a display window that is not the data window, or pixels that are not square; `None` for a picture as this program
+/// writes it.
+pub(crate) fn describe_odd_pixels(header: &Header) -> Option<String> {
+    let aspect = header.shared_attributes.pixel_aspect;
+    if (aspect - 1.0).abs() > SQUARE {
+        return Some(format!(
+            "its pixels are {aspect} times as wide as high (pixelAspectRatio); square ones are needed: write the picture without \
+             an anamorphic squeeze"
+        ));
+    }
     let display = header.shared_attributes.display_window;
     let (place, size) = (header.own_attributes.layer_position, header.layer_size);
     if display.position == place && display.size == size {
@@ -78,7 +89,7 @@ pub(crate) fn describe_padding(header: &Header) -> Option<String> {
         format!("of {width}x{height} pixels from ({x}, {y})")
     };
     Some(format!(
-        "its data window {} is not its display window {}",
+        "its data window {} is not its display window {}; both must be one: write the picture without cropping or padding",
         window(size, place),
         window(display.size, display.position)
     ))

@@ -1,14 +1,18 @@
 //! Reading of OpenEXR files, from any program.
 
-use std::io::BufReader;
+use std::collections::HashSet;
+use std::io::{BufReader, Cursor, Read, Seek};
 use std::path::Path;
 
+use exr::block::reader::Reader;
+use exr::error::Error;
 use exr::meta::attribute::{AttributeValue, Text};
 use exr::prelude::{FlatSamples, ReadChannels, ReadLayers};
 use half::slice::HalfFloatSliceExt;
 
+use super::colors::ColorMeaning;
 use super::file::{Channel, ExrFile, Samples};
-use super::header::{check_header, describe_padding, from_exr};
+use super::header::{check_header, describe_odd_pixels, from_exr};
 use crate::FileError;
 use crate::file::open_regular;
 
@@ -16,18 +20,66 @@ use crate::file::open_regular;
 /// bytes than [`MAX_EXR_BYTES`](crate::MAX_EXR_BYTES) and its neighbours allow. Half floats are widened.
 pub fn read_exr(path: &Path) -> Result<ExrFile, FileError> {
     let (handle, bytes) = open_regular(path, u64::MAX)?;
-    let broken = |error: exr::error::Error| match error {
-        exr::error::Error::NotSupported(reason) => {
+    decode(BufReader::new(handle), bytes, path)
+}
+
+/// Reads an OpenEXR file as [`read_exr`] does, from a program that writes no checksum of the content. Refuses chunks in a wrong place:
+/// the decoder checks what is in a chunk, and leaves those pixels black that no chunk has.
+pub(super) fn read_foreign_exr(path: &Path) -> Result<ExrFile, FileError> {
+    let (handle, bytes) = open_regular(path, u64::MAX)?;
+    check_places(BufReader::new(handle), bytes, path)?;
+    read_exr(path)
+}
+
+/// Decodes the bytes of a foreign OpenEXR file, with the same checks; `path` names it in errors.
+pub fn decode_exr(bytes: &[u8], path: &Path) -> Result<ExrFile, FileError> {
+    let size = bytes.len() as u64;
+    check_places(Cursor::new(bytes), size, path)?;
+    decode(Cursor::new(bytes), size, path)
+}
+
+/// Refuses two chunks in one place.
+fn check_places(source: impl Read + Seek, bytes: u64, path: &Path) -> Result<(), FileError> {
+    let chunks = read_header(source, bytes, path)?;
+    let header = chunks.headers()[0].clone();
+    let find_places = || {
+        let chunks = chunks.filter_chunks(false, |_, _, _| true)?;
+        let mut places = HashSet::new();
+        for chunk in chunks {
+            if !places.insert(header.get_block_data_indices(&chunk?.compressed_block)?) {
+                return Err(Error::Invalid("two chunks have the same pixels".into()));
+            }
+        }
+        Ok(())
+    };
+    find_places().map_err(|error| broken(path, error))
+}
+
+/// Reads the header of an OpenEXR file, and refuses disallowed ones.
+fn read_header<S: Read + Seek>(source: S, bytes: u64, path: &Path) -> Result<Reader<S>, FileError> {
+    let chunks = exr::block::read(source, false).map_err(|error| broken(path, error))?;
+    check_header(chunks.headers(), bytes).map_err(|reason| FileError::foreign(path, reason))?;
+    Ok(chunks)
+}
+
+/// Describes an error of the decoder.
+fn broken(path: &Path, error: Error) -> FileError {
+    match error {
+        Error::NotSupported(reason) => {
             FileError::foreign(path, format!("cannot be read: {reason}"))
         }
         error => FileError::Broken {
             path: path.to_owned(),
             reason: error.to_string(),
         },
-    };
-    let chunks = exr::block::read(BufReader::new(handle), false).map_err(broken)?;
-    check_header(chunks.headers(), bytes).map_err(|reason| FileError::foreign(path, reason))?;
-    let padding = describe_padding(&chunks.headers()[0]);
+    }
+}
+
+fn decode(source: impl Read + Seek, bytes: u64, path: &Path) -> Result<ExrFile, FileError> {
+    let broken = |error| broken(path, error);
+    let chunks = read_header(source, bytes, path)?;
+    let header = &chunks.headers()[0];
+    let (odd_pixels, meaning) = (describe_odd_pixels(header), ColorMeaning::of(header));
     let image = exr::prelude::read()
         .no_deep_data()
         .largest_resolution_level()
@@ -41,7 +93,8 @@ pub fn read_exr(path: &Path) -> Result<ExrFile, FileError> {
     };
     let mut file = ExrFile::new(layer.size.width() as u32, layer.size.height() as u32);
     file.path = path.to_owned();
-    file.padding = padding;
+    file.odd_pixels = odd_pixels;
+    file.meaning = meaning;
     for channel in layer.channel_data.list {
         let name = from_exr(&channel.name);
         let samples = match channel.sample_data {

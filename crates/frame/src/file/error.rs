@@ -43,6 +43,15 @@ impl FileError {
         }
     }
 
+    /// Returns the fault without the path, for messages that name the file otherwise.
+    pub fn reason(self) -> String {
+        match self {
+            Self::Broken { reason, .. } => format!("not a complete OpenEXR file: {reason}"),
+            Self::Foreign { reason, .. } => reason,
+            error @ Self::Io { .. } => error.to_string(),
+        }
+    }
+
     /// Makes an error of a file that is not the one asked for.
     pub fn foreign(path: &Path, reason: String) -> Self {
         Self::Foreign {

@@ -5,6 +5,5 @@ mod reading;
 mod writing;
 
 pub use error::FileError;
-pub(crate) use reading::open_regular;
-pub use reading::read_bounded;
+pub use reading::{open_regular, read_bounded};
 pub use writing::{remove_leftovers, write_atomically, write_streamed};

@@ -32,7 +32,7 @@ pub fn read_bounded(path: &Path, limit: u64) -> Result<Vec<u8>, FileError> {
 
 /// Opens a regular file of at most `limit` bytes; returns its size too. Anything else is refused before it is opened, so that
 /// nothing blocks.
-pub(crate) fn open_regular(path: &Path, limit: u64) -> Result<(File, u64), FileError> {
+pub fn open_regular(path: &Path, limit: u64) -> Result<(File, u64), FileError> {
     let io = |source| FileError::io(path, "read", source);
     let metadata = std::fs::metadata(path).map_err(io)?;
     refuse_unfit(path, &metadata, limit)?;

@@ -80,8 +80,11 @@ fn create_temporary(folder: &Path) -> std::io::Result<NamedTempFile> {
 }
 
 /// Removes files that a process was writing into this folder when it was killed. Files that a living process writes stay, and so
-/// do all other files and folders.
+/// do all other files and folders. Removes nothing beyond a link to a folder.
 pub fn remove_leftovers(folder: &Path) {
+    if folder.is_symlink() {
+        return;
+    }
     for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
         let name = entry.file_name();
         let name = name.to_string_lossy();
@@ -116,6 +119,21 @@ mod tests {
         let socket = std::fs::symlink_metadata(path("socket")).unwrap();
         assert!(socket.file_type().is_socket());
         assert!(path("null").is_symlink());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn nothing_beyond_a_link_is_removed() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        std::fs::create_dir(path("elsewhere")).unwrap();
+        let dead = path("elsewhere/.shuttertruth-dead.tmp");
+        std::fs::write(&dead, "").unwrap();
+        std::os::unix::fs::symlink(path("elsewhere"), path("linked")).unwrap();
+        remove_leftovers(&path("linked"));
+        assert!(dead.exists());
+        remove_leftovers(&path("elsewhere"));
+        assert!(!dead.exists());
     }
 
     #[test]

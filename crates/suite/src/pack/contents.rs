@@ -8,7 +8,7 @@ use store::{PackedFile, RenderFile, RenderPath};
 use tracer::SceneId;
 
 use crate::Error;
-use crate::render::files::truth_files;
+use crate::render::files::{remove_truth, truth_files};
 use crate::run::Run;
 use crate::run::case::{ACCUMULATE, Case};
 
@@ -107,10 +107,15 @@ fn check_truth(
             }
         };
         if found != expected {
+            let path = root.join(path);
+            let folder = match (file, path.parent()) {
+                (RenderFile::Replicate(..), Some(folder)) => remove_truth(folder),
+                _ => String::new(),
+            };
             return Err(Error::Usage(format!(
                 "{}: its header has the hash {content_hash}, and the run was measured with {expected}; something was rendered into this \
-                 folder since: run it again",
-                root.join(path).display()
+                 folder since: {folder}run it again",
+                path.display()
             )));
         }
     }
@@ -121,9 +126,13 @@ fn check_truth(
 fn read_header(root: &Path, file: &RenderPath) -> Result<PackedFile, Error> {
     let path = root.join(file.path());
     if !path.symlink_metadata().is_ok_and(|found| found.is_file()) {
+        let folder = match (file.file, path.parent()) {
+            (RenderFile::Replicate(..), Some(folder)) => remove_truth(folder),
+            _ => String::new(),
+        };
         return Err(Error::Usage(format!(
-            "{}: there is no such file, or it is no regular one; the run is unfinished, or its files were moved; run it again into \
-             this folder, or render the missing truths with their ladders",
+            "{}: there is no such file, or it is no regular one; the run is unfinished, or its files were moved; {folder}run it again \
+             into this folder, or render the missing truths with their ladders",
             path.display()
         )));
     }

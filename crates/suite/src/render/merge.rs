@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use frame::{Replicate, Truth};
+use frame::{Replicate, Truth, TruthError};
 use store::{
     Files, RenderFile, RenderPath, Sharing, gather, list_renders, lock_folder, place_files,
 };
@@ -105,8 +105,15 @@ fn merge_replicates(truth: &RenderPath, files: &BTreeMap<u32, &Path>) -> Result<
         )));
     }
     let replicates = (files.values()).map(|file| read_replicate(truth, file));
-    Truth::of(&replicates.collect::<Result<Vec<_>, _>>()?)
-        .map_err(|error| Error::Usage(format!("{}: {error}", folder.display())))
+    Truth::of(&replicates.collect::<Result<Vec<_>, _>>()?).map_err(|error| {
+        let way_out = match error {
+            TruthError::Foreign { .. } => {
+                "; render all with one --size, --samples-per-pixel and --seed, or remove those of the other render"
+            }
+            _ => "",
+        };
+        Error::Usage(format!("{}: {error}{way_out}", folder.display()))
+    })
 }
 
 /// Reads a replicate, and refuses one that belongs elsewhere.

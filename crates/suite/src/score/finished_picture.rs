@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use filters::Convention;
-use frame::{ExrFile, Frame, Image, Plane, Truth, read_exr, read_png, scene_linear};
+use frame::{ExrFile, Frame, Image, Plane, Truth, read_passes, read_png, scene_linear};
 
 use crate::Error;
 
@@ -76,17 +76,15 @@ fn read_radiance(
     convention: &Convention,
     truth: &Truth,
 ) -> Result<FinishedPicture, Error> {
-    let file = read_exr(path)?;
-    file.expect_no_padding()?;
+    let mut file = read_passes(path)?;
     check_shutter(&file, truth)?;
     let scale = convention.color_scale.filter(|scale| *scale != 1.0);
+    let scale = scale.map(|scale| format!("colours divided by color_scale = {scale}"));
     Ok(FinishedPicture {
-        color: convention.restore_color(&file.color("")?),
+        color: convention.read_color(&mut file)?,
         mattes: mattes(&file, truth)?,
         display_referred: false,
-        notes: (scale.iter())
-            .map(|scale| format!("colours divided by color_scale = {scale}"))
-            .collect(),
+        notes: file.meaning.note().into_iter().chain(scale).collect(),
     })
 }
 

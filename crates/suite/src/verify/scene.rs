@@ -5,7 +5,8 @@ use std::path::PathBuf;
 
 use filters::EXCLUSION;
 use frame::{
-    Alignment, Frame, Provenance, Replicate, Shutter, Tile, Truth, read_attribute, read_exr,
+    Alignment, Frame, Provenance, Replicate, Shutter, Tile, Truth, TruthError, read_attribute,
+    read_exr,
 };
 use store::{LADDER, RenderFile};
 use tracer::{
@@ -17,6 +18,7 @@ use super::difference::find_difference;
 use super::scene_renders::SceneRenders;
 use super::tiles::{Verification, Work};
 use crate::render::exclusion::draw_exclusion;
+use crate::render::files::remove_truth;
 use crate::render::memory::check_memory;
 use crate::render::settings::settings_of;
 use crate::{Error, Monitor};
@@ -223,7 +225,17 @@ fn expect_mean(work: &Work, truth: &Truth) -> Result<(), Error> {
     let replicates = (0..truth.provenance.replicates)
         .map(|index| Replicate::read(&work.path(RenderFile::Replicate(truth.alignment, index))))
         .collect::<Result<Vec<_>, _>>()?;
-    let mean = Truth::of(&replicates)?.to_exr();
+    let mean = Truth::of(&replicates).map_err(|error| {
+        let way_out = match error {
+            TruthError::Foreign { .. } => remove_truth(&work.shown(file).with_extension("")),
+            _ => String::new(),
+        };
+        work.altered(
+            file,
+            &format!("is not the mean of its replicates: {error}; {way_out}render it again"),
+        )
+    })?;
+    let mean = mean.to_exr();
     let whole = Tile::whole(mean.width, mean.height);
     find_difference(&read_exr(&work.path(file))?, whole, &mean).map_or(Ok(()), |difference| {
         let text = format!("is not the mean of its replicates: {difference}");

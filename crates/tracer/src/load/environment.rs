@@ -3,6 +3,7 @@
 use std::io::Cursor;
 use std::path::Path;
 
+use frame::decode_exr;
 use image::ImageFormat;
 
 use super::files::Files;
@@ -41,12 +42,14 @@ fn decode(bytes: &[u8], path: &Path, format: ImageFormat) -> Result<EnvironmentM
             header.width, header.height
         ));
     }
-    if format == ImageFormat::OpenExr {
+    let (width, height) = (header.width, header.height);
+    let texels: Vec<[f32; 3]> = if format == ImageFormat::OpenExr {
         check_exr_values(bytes)?;
-    }
-    let image = header.decode().map_err(undecodable)?.into_rgb32f();
-    let (width, height) = image.dimensions();
-    let texels: Vec<[f32; 3]> = image.pixels().map(|pixel| pixel.0).collect();
+        read_exr_colors(bytes, path)?
+    } else {
+        let image = header.decode().map_err(undecodable)?.into_rgb32f();
+        image.pixels().map(|pixel| pixel.0).collect()
+    };
     let is_wrong = |texel: &[f32; 3]| !texel.iter().all(|part| (0.0..=BRIGHTEST).contains(part));
     if let Some(index) = texels.iter().position(is_wrong) {
         let [x, y] = [index % width as usize, index / width as usize];
@@ -63,6 +66,17 @@ fn decode(bytes: &[u8], path: &Path, format: ImageFormat) -> Result<EnvironmentM
         strength: 1.0,
         rotation: 0.0,
     })
+}
+
+/// Reads the colours of an EXR file as any picture's: in Rec.709, from a whole picture.
+fn read_exr_colors(bytes: &[u8], path: &Path) -> Result<Vec<[f32; 3]>, String> {
+    let read = || {
+        let file = decode_exr(bytes, path)?;
+        file.expect_plain_pixels()?;
+        file.color("")
+    };
+    let color = read().map_err(|error| format!("cannot be used: {}", error.reason()))?;
+    Ok(color.pixels)
 }
 
 /// Limits all values of an EXR file: the decoder reads every channel and layer, and pixels outside the picture.

@@ -1,10 +1,10 @@
 //! One folder shared by several processes.
 
 use std::fs;
-use std::os::unix::fs::PermissionsExt;
+use std::os::unix::fs::{PermissionsExt, symlink};
 use std::process::Command;
 
-use crate::sandbox::{Sandbox, assert_done, files_below, split};
+use crate::sandbox::{Sandbox, assert_done, assert_refused, files_below, split};
 
 const RUN: &str = "run --quiet --size 64x32 --samples-per-pixel 16 --filters identity --out out";
 const RENDER: &str = "truths render --quiet --samples-per-pixel 16 --out out";
@@ -55,6 +55,60 @@ fn the_next_run_removes_files_of_a_killed_process() {
     let mut kept = kept.map(|name| sandbox.path(name));
     kept.sort();
     assert_eq!(left, kept);
+}
+
+#[test]
+fn nothing_beyond_a_link_to_a_scene_s_folder_is_removed() {
+    let sandbox = Sandbox::new();
+    let dead = "elsewhere/.shuttertruth-a.tmp";
+    sandbox.put(dead, "half");
+    fs::create_dir(sandbox.path("out")).unwrap();
+    symlink(sandbox.path("elsewhere"), sandbox.path("out/plate")).unwrap();
+    sandbox.done(RUN);
+    assert!(sandbox.path(dead).exists());
+    assert!(
+        sandbox.path("elsewhere/frame.exr").exists(),
+        "the run wrote there"
+    );
+}
+
+#[test]
+fn records_that_are_pipes_or_devices_are_named_and_not_read() {
+    let sandbox = Sandbox::new();
+    sandbox.done(RUN);
+    for name in [
+        "run.json",
+        "plate/frame.json",
+        "plate/truth_trailing.json",
+        "plate/identity_default/case.json",
+    ] {
+        let path = sandbox.path("out").join(name);
+        let whole = fs::read(&path).unwrap();
+        for kind in ["a FIFO", "a device"] {
+            fs::remove_file(&path).unwrap();
+            if kind == "a FIFO" {
+                assert!(
+                    Command::new("mkfifo")
+                        .arg(&path)
+                        .status()
+                        .unwrap()
+                        .success()
+                );
+            } else {
+                symlink("/dev/zero", &path).unwrap();
+            }
+            // A read that waits for a writer, or for the end of zeros, would never end.
+            let mut run = Command::new("timeout");
+            run.args(["60", env!("CARGO_BIN_EXE_shuttertruth")])
+                .args(split(RUN));
+            let output = run.current_dir(sandbox.path("")).output().unwrap();
+            let message = format!("out/{name}: is {kind}");
+            assert_refused(&output, 2, &[message]);
+        }
+        fs::remove_file(&path).unwrap();
+        fs::write(&path, whole).unwrap();
+    }
+    sandbox.done(RUN);
 }
 
 #[test]
