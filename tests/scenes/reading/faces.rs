@@ -5,7 +5,8 @@ use tests::random::{Numbers, Random};
 use tracer::Mesh;
 
 use super::polygons::{
-    Plane, Polygon, distance, draw_star, grow, polygon, surrounds, turn_and_reverse,
+    ARROW, DOOR, FRAME, Plane, Polygon, WINDOW, distance, draw_star, grow, polygon, surrounds,
+    turn_and_reverse,
 };
 use crate::Folder;
 
@@ -13,57 +14,6 @@ use crate::Folder;
 const SCENE: &str = "exposes = \"faces\"\nfamily = \"limits\"\nexposure = 0.5\nsize = [1, 1]\n\
     [camera]\nposition = [0, 0, 9]\nlook_at = [0, 0, 0]\nvertical_fov = 40\n\
     [background]\nconstant = [1, 1, 1]\n[object.model]\nmesh = \"mesh.obj\"\n";
-
-/// Arrowhead of 1 square metre, its notch last.
-const ARROW: [[f64; 2]; 4] = [[-1.0, 1.0], [0.0, -1.0], [1.0, 1.0], [0.0, 0.0]];
-
-/// A wall of 4 m by 3 m with a door at its foot, as one face.
-const DOOR: [[f64; 2]; 8] = [
-    [0.0, 0.0],
-    [1.0, 0.0],
-    [1.0, 2.0],
-    [2.0, 2.0],
-    [2.0, 0.0],
-    [4.0, 0.0],
-    [4.0, 3.0],
-    [0.0, 3.0],
-];
-
-/// The wall with a door and a window: a side leads to the window and back.
-const WINDOW: [[f64; 2]; 14] = [
-    [0.0, 0.0],
-    [1.0, 0.0],
-    [1.0, 2.0],
-    [2.0, 2.0],
-    [2.0, 0.0],
-    [4.0, 0.0],
-    [2.5, 1.0],
-    [2.5, 2.0],
-    [3.5, 2.0],
-    [3.5, 1.0],
-    [2.5, 1.0],
-    [4.0, 0.0],
-    [4.0, 3.0],
-    [0.0, 3.0],
-];
-
-/// Square with corners in the middle of its sides, and a square hole: no three of its corners make a fan.
-const FRAME: [[f64; 2]; 14] = [
-    [0.0, 0.0],
-    [1.5, 0.0],
-    [3.0, 0.0],
-    [3.0, 1.5],
-    [3.0, 3.0],
-    [1.0, 3.0],
-    [0.0, 3.0],
-    [0.0, 0.0],
-    [1.0, 1.0],
-    [1.0, 2.0],
-    [2.0, 2.0],
-    [2.0, 1.5],
-    [2.0, 1.0],
-    [1.0, 1.0],
-];
 
 /// Loads faces through a scene, and returns the triangles of each. No triangle may be without area.
 fn load_faces(faces: &[Vec<Vec3>]) -> Vec<Vec<[Vec3; 3]>> {
@@ -251,6 +201,45 @@ fn a_convex_face_is_a_fan_from_its_first_corner_and_so_is_a_twisted_one() {
         [0.0, 1.0, 0.2],
     ]);
     assert_eq!(load_mesh(&[twisted]).triangles, [[0, 1, 2], [0, 2, 3]]);
+}
+
+/// What the sides surround is covered, in any plane. New corners lie on the sides.
+#[test]
+fn a_flat_face_that_crosses_itself_is_divided_there() {
+    let mut numbers = Numbers(5 << 32);
+    let tie = [[0.0, 0.0], [2.0, 0.0], [0.0, 1.0], [2.0, 1.0]];
+    let uneven = [[0.0, 0.0], [3.0, 0.0], [0.0, 1.0], [1.5, 1.0]];
+    // Its sides cross twice.
+    let chain = [[0.0, 0.0], [4.0, 0.0], [3.0, 1.0], [1.0, -1.0], [0.0, 1.0]];
+    for (points, area) in [(&tie[..], 1.0), (&uneven, 1.25), (&chain, 2.0)] {
+        for turned in turn_and_reverse(&polygon(points)) {
+            let face = Plane::random(&mut numbers).place(&turned);
+            let mesh = load_mesh(&[face]);
+            let corners = mesh
+                .triangles
+                .iter()
+                .map(|t| t.map(|v| mesh.positions[v as usize]));
+            let sum: f64 = corners.map(|corners| 0.5 * across(corners).length()).sum();
+            assert!(
+                (sum - area).abs() < 1e-4 * area,
+                "{sum} of {area}: {turned:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_face_that_crosses_itself_outside_of_a_plane_is_refused() {
+    let folder = Folder::new();
+    folder.write("scene.toml", SCENE);
+    let crossed = "v 0 0 0\nv 2 0 0\nv 0 1 1\nv 2 1 0\nv 3 3 0\nf 1 2 3\nf 1 2 3 4 5\n";
+    folder.write("mesh.obj", crossed);
+    let error = folder.load().err().expect("its surface is not defined");
+    assert_eq!(
+        (error.line, error.reason.contains("crosses itself")),
+        (Some(7), true),
+        "{error}"
+    );
 }
 
 #[test]
