@@ -225,7 +225,7 @@ impl ObjFile {
             SceneError {
                 path: self.path.clone(),
                 line: (list_faces(&self.text).nth(face + faces.sum::<usize>())).map(|face| face.line),
-                reason: "the face crosses itself, but not in one plane, so that its surface is not defined; cut it into triangles".into(),
+                reason: "the face crosses itself, so that its surface is not defined; cut it into triangles".into(),
             }
         })
     }

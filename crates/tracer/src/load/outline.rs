@@ -23,17 +23,10 @@ pub(super) struct Outline {
 /// Point of a side where another side crosses it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Crossing {
-    /// Numbers of the side's ends; they may be crossings themselves.
+    /// Numbers of the side's ends.
     pub(super) ends: [u32; 2],
     /// Distance from the first end, as a part of the side.
     pub(super) along: f64,
-}
-
-impl Crossing {
-    pub(super) fn point(&self, points: &[DVec3]) -> DVec3 {
-        let [from, to] = self.ends.map(|end| points[end as usize]);
-        from.lerp(to, self.along)
-    }
 }
 
 /// Corners that are left while ears are cut, each with its neighbours.
@@ -97,15 +90,15 @@ impl Outline {
         (triangles.iter().map(turn).sum::<f64>() - self.area).abs()
     }
 
-    /// Finds two sides that cross each other by more than errors of corners, and where each does.
-    pub(super) fn find_crossing(&self) -> Option<(Crossing, Crossing)> {
+    /// Finds a side that another side crosses, by more than errors of corners.
+    pub(super) fn find_crossing(&self) -> Option<Crossing> {
         let count = self.points.len();
         let side = |first: usize| [first, (first + 1) % count];
         let pairs =
             (0..count).flat_map(|first| (first + 2..count).map(move |second| (first, second)));
         let mut crossings = pairs.filter_map(|(first, second)| {
-            let along_second = self.divide(side(first), side(second))?;
-            Some((self.divide(side(second), side(first))?, along_second))
+            self.divide(side(first), side(second))?;
+            self.divide(side(second), side(first))
         });
         crossings.next()
     }
