@@ -202,6 +202,35 @@ fn a_model_without_its_materials_imports_plain_on_request() {
     assert_refused(&import(&sandbox, &plain), 2, &parts);
 }
 
+#[test]
+fn glass_of_a_model_lets_light_pass_and_the_import_says_so() {
+    let sandbox = set_up();
+    let glass = MATERIALS.replace("Kd 0.6 0.2 0.1", "Kd 0.6 0.2 0.1\nd 0.3\nillum 4");
+    sandbox.put("my models/the house.mtl", glass);
+    let output = import(&sandbox, SLIDE);
+    assert_done(&output);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(said.contains("alpha = \"blended\""), "{said}");
+    let scene = load_scene(sandbox.path("scenes/house"), None).unwrap();
+    let mut materials = scene.materials.iter();
+    let roof = materials
+        .find(|material| material.name == "the roof")
+        .unwrap();
+    assert_eq!(roof.translucency.and_then(|roof| roof.glass), Some(1.5));
+    assert_eq!(scene.notes, [""; 0]);
+}
+
+#[test]
+fn a_byte_order_mark_does_not_hide_the_first_statement_of_a_model() {
+    let sandbox = set_up();
+    let (_, house) = HOUSE.split_once("mtllib").unwrap();
+    write_model(&sandbox, &format!("\u{feff}mtllib{house}"));
+    assert_done(&import(&sandbox, SLIDE));
+    fs::remove_dir_all(sandbox.path("scenes/house")).unwrap();
+    fs::remove_file(sandbox.path("my models/the house.mtl")).unwrap();
+    assert_done(&import(&sandbox, &format!("{SLIDE} --plain")));
+}
+
 /// Imports a bumpy ball with this many steps around and along it.
 fn import_ball(steps: usize) {
     let sandbox = set_up();

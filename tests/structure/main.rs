@@ -1,8 +1,9 @@
-//! The structure of the sources: no circle of modules in any crate, and no long function.
+//! The structure of the sources: no circle of modules in any crate, no long function, and the packages of the design.
 
 mod circles;
 mod functions;
 mod modules;
+mod packages;
 mod uses;
 
 use std::fs;

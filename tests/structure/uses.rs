@@ -69,7 +69,7 @@ fn expand(tree: &str) -> Vec<String> {
 }
 
 /// Removes comments, and everything from `#[cfg(test)]` to its end.
-fn strip(text: &str) -> String {
+pub fn strip(text: &str) -> String {
     let mut kept = String::from("\n");
     let mut end: Option<usize> = None;
     for line in text.lines() {

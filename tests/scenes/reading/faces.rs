@@ -5,7 +5,8 @@ use tests::random::{Numbers, Random};
 use tracer::Mesh;
 
 use super::polygons::{
-    Plane, Polygon, distance, draw_star, grow, polygon, surrounds, turn_and_reverse,
+    ARROW, DOOR, FRAME, Plane, Polygon, WINDOW, distance, draw_star, grow, polygon, surrounds,
+    turn_and_reverse,
 };
 use crate::Folder;
 
@@ -13,57 +14,6 @@ use crate::Folder;
 const SCENE: &str = "exposes = \"faces\"\nfamily = \"limits\"\nexposure = 0.5\nsize = [1, 1]\n\
     [camera]\nposition = [0, 0, 9]\nlook_at = [0, 0, 0]\nvertical_fov = 40\n\
     [background]\nconstant = [1, 1, 1]\n[object.model]\nmesh = \"mesh.obj\"\n";
-
-/// Arrowhead of 1 square metre, its notch last.
-const ARROW: [[f64; 2]; 4] = [[-1.0, 1.0], [0.0, -1.0], [1.0, 1.0], [0.0, 0.0]];
-
-/// A wall of 4 m by 3 m with a door at its foot, as one face.
-const DOOR: [[f64; 2]; 8] = [
-    [0.0, 0.0],
-    [1.0, 0.0],
-    [1.0, 2.0],
-    [2.0, 2.0],
-    [2.0, 0.0],
-    [4.0, 0.0],
-    [4.0, 3.0],
-    [0.0, 3.0],
-];
-
-/// The wall with a door and a window: a side leads to the window and back.
-const WINDOW: [[f64; 2]; 14] = [
-    [0.0, 0.0],
-    [1.0, 0.0],
-    [1.0, 2.0],
-    [2.0, 2.0],
-    [2.0, 0.0],
-    [4.0, 0.0],
-    [2.5, 1.0],
-    [2.5, 2.0],
-    [3.5, 2.0],
-    [3.5, 1.0],
-    [2.5, 1.0],
-    [4.0, 0.0],
-    [4.0, 3.0],
-    [0.0, 3.0],
-];
-
-/// Square with corners in the middle of its sides, and a square hole: no three of its corners make a fan.
-const FRAME: [[f64; 2]; 14] = [
-    [0.0, 0.0],
-    [1.5, 0.0],
-    [3.0, 0.0],
-    [3.0, 1.5],
-    [3.0, 3.0],
-    [1.0, 3.0],
-    [0.0, 3.0],
-    [0.0, 0.0],
-    [1.0, 1.0],
-    [1.0, 2.0],
-    [2.0, 2.0],
-    [2.0, 1.5],
-    [2.0, 1.0],
-    [1.0, 1.0],
-];
 
 /// Loads faces through a scene, and returns the triangles of each. No triangle may be without area.
 fn load_faces(faces: &[Vec<Vec3>]) -> Vec<Vec<[Vec3; 3]>> {
@@ -251,6 +201,44 @@ fn a_convex_face_is_a_fan_from_its_first_corner_and_so_is_a_twisted_one() {
         [0.0, 1.0, 0.2],
     ]);
     assert_eq!(load_mesh(&[twisted]).triangles, [[0, 1, 2], [0, 2, 3]]);
+}
+
+/// What the sides surround is covered, in any plane.
+#[test]
+fn a_quad_that_crosses_itself_is_two_triangles_that_meet_there() {
+    let mut numbers = Numbers(5 << 32);
+    let tie = [[0.0, 0.0], [2.0, 0.0], [0.0, 1.0], [2.0, 1.0]];
+    let uneven = [[0.0, 0.0], [3.0, 0.0], [0.0, 1.0], [1.5, 1.0]];
+    for (points, area) in [(&tie, 1.0), (&uneven, 1.25)] {
+        for turned in turn_and_reverse(&polygon(points)) {
+            let mesh = load_mesh(&[Plane::random(&mut numbers).place(&turned)]);
+            let corners = mesh.triangles.iter();
+            let corners = corners.map(|t| t.map(|vertex| mesh.positions[vertex as usize]));
+            let sum: f64 = corners.map(|corners| 0.5 * across(corners).length()).sum();
+            // Rounding of vertices to 32 bits.
+            assert!((sum - area).abs() < 1e-5, "{sum} of {area}: {turned:?}");
+            assert_eq!(mesh.positions.len(), 5);
+        }
+    }
+}
+
+#[test]
+fn other_faces_that_cross_themselves_are_refused() {
+    let folder = Folder::new();
+    folder.write("scene.toml", SCENE);
+    let star = "v 0 3 0\nv 2 -3 0\nv -3 1 0\nv 3 1 0\nv -2 -3 0\n";
+    // Two ends of a snake over each other: its area is counted twice there.
+    let snake = "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 1 4 0\nv 1 -1 0\nv 2 -1 0\nv 2 3 0\nv 3 3 0\nv 3 1 0\nv 0 1 0\n";
+    for (vertices, count) in [(star, 5), (snake, 10)] {
+        let corners: Vec<String> = (1..=count).map(|corner| corner.to_string()).collect();
+        folder.write(
+            "mesh.obj",
+            format!("{vertices}f 1 2 3\nf {}\n", corners.join(" ")),
+        );
+        let error = folder.load().err().expect("its surface is not defined");
+        assert_eq!(error.line, Some(count + 2), "{error}");
+        assert!(error.reason.contains("crosses itself"), "{error}");
+    }
 }
 
 #[test]

@@ -1,7 +1,58 @@
-//! Random polygons without crossings, and planes in space that they lie in.
+//! Polygons without crossings, drawn and random, and planes in space that they lie in.
 
 use glam::{DVec2, DVec3, Vec3};
 use tests::random::{Numbers, Random};
+
+/// Arrowhead of 1 square metre, its notch last.
+pub const ARROW: [[f64; 2]; 4] = [[-1.0, 1.0], [0.0, -1.0], [1.0, 1.0], [0.0, 0.0]];
+
+/// A wall of 4 m by 3 m with a door at its foot, as one face.
+pub const DOOR: [[f64; 2]; 8] = [
+    [0.0, 0.0],
+    [1.0, 0.0],
+    [1.0, 2.0],
+    [2.0, 2.0],
+    [2.0, 0.0],
+    [4.0, 0.0],
+    [4.0, 3.0],
+    [0.0, 3.0],
+];
+
+/// The wall with a door and a window: a side leads to the window and back.
+pub const WINDOW: [[f64; 2]; 14] = [
+    [0.0, 0.0],
+    [1.0, 0.0],
+    [1.0, 2.0],
+    [2.0, 2.0],
+    [2.0, 0.0],
+    [4.0, 0.0],
+    [2.5, 1.0],
+    [2.5, 2.0],
+    [3.5, 2.0],
+    [3.5, 1.0],
+    [2.5, 1.0],
+    [4.0, 0.0],
+    [4.0, 3.0],
+    [0.0, 3.0],
+];
+
+/// Square with corners in the middle of its sides, and a square hole: no three of its corners make a fan.
+pub const FRAME: [[f64; 2]; 14] = [
+    [0.0, 0.0],
+    [1.5, 0.0],
+    [3.0, 0.0],
+    [3.0, 1.5],
+    [3.0, 3.0],
+    [1.0, 3.0],
+    [0.0, 3.0],
+    [0.0, 0.0],
+    [1.0, 1.0],
+    [1.0, 2.0],
+    [2.0, 2.0],
+    [2.0, 1.5],
+    [2.0, 1.0],
+    [1.0, 1.0],
+];
 
 pub type Polygon = Vec<DVec2>;
 

@@ -80,7 +80,7 @@ fn slips_in_each_file_are_refused() {
     );
     let materials = include_str!("slips/materials.txt");
     check_slips(materials, 33, &["mesh.mtl"], |_| {});
-    check_slips(include_str!("slips/meshes.txt"), 34, &["mesh.obj"], |_| {});
+    check_slips(include_str!("slips/meshes.txt"), 32, &["mesh.obj"], |_| {});
     let slips = include_str!("slips/shapes.txt");
     check_slips(slips, 12, &["scene.toml", "bent.obj"], |folder| {
         let shapes =

@@ -1,5 +1,6 @@
 //! Meshes from OBJ files: from one, or from key shapes, which have the same faces.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 
 use glam::{DVec3, Vec2, Vec3};
@@ -8,6 +9,7 @@ use super::error::SceneError;
 use super::face_lines::list_faces;
 use super::material_list::MaterialList;
 use super::obj::{ObjFile, Part};
+use super::triangulation::Cut;
 use crate::{Material, Mesh, Shape};
 
 /// Material of a mesh.
@@ -88,10 +90,21 @@ impl Building {
         slot: u32,
     ) -> Result<(), SceneError> {
         let (_, first) = files[0];
-        let parts: Vec<&Part> = files.iter().map(|(_, file)| &file.parts[index]).collect();
-        let triangles = first.cut_faces(index)?;
+        let Cut {
+            triangles,
+            crossings,
+        } = first.cut_faces(index)?;
+        let parts = files
+            .iter()
+            .map(|(_, file)| Cow::Borrowed(&file.parts[index]));
+        let mut parts: Vec<Cow<Part>> = parts.collect();
+        if !crossings.is_empty() {
+            parts
+                .iter_mut()
+                .for_each(|part| part.to_mut().add_crossings(&crossings));
+        }
         let is_flat = |triangle: &[u32; 3]| {
-            let lacks_normal = |part: &&Part| {
+            let lacks_normal = |part: &Cow<Part>| {
                 let mut vertices = triangle.iter().map(|corner| part.corners[*corner as usize]);
                 vertices.any(|vertex| part.normal(vertex) == Vec3::ZERO)
             };
@@ -151,7 +164,7 @@ impl Building {
 
 /// Numbers the corners of triangles, in the order in which they are first met. Corners that are one vertex in every file have one
 /// number: equal normals share an index, so that files of the same faces may differ in theirs. Flat triangles share no vertices.
-fn number_vertices(parts: &[&Part], corners: &[u32], is_flat: &[bool]) -> Vec<u32> {
+fn number_vertices(parts: &[Cow<Part>], corners: &[u32], is_flat: &[bool]) -> Vec<u32> {
     let mut numbers = vec![0; corners.len()];
     for part in parts {
         let mut known = HashMap::new();

@@ -26,6 +26,7 @@ mod obj_fault;
 mod obj_text;
 mod object_motion;
 mod objects;
+mod outline;
 mod parents;
 mod picture;
 mod rotation;

@@ -13,9 +13,10 @@ use super::libraries::Libraries;
 use super::mtl::default_material;
 use super::obj_fault::find_fault;
 use super::obj_text::ObjText;
+use super::outline::Crossing;
 use super::statements::clean_text;
 use super::texture::Textures;
-use super::triangulation::triangulate;
+use super::triangulation::{Cut, triangulate};
 use crate::Material;
 use crate::limits::{LARGEST_NUMBER, MAX_CORNERS, MAX_TRIANGLES};
 
@@ -40,6 +41,7 @@ pub(super) struct ObjFile {
 }
 
 /// Faces of one group and one material. Their corners have the same kinds of indices.
+#[derive(Clone)]
 pub(super) struct Part {
     pub(super) group: String,
     /// Index into the materials of the file; none for the default.
@@ -108,8 +110,8 @@ impl Part {
     }
 
     /// Cuts all faces into triangles, as indices into the corners. The error is the number of a face that cannot be cut.
-    fn cut_faces(&self) -> Result<Vec<[u32; 3]>, usize> {
-        let mut triangles = Vec::with_capacity(self.count_triangles());
+    fn cut_faces(&self) -> Result<Cut, usize> {
+        let mut all = Cut::default();
         let mut start = 0;
         for (face, arity) in self.arities.iter().enumerate() {
             let vertices = &self.corners[start as usize..][..*arity as usize];
@@ -117,13 +119,43 @@ impl Part {
                 .iter()
                 .map(|vertex| self.positions[*vertex as usize]);
             let cut = triangulate(&positions.collect::<Vec<_>>()).ok_or(face)?;
-            triangles.extend(
-                cut.iter()
-                    .map(|corners| corners.map(|corner| start + corner)),
-            );
+            let crossings = (self.corners.len() + all.crossings.len()) as u32;
+            let number = |corner: u32| match corner.checked_sub(*arity) {
+                None => start + corner,
+                Some(crossing) => crossings + crossing,
+            };
+            let triangles = cut.triangles.iter();
+            all.triangles
+                .extend(triangles.map(|corners| corners.map(number)));
+            all.crossings
+                .extend(cut.crossings.iter().map(|crossing| Crossing {
+                    ends: crossing.ends.map(number),
+                    ..*crossing
+                }));
             start += arity;
         }
-        Ok(triangles)
+        Ok(all)
+    }
+
+    /// Adds the corners where faces cross themselves.
+    pub(super) fn add_crossings(&mut self, crossings: &[Crossing]) {
+        for crossing in crossings {
+            let [from, to] = crossing
+                .ends
+                .map(|corner| self.corners[corner as usize] as usize);
+            let along = crossing.along as f32;
+            self.corners.push(self.positions.len() as u32);
+            self.positions
+                .push(self.positions[from].lerp(self.positions[to], along));
+            if !self.texcoords.is_empty() {
+                self.texcoords
+                    .push(self.texcoords[from].lerp(self.texcoords[to], along));
+            }
+            if !self.normals.is_empty() {
+                let normal = self.normals[from].lerp(self.normals[to], along);
+                self.normals.push(normal.normalize_or_zero());
+            }
+        }
     }
 }
 
@@ -187,7 +219,7 @@ impl ObjFile {
     }
 
     /// Cuts the faces of a part into triangles, as indices into its corners.
-    pub(super) fn cut_faces(&self, part: usize) -> Result<Vec<[u32; 3]>, SceneError> {
+    pub(super) fn cut_faces(&self, part: usize) -> Result<Cut, SceneError> {
         self.parts[part].cut_faces().map_err(|face| {
             let faces = self.parts[..part].iter().map(|part| part.arities.len());
             SceneError {
