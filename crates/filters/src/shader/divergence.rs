@@ -135,10 +135,10 @@ impl Search<'_> {
                 left.returned = divergent;
                 visit.returns_other |= divergent || value.is_some_and(|it| visit.differs(it));
             }
-            Statement::Store { pointer, value } => {
-                if divergent || visit.differs(*value) || visit.differs(*pointer) {
-                    self.mark(visit, *pointer);
-                }
+            Statement::Store { pointer, value }
+                if divergent || visit.differs(*value) || visit.differs(*pointer) =>
+            {
+                self.mark(visit, *pointer);
             }
             Statement::Call {
                 function,

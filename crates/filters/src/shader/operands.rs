@@ -2,7 +2,7 @@
 
 use wgpu::naga::{Expression, Handle, ImageQuery, SampleLevel};
 
-/// Lists the expressions that one is made of.
+/// Lists the expressions that one is made of, except layers and samples of textures, which no filter has.
 pub(super) fn list_operands(expression: &Expression) -> Vec<Handle<Expression>> {
     let several = |first: &[Handle<Expression>], more: &[Option<Handle<Expression>>]| {
         let more = more.iter().flatten();
@@ -11,16 +11,18 @@ pub(super) fn list_operands(expression: &Expression) -> Vec<Handle<Expression>> 
     match *expression {
         Expression::Compose { ref components, .. } => components.clone(),
         Expression::Access { base, index } => vec![base, index],
-        Expression::AccessIndex { base, .. } => vec![base],
-        Expression::Splat { value, .. } => vec![value],
-        Expression::Swizzle { vector, .. } => vec![vector],
-        Expression::Load { pointer } => vec![pointer],
+        Expression::AccessIndex { base: one, .. }
+        | Expression::Splat { value: one, .. }
+        | Expression::Swizzle { vector: one, .. }
+        | Expression::Load { pointer: one }
+        | Expression::Unary { expr: one, .. }
+        | Expression::Derivative { expr: one, .. }
+        | Expression::As { expr: one, .. }
+        | Expression::Relational { argument: one, .. } => vec![one],
         Expression::ImageSample {
             coordinate,
-            array_index,
             offset,
             level,
-            depth_ref,
             ..
         } => {
             let [level, other] = match level {
@@ -28,32 +30,21 @@ pub(super) fn list_operands(expression: &Expression) -> Vec<Handle<Expression>> 
                 SampleLevel::Gradient { x, y } => [Some(x), Some(y)],
                 SampleLevel::Auto | SampleLevel::Zero => [None, None],
             };
-            several(
-                &[coordinate],
-                &[array_index, offset, level, other, depth_ref],
-            )
+            several(&[coordinate], &[offset, level, other])
         }
         Expression::ImageLoad {
-            coordinate,
-            array_index,
-            sample,
-            level,
-            ..
-        } => several(&[coordinate], &[array_index, sample, level]),
+            coordinate, level, ..
+        } => several(&[coordinate], &[level]),
         Expression::ImageQuery {
             query: ImageQuery::Size { level },
             ..
         } => several(&[], &[level]),
-        Expression::Unary { expr, .. }
-        | Expression::Derivative { expr, .. }
-        | Expression::As { expr, .. } => vec![expr],
         Expression::Binary { left, right, .. } => vec![left, right],
         Expression::Select {
             condition,
             accept,
             reject,
         } => vec![condition, accept, reject],
-        Expression::Relational { argument, .. } => vec![argument],
         Expression::Math {
             arg,
             arg1,
