@@ -2,6 +2,7 @@
 
 mod example;
 mod inputs;
+mod notes;
 mod textures;
 
 use crate::filter_files::FilterFiles;

@@ -169,6 +169,9 @@ fn try_filters(filters: &[&Filter], adapter: Option<&str>) -> Result<(), Error> 
         );
     }
     for filter in filters {
+        for note in filter.list_notes() {
+            print_note(&note);
+        }
         if let Err(error) = Limits::lowest().check(filter) {
             print_note(&format!("other adapters may refuse this filter: {error}"));
         }

@@ -5,6 +5,7 @@ mod convention;
 mod conversion;
 mod definition;
 mod history;
+mod notes;
 mod parameter;
 mod pass;
 mod pass_shader;

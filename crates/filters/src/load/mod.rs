@@ -1,6 +1,7 @@
 //! Loading of filters, from a folder or built in.
 
 mod agreement;
+mod stages;
 
 use std::path::Path;
 

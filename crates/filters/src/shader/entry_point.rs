@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use wgpu::naga::valid::{FunctionInfo, GlobalUse, ModuleInfo};
 use wgpu::naga::{GlobalVariable, Handle, Module, ShaderStage};
 
+use super::divergence::find_divergent_barrier;
 use super::noise::reads_frame_index;
 use super::resource_usage::ResourceUsage;
 use super::variable::{Role, Variable};
@@ -35,6 +36,8 @@ pub(crate) struct EntryPoint {
     pub keeps_unwritten: bool,
     /// True if it reads the frame's index, from which noise is drawn.
     pub draws_noise: bool,
+    /// Function of a barrier that only some invocations of a workgroup may reach.
+    pub divergent_barrier: Option<String>,
     /// Resources that it asks of a device.
     pub usage: ResourceUsage,
     /// Line in the WGSL file, from 1.
@@ -105,6 +108,7 @@ pub(crate) fn find_entry_points(
                 writes,
                 keeps_unwritten: false,
                 draws_noise: reads_frame_index(module, &entry.function),
+                divergent_barrier: find_divergent_barrier(module, entry),
                 usage: ResourceUsage::of(module, module_info, index),
                 line: find_line(&entry.name),
             }

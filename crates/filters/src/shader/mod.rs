@@ -3,12 +3,14 @@
 mod block;
 mod compiled_by;
 mod declarations;
+mod divergence;
 mod entry_point;
 mod fall_through;
 mod loop_counter;
 mod member;
 mod nesting;
 mod noise;
+mod operands;
 mod resource_usage;
 mod sampling;
 mod source;

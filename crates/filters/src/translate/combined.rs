@@ -15,7 +15,7 @@ struct Split {
     images: BTreeMap<u32, u32>,
     /// New types by the pointer to the combined type.
     types: BTreeMap<u32, SplitTypes>,
-    /// The sampler of each combined variable or parameter.
+    /// The sampler of each combined variable or parameter; it has the same name, so that a binding by name explains both.
     samplers: BTreeMap<u32, u32>,
     /// Places of the samplers of variables.
     places: BTreeMap<u32, Place>,
@@ -93,8 +93,7 @@ impl Split {
             }
             (Op::Variable | Op::FunctionParameter, [pointer, id, class @ ..]) => {
                 let types = self.types.get(pointer)?;
-                let class = class.first().copied();
-                let declare = |ty, id| make(op, [ty, id].into_iter().chain(class).collect());
+                let declare = |ty, id| make(op, [&[ty, id], class].concat());
                 vec![
                     declare(types.image_pointer, *id),
                     declare(types.sampler_pointer, self.samplers[id]),
@@ -108,11 +107,10 @@ impl Split {
                 let head = [*function, *result].into_iter();
                 vec![make(op, head.chain(split).collect())]
             }
-            (Op::FunctionCall, [ty, result, function, arguments @ ..]) => {
+            (Op::FunctionCall, ids) => {
                 let sampler = |id: &u32| self.samplers.get(id).copied();
-                let split = arguments.iter().flat_map(|id| [Some(*id), sampler(id)]);
-                let head = [*ty, *result, *function].into_iter();
-                vec![make(op, head.chain(split.flatten()).collect())]
+                let split = ids.iter().flat_map(|id| [Some(*id), sampler(id)]);
+                vec![make(op, split.flatten().collect())]
             }
             (Op::Load, [combined, result, pointer, ..]) => {
                 let image_type = *self.images.get(combined)?;
@@ -125,11 +123,9 @@ impl Split {
                     make(Op::SampledImage, vec![*combined, *result, image, loaded]),
                 ]
             }
-            // A binding by name explains both.
             (Op::Name, [target, name @ ..]) => {
-                let sampler = *self.samplers.get(target)?;
-                let named = [sampler].into_iter().chain(name.iter().copied());
-                vec![instruction.clone(), make(op, named.collect())]
+                let named = [&[*self.samplers.get(target)?], name].concat();
+                vec![instruction.clone(), make(op, named)]
             }
             (Op::Decorate, [target, kind, value, ..]) => {
                 let (sampler, (_, binding)) =

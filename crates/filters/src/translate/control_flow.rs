@@ -10,7 +10,8 @@ use spirv::Op;
 use wgpu::naga::{AddressSpace, front};
 
 use super::branches::{Branches, mark_blocks};
-use super::flow_reader::{Next, Reader};
+use super::flow_reader::Reader;
+use super::next_block::Next;
 use super::words::Words;
 
 /// Refuses a module in whose translation a branch leads to another place.

@@ -5,61 +5,9 @@ use std::collections::BTreeMap;
 
 use wgpu::naga::{
     Block, Expression, Function, GlobalVariable, Handle, Literal, Module, Statement, SwitchCase,
-    SwitchValue,
 };
 
-use super::branches::Exit;
-
-/// Where control goes from a place in a function of naga.
-#[derive(Debug)]
-pub(super) enum Next {
-    /// To the block with this mark.
-    Block(u32),
-    Either(Box<Next>, Box<Next>),
-    /// Out of a loop, or back to its begin.
-    Repeat(Box<Next>, Box<Next>),
-    Choice(Vec<(SwitchValue, Next)>),
-    Return,
-    Kill,
-    /// To the end of the function.
-    End,
-    /// Into a loop without a block.
-    Lost,
-}
-
-impl Next {
-    /// Returns true if control goes where the exit of a block leads.
-    pub fn is(&self, exit: &Exit) -> bool {
-        match (exit, self) {
-            (Exit::Unreachable, _) | (Exit::Return, Self::Return) | (Exit::Kill, Self::Kill) => {
-                true
-            }
-            (Exit::To(block), next) => next.leads_to(*block),
-            (Exit::Either { accept, reject }, next) if accept == reject => next.leads_to(*accept),
-            (Exit::Either { accept, reject }, Self::Either(yes, no)) => {
-                yes.leads_to(*accept) && no.leads_to(*reject)
-            }
-            (Exit::Either { accept, reject }, Self::Repeat(leave, again)) => {
-                let is = |a, b| leave.leads_to(a) && again.leads_to(b);
-                is(*accept, *reject) || is(*reject, *accept)
-            }
-            (Exit::Choice { cases, default }, Self::Choice(found)) => {
-                let goes = |value: SwitchValue, block: u32| {
-                    let mut nexts = found.iter().filter(|(known, _)| *known == value);
-                    nexts.next().is_some_and(|(_, next)| next.leads_to(block))
-                };
-                found.len() == cases.len() + 1
-                    && goes(SwitchValue::Default, *default)
-                    && (cases.iter()).all(|(value, block)| goes(SwitchValue::I32(*value), *block))
-            }
-            _ => false,
-        }
-    }
-
-    fn leads_to(&self, block: u32) -> bool {
-        matches!(self, Self::Block(found) if *found == block)
-    }
-}
+use super::next_block::Next;
 
 /// Where control goes from the statements of a block: at their end, at a `break`, and at a `continue`.
 #[derive(Clone, Copy)]
@@ -67,6 +15,12 @@ struct Exits<'e> {
     end: &'e dyn Fn() -> Next,
     on_break: &'e dyn Fn() -> Next,
     on_continue: &'e dyn Fn() -> Next,
+}
+
+impl<'e> Exits<'e> {
+    fn ending(self, end: &'e dyn Fn() -> Next) -> Self {
+        Self { end, ..self }
+    }
 }
 
 /// Upper limit on blocks within one another, and on jumps without a mark.
@@ -192,10 +146,7 @@ impl<'m> Reader<'m> {
         visit: &mut dyn FnMut(&[Statement], Exits),
     ) {
         let after = || self.find_next(rest, exits);
-        let inner = Exits {
-            end: &after,
-            ..exits
-        };
+        let inner = exits.ending(&after);
         match statement {
             Statement::Block(block) => visit(block, inner),
             Statement::If { accept, reject, .. } => {
@@ -206,14 +157,7 @@ impl<'m> Reader<'m> {
                 for index in 0..cases.len() {
                     let end = || self.end_case(cases, index, &after, exits);
                     let on_break = &after;
-                    visit(
-                        &cases[index].body,
-                        Exits {
-                            end: &end,
-                            on_break,
-                            ..exits
-                        },
-                    );
+                    visit(&cases[index].body, Exits { on_break, ..inner }.ending(&end));
                 }
             }
             Statement::Loop {
@@ -234,13 +178,7 @@ impl<'m> Reader<'m> {
                     on_continue: &end,
                 };
                 visit(body, inside);
-                visit(
-                    continuing,
-                    Exits {
-                        end: &again,
-                        ..inside
-                    },
-                );
+                visit(continuing, inside.ending(&again));
             }
             _ => {}
         }

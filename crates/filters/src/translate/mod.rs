@@ -20,6 +20,7 @@ mod language;
 mod matrices;
 mod members;
 mod module;
+mod next_block;
 mod packages;
 mod places;
 mod sections;
