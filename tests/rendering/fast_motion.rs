@@ -14,8 +14,9 @@ const FOCAL: f64 = 0.5 * HEIGHT as f64;
 const DEPTH: f64 = 5.0;
 /// Speeds in degrees, metres or radians per frame.
 const SPEEDS: [f64; 5] = [20.0, 1e3, 1e6, 1e9, 1e12];
-/// Tolerance, relative to the fastest pixel: 64-bit numbers hold an angle of 1e12 degrees to 4e-6 radians.
-const TOLERANCE: f64 = 1e-5;
+/// Tolerance, relative to the fastest pixel: 64-bit numbers hold an angle of 1e12 degrees to 4e-6 radians, and the difference quotient
+/// counts up to an error of 1e-5.
+const TOLERANCE: f64 = 2e-5;
 
 fn render_frame(scene: &Scene, velocity: VelocityKind) -> Frame {
     renders::render_frame(scene, &settings_with([WIDTH, HEIGHT], 1, velocity))
@@ -144,9 +145,9 @@ fn what_comes_closer_at_any_speed_has_the_velocity_of_perspective() {
 #[test]
 fn a_zoom_of_any_speed_scales_the_picture() {
     let half_pi = std::f64::consts::FRAC_PI_2;
-    for speed in SPEEDS {
+    // The field of view is below half a turn in the moment before.
+    for speed in [20.0, 1e3, 3e4] {
         let mut scene = box_scene();
-        // Only the first millionth of a degree of it is followed.
         scene.camera.vertical_fov = vec![(-1e-3 / speed, half_pi + 1e-3), (0.0, half_pi)];
         let exact = |place: DVec2| place * speed;
         expect_velocity(&scene, VelocityKind::Instantaneous, exact);

@@ -13,10 +13,9 @@ use crate::film::sample_counts::SampleCounts;
 use crate::frame_rate::FrameRate;
 use crate::geometry::ray::{Hit, Ray};
 use crate::material::surface::Sight;
+use crate::motion::point_motion::{ObjectsBefore, PointMotion};
 use crate::motion::poses::Poses;
-use crate::motion::velocity::{
-    ObjectsBefore, PointMotion, TrackedPoint, camera, camera_velocity, reprojection,
-};
+use crate::motion::velocity::{TrackedPoint, camera, camera_velocity, reprojection};
 use crate::path::integrator::Integrator;
 use crate::pixel_grid::{PixelGrid, scale_camera, scale_reprojection};
 use crate::progress::{Meter, Watch};

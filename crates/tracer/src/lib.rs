@@ -48,8 +48,8 @@ pub use load::{
 };
 pub use location::{Bundle, Location};
 pub use motion::camera::View;
+pub use motion::point_motion::{ObjectsBefore, PointMotion};
 pub use motion::poses::Poses;
-pub use motion::velocity::{ObjectsBefore, PointMotion};
 pub use pixel_grid::PixelGrid;
 pub use progress::{Progress, Watch};
 pub use scene::{

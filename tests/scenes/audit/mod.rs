@@ -4,6 +4,7 @@
 
 mod numbers;
 mod picture;
+mod structure;
 
 use std::path::PathBuf;
 

@@ -20,6 +20,10 @@ pub enum Cause {
     SwappedAxes,
     /// The camera's motion alone.
     ObjectMotionMissing,
+    /// The motion of the camera and of each object's parents.
+    OwnMotionMissing,
+    /// The motion without changes of shape.
+    DeformationMissing,
     /// The objects' motion alone.
     CameraMotionMissing,
     /// The motion from two frames ago to one frame ago.
@@ -73,13 +77,16 @@ pub enum Cause {
 }
 
 impl Cause {
-    /// Applies a wrong sign or axis to a vector.
-    pub(super) fn turn(self, [x, y]: [f32; 2]) -> [f32; 2] {
+    /// Applies a wrong sign, axis or unit to a vector; leaves it as it is for another cause.
+    pub(super) fn apply(self, [x, y]: [f32; 2]) -> [f32; 2] {
+        let scaled = |part: f32, scale: f64| (f64::from(part) * scale) as f32;
         match self {
             Self::WrongSign => [-x, -y],
             Self::FlippedY => [x, -y],
             Self::FlippedX => [-x, y],
             Self::SwappedAxes => [y, x],
+            Self::Scale(scale) => [scaled(x, scale), scaled(y, scale)],
+            Self::ScaleOfAxes(scales) => [scaled(x, scales[0]), scaled(y, scales[1])],
             _ => [x, y],
         }
     }
@@ -93,6 +100,8 @@ impl Cause {
             Self::FlippedX => "has x flipped".to_owned(),
             Self::SwappedAxes => "has x and y swapped".to_owned(),
             Self::ObjectMotionMissing => "lacks the motion of objects".to_owned(),
+            Self::OwnMotionMissing => "lacks its own motion".to_owned(),
+            Self::DeformationMissing => "lacks the deformation".to_owned(),
             Self::CameraMotionMissing => "lacks the motion of the camera".to_owned(),
             Self::FrameLate => "is one frame late".to_owned(),
             Self::PreviousBuffer => "is the whole buffer of the frame before".to_owned(),
@@ -138,6 +147,42 @@ impl Cause {
         }
     }
 
+    /// Describes the mistake of one object, while others are right.
+    pub(super) fn name_on_object(self) -> String {
+        match self {
+            Self::ObjectMotionMissing => "lacks its motion and that of its parents".to_owned(),
+            Self::Offset([x, y]) => {
+                format!("is off by ({x:+.3}, {y:+.3}) px, as of jitter in the pass that draws it")
+            }
+            _ => self.name(),
+        }
+    }
+
+    /// Returns whether the cause would be wrong on every object that moves: a unit, a sign or an axis.
+    pub(super) fn is_of_convention(self) -> bool {
+        matches!(
+            self,
+            Self::WrongSign
+                | Self::FlippedY
+                | Self::FlippedX
+                | Self::SwappedAxes
+                | Self::Scale(_)
+                | Self::ScaleOfAxes(_)
+        )
+    }
+
+    /// Returns whether a motion of objects is missing, in whole or in part.
+    pub(super) fn is_missing_motion(self) -> bool {
+        matches!(
+            self,
+            Self::ObjectMotionMissing | Self::OwnMotionMissing | Self::DeformationMissing
+        )
+    }
+
+    pub(super) fn is_offset(self) -> bool {
+        matches!(self, Self::Offset(_))
+    }
+
     /// Returns whether the cause is a word, without a fitted number.
     pub(super) fn is_word(self) -> bool {
         !matches!(
@@ -171,6 +216,12 @@ impl Cause {
             Self::Brightness(scale) => key(&format!(
                 "`color_scale` {scale:.3} times what it is would fit"
             )),
+            Self::OwnMotionMissing => Some(
+                "keep the matrix of each object, and of each instance, for the frame after".to_owned(),
+            ),
+            Self::DeformationMissing => Some(
+                "keep bones, morph weights or vertices for the frame after".to_owned(),
+            ),
             Self::OtherColor(..) => {
                 Some("check its materials and textures in the engine".to_owned())
             }

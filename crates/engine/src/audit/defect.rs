@@ -31,6 +31,8 @@ pub struct Explanation {
     pub looks_like: Vec<Cause>,
     /// Part of the pixels that the cause explains.
     pub explained: f64,
+    /// True if a unit, sign or axis as wrong as this would make right objects wrong: it is not the convention's.
+    pub convention_holds: bool,
 }
 
 impl Explanation {
@@ -41,6 +43,7 @@ impl Explanation {
             cause,
             looks_like: Vec::new(),
             explained,
+            convention_holds: false,
         }
     }
 }
@@ -68,19 +71,30 @@ impl Defect {
             Some(object) => format!("of `{object}` "),
             None => String::new(),
         };
-        let turn = found
-            .turned
-            .map_or(String::new(), |turn| format!("{} and ", turn.name()));
-        let mut text = format!("{} {whose}{turn}{}", buffer.name(), found.cause.name());
+        let name = |cause: &Cause| match object {
+            Some(_) => cause.name_on_object(),
+            None => cause.name(),
+        };
+        let turn = found.turned.as_ref();
+        let turn = turn.map_or(String::new(), |turn| format!("{} and ", name(turn)));
+        let mut text = format!("{} {whose}{turn}{}", buffer.name(), name(&found.cause));
         if !found.looks_like.is_empty() {
-            let others: Vec<String> = found.looks_like.iter().map(|cause| cause.name()).collect();
+            let others: Vec<String> = found.looks_like.iter().map(name).collect();
             text += &format!(
                 "; in this scene that looks the same as: {}",
                 others.join(", ")
             );
         }
-        let advice = found.turned.into_iter().chain([found.cause]);
-        for advice in advice.filter_map(|cause| cause.advice(object.is_some())) {
+        let causes = found.turned.into_iter().chain([found.cause]);
+        let (fits, advised): (Vec<Cause>, Vec<Cause>) =
+            causes.partition(|cause| found.convention_holds && cause.is_of_convention());
+        if !fits.is_empty() {
+            text += "; the convention fits other objects";
+        }
+        for advice in advised
+            .iter()
+            .filter_map(|cause| cause.advice(object.is_some()))
+        {
             text += &format!("; {advice}");
         }
         Self {

@@ -36,10 +36,12 @@ impl ExpectedMotion {
             Cause::SwappedAxes,
         ];
         for turn in turns {
-            mistaken.push((turn, right.velocity.map(|it| turn.turn(*it))));
+            mistaken.push((turn, right.velocity.map(|it| turn.apply(*it))));
         }
         let motions = [
             (Cause::ObjectMotionMissing, PointMotion::WITHOUT_OBJECTS),
+            (Cause::OwnMotionMissing, PointMotion::WITHOUT_OWN),
+            (Cause::DeformationMissing, PointMotion::WITHOUT_SHAPES),
             (Cause::CameraMotionMissing, PointMotion::WITHOUT_CAMERA),
             (Cause::FrameLate, PointMotion::FRAME_LATE),
             (Cause::PreviousBuffer, PointMotion::PREVIOUS_BUFFER),

@@ -1,5 +1,7 @@
 //! Causes of wrong velocity with a number, fitted to the velocity found.
 
+use std::ops::RangeInclusive;
+
 use frame::Vectors;
 
 use crate::audit::cause::Cause;
@@ -11,11 +13,18 @@ pub(super) const TOLERANCE: f64 = 0.1;
 const LEAST_CUT: f64 = 0.02;
 /// Upper limit on the distinct numbers in a buffer of few bits.
 const MAX_STEPS: usize = 1024;
+/// Factors on the length between these are of no unit: pixels, parts of the picture and seconds differ by more.
+const NO_UNIT: RangeInclusive<f64> = 0.8..=1.25;
+/// Largest offset that jitter makes, in pixels on each axis: the places of two frames differ by up to a pixel.
+const LARGEST_JITTER: f64 = 1.0;
 /// Factor that counts as zero.
 const NO_SCALE: f64 = 1e-3;
 
+/// Cause with the velocity that it makes.
+pub type Candidate = (Cause, Vectors);
+
 /// Lists causes with a number, fitted to some pixels, with each one's velocity; the simplest first.
-pub fn fit_candidates(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Vec<(Cause, Vectors)> {
+pub fn fit_candidates(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Vec<Candidate> {
     let mut candidates = Vec::new();
     let fit = |axes: &[usize]| fit_scale(found, right, pixels, axes);
     let scaled = |scales: [f64; 2]| {
@@ -49,7 +58,7 @@ pub fn fit_scale(found: &Vectors, right: &Vectors, pixels: &[usize], axes: &[usi
 }
 
 /// Fits one vector added to all.
-pub fn find_offset(found: &Vectors, right: &Vectors, pixels: &[usize]) -> (Cause, Vectors) {
+pub fn find_offset(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Candidate {
     let offset = [0, 1].map(|axis| {
         let error = |at: &usize| f64::from(found.pixels[*at][axis] - right.pixels[*at][axis]);
         median(pixels.iter().map(error))
@@ -58,8 +67,38 @@ pub fn find_offset(found: &Vectors, right: &Vectors, pixels: &[usize]) -> (Cause
     (Cause::Offset(offset), moved)
 }
 
+/// Lists causes of an object's velocity like [`fit_candidates`], without factors of no unit. An offset as small as jitter comes before
+/// limits and steps, which may look like it.
+pub fn fit_to_object(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Vec<Candidate> {
+    let mut candidates = fit_candidates(found, right, pixels);
+    candidates.retain(|(cause, _)| !is_of_no_unit(cause));
+    let factors = candidates
+        .iter()
+        .filter(|(cause, _)| cause.is_of_convention());
+    let after_factors = factors.count();
+    let offset = find_offset(found, right, pixels);
+    if is_of_jitter(&offset.0) {
+        candidates.insert(after_factors, offset);
+    }
+    candidates
+}
+
+/// Returns whether a cause is a factor that no unit makes.
+pub fn is_of_no_unit(cause: &Cause) -> bool {
+    match cause {
+        Cause::Scale(scale) => NO_UNIT.contains(scale),
+        Cause::ScaleOfAxes(scales) => scales.iter().all(|scale| NO_UNIT.contains(scale)),
+        _ => false,
+    }
+}
+
+/// Returns whether a cause is an offset that jitter may make.
+fn is_of_jitter(cause: &Cause) -> bool {
+    matches!(cause, Cause::Offset(offset) if offset.iter().all(|part| part.abs() <= LARGEST_JITTER))
+}
+
 /// Lists limits on the length and on the axes, if any velocity is cut.
-fn list_cut(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Vec<(Cause, Vectors)> {
+fn list_cut(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Vec<Candidate> {
     let largest = |[x, y]: [f64; 2]| f64::max(x.abs(), y.abs());
     let find_limit = |measure: fn([f64; 2]) -> f64| {
         let measured = |vectors: &Vectors, at: usize| measure(vectors.pixels[at].map(f64::from));
@@ -87,7 +126,7 @@ fn list_cut(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Vec<(Cause, V
 }
 
 /// Checks whether the numbers are on a grid of few steps, each next to the correct number; returns that grid's velocity.
-fn find_steps(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Option<(Cause, Vectors)> {
+fn find_steps(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Option<Candidate> {
     let count = |vectors: &Vectors, axis: usize| {
         let mut numbers: Vec<f32> = pixels.iter().map(|at| vectors.pixels[*at][axis]).collect();
         numbers.sort_by(f32::total_cmp);

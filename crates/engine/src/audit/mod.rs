@@ -11,6 +11,7 @@ mod expected_motion;
 mod fitted_motion;
 mod shown;
 mod velocity_audit;
+mod velocity_search;
 mod views;
 
 pub use audit_pictures::write_audit_picture;

@@ -99,11 +99,10 @@ pub fn find_other_views(
         };
         let is_alone = tally.iter().any(|tally| tally.shows(tally.right));
         let buffer = if is_alone { buffer } else { Buffer::Picture };
+        let explained = tally[at].part(tally[at].other).unwrap_or(0.0);
         let found = Explanation {
-            turned: None,
-            cause: *cause,
             looks_like: best.map(|(cause, _)| *cause).collect(),
-            explained: tally[at].part(tally[at].other).unwrap_or(0.0),
+            ..Explanation::by(*cause, explained)
         };
         if findings.iter().all(|finding| finding.buffer != buffer) {
             findings.push(Defect::new(buffer, None, found));

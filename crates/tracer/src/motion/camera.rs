@@ -23,7 +23,7 @@ pub struct View {
 }
 
 /// The derivative of a [`View`] by time, per frame.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 pub(crate) struct ViewRate {
     /// Derivative of the transform from camera to world; its last row is zero.
     to_world: DAffine3,
@@ -37,6 +37,10 @@ impl ViewRate {
         to_world: DAffine3::ZERO,
         focal: 0.0,
     };
+
+    pub fn is_still(&self) -> bool {
+        *self == Self::STILL
+    }
 }
 
 /// What a camera may see.

@@ -6,6 +6,7 @@ pub(crate) mod extent;
 pub(crate) mod keys;
 pub(crate) mod lens;
 pub(crate) mod moving;
+pub(crate) mod point_motion;
 pub(crate) mod pose;
 pub(crate) mod poses;
 pub(crate) mod screw;

@@ -31,9 +31,20 @@ impl Pose {
 impl Scene {
     /// Transform from the object's space to the world at `time` (frames).
     pub fn object_to_world(&self, object: usize, time: f64) -> DAffine3 {
-        let outwards = self.motion_chain(object).into_iter();
-        let transforms = outwards.rev().map(|motion| motion.at(time));
-        transforms
+        self.object_to_world_within(object, time, time)
+    }
+
+    /// The same with the object and its parents at different times.
+    pub(crate) fn object_to_world_within(
+        &self,
+        object: usize,
+        time: f64,
+        parents_time: f64,
+    ) -> DAffine3 {
+        let times = std::iter::once(time).chain(std::iter::repeat(parents_time));
+        let outwards = self.motion_chain(object).into_iter().zip(times);
+        let transforms: Vec<DAffine3> = outwards.map(|(motion, time)| motion.at(time)).collect();
+        (transforms.into_iter().rev())
             .reduce(|outer, own| outer * own)
             .expect("an object is in its own chain")
     }
