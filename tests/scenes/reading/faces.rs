@@ -85,7 +85,7 @@ fn a_concave_face_covers_its_area_and_no_more() {
         (&FRAME, 8.0),
     ] {
         for face in turn_and_reverse(&Plane::XY.place(&polygon(points))) {
-            let triangles = load_faces(&[face.clone()]).remove(0);
+            let triangles = load_faces(std::slice::from_ref(&face)).remove(0);
             assert_covers(&face, &triangles, "from some corner");
             let sum: f64 = triangles
                 .into_iter()
@@ -168,7 +168,7 @@ fn triangles_of_generated_files_contain_the_points_that_their_faces_surround() {
 fn every_side_of_a_face_is_a_side_of_a_triangle() {
     for points in [&DOOR[..], &FRAME] {
         for face in turn_and_reverse(&Plane::XY.place(&polygon(points))) {
-            let triangles = load_faces(&[face.clone()]).remove(0);
+            let triangles = load_faces(std::slice::from_ref(&face)).remove(0);
             for (from, to) in face.iter().zip(face.iter().cycle().skip(1)) {
                 let mut sides = triangles
                     .iter()
@@ -235,7 +235,7 @@ fn other_faces_that_cross_themselves_are_refused() {
             "mesh.obj",
             format!("{vertices}f 1 2 3\nf {}\n", corners.join(" ")),
         );
-        let error = folder.load().err().expect("its surface is not defined");
+        let error = folder.load().expect_err("its surface is not defined");
         assert_eq!(error.line, Some(count + 2), "{error}");
         assert!(error.reason.contains("crosses itself"), "{error}");
     }

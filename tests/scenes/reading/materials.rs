@@ -223,7 +223,7 @@ fn several_libraries_are_read_from_one_statement_and_each_once() {
     }
     let folder = Folder::new();
     folder.edit("mesh.obj", "mtllib mesh.mtl", "mtllib mesh.mtl gone.mtl");
-    let error = folder.load().err().expect("a library is missing");
+    let error = folder.load().expect_err("a library is missing");
     assert!(
         error.line == Some(1) && error.reason.contains("gone.mtl"),
         "{error}"

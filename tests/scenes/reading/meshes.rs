@@ -215,7 +215,7 @@ fn lines_continue_after_a_backslash_and_comments_follow_numbers() {
         ("f 1/1/1 4/2/1 6/3/1 5", "f 1/1/1 4/2/1 6/3/1 9"),
     ];
     folder.write("mesh.obj", replace_all(OBJ, &broken));
-    let error = folder.load().err().expect("it has no vertex 9");
+    let error = folder.load().expect_err("it has no vertex 9");
     assert_eq!(
         (error.line, error.reason.contains("index 9")),
         (Some(19), true)
