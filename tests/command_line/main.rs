@@ -42,6 +42,7 @@ mod refusals;
 mod report;
 mod results;
 mod sandbox;
+mod scene_notes;
 mod score;
 mod sequences;
 mod serve;
