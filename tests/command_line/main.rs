@@ -43,6 +43,7 @@ mod refusals;
 mod report;
 mod results;
 mod sandbox;
+mod scene_notes;
 mod score;
 mod sequences;
 mod serve;

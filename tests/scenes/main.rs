@@ -4,6 +4,7 @@ mod appearance;
 mod audit;
 mod built_in;
 mod catalogue;
+mod coincident;
 mod frame_rates;
 mod given_variants;
 mod gltf;

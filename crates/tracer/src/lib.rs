@@ -4,6 +4,7 @@
 
 mod accel;
 mod aligned_shutter;
+mod coincident;
 mod content_hash;
 mod defocus;
 mod error;
@@ -32,6 +33,7 @@ mod stage;
 mod test_scene;
 mod truth;
 
+pub use coincident::find_coincident_surfaces;
 pub use content_hash::{frame_hash, ladder_hash, replicate_hash, truth_hash};
 pub use defocus::{Defocus, trace_defocus};
 pub use error::TraceError;

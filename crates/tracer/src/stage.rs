@@ -112,6 +112,17 @@ impl<'a> Stage<'a> {
         traverse!(self.closest_behind(poses, ray, last))
     }
 
+    /// Finds a surface at the place of a hit of the same ray, of those that `is_other` names by object and triangle.
+    pub(crate) fn coincident(
+        &self,
+        poses: &mut Poses,
+        ray: &Ray,
+        hit: &Hit,
+        is_other: &(dyn Fn(usize, u32) -> bool + Sync),
+    ) -> Option<Hit> {
+        traverse!(self.coincident(poses, ray, hit, is_other))
+    }
+
     /// The share of the light that passes along a ray at `0 < t < limit`: the product of all surfaces' shares. It does not
     /// depend on the order of the traversal, since surfaces are met from near to far.
     pub(crate) fn transmittance(&self, poses: &mut Poses, ray: &Ray, limit: f64) -> Vec3 {

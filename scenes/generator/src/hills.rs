@@ -11,6 +11,9 @@ use crate::texture::encode_png;
 const HALF_WIDTH: f64 = 170.0;
 const LENGTH: f64 = 200.0;
 
+/// Length of the verge across the road, in metres; it ends where the road begins, and a texture on it is 4 m long.
+const VERGE: f64 = 7.8;
+
 /// Texels along an edge of the texture.
 const TEXELS: u32 = 256;
 
@@ -31,9 +34,9 @@ pub(crate) fn files() -> Files {
     verge.add_surface(
         [16, 2],
         |_, _| "grass",
-        |u, v| DVec3::new(16.0 * (2.0 * u - 1.0), 0.0, 4.0 - 8.0 * v),
+        |u, v| DVec3::new(16.0 * (2.0 * u - 1.0), 0.0, 4.0 - VERGE * v),
     );
-    verge.repeat_texture(DVec2::new(8.0, 2.0));
+    verge.repeat_texture(DVec2::new(8.0, VERGE / 4.0));
     let mut files = model_files("hills", &hills, materials);
     files.extend(model_files("verge", &verge, materials));
     files.push(("grass.png".into(), encode_png(TEXELS, color)));

@@ -5,11 +5,11 @@ use std::path::PathBuf;
 use clap::Args;
 use filters::{AdapterDescription, Filter, FilterError, Limits, list_adapters, try_out};
 use suite::{Error, InputFormat, open_adapter};
-use tracer::{SceneListing, list_scenes};
+use tracer::{SceneListing, find_coincident_surfaces, list_scenes, load_scene};
 
 use super::copy::copy_scenes;
 use crate::arguments::{AdapterArgs, RootArgs};
-use crate::output::{make_monitor, print, print_json, print_note};
+use crate::output::{make_monitor, print, print_json, print_note, print_scene_notes};
 use crate::selection::{is_pattern, load_filters, match_names, suggest_names};
 use crate::tables::{details_text, filter_json, filters_text, inputs_text, scenes_text};
 
@@ -58,6 +58,9 @@ pub fn execute(args: &ListArgs) -> Result<(), Error> {
     let is_brief = args.filters.is_empty()
         && (args.what.iter()).all(|what| what == "scenes" || what == "filters");
     let (scenes, filters) = find_named(args)?;
+    if !is_brief {
+        scenes.iter().try_for_each(print_notes)?;
+    }
     if args.json {
         return print_json(&serde_json::json!({
             "scenes": scenes,
@@ -75,6 +78,22 @@ pub fn execute(args: &ListArgs) -> Result<(), Error> {
         text += &filters_text(&filters);
     }
     print(&(text + "details: shuttertruth list NAME\n"))
+}
+
+/// Writes what is worth knowing about a scene and its variants: what the loader left out, and surfaces in one place.
+fn print_notes(listing: &SceneListing) -> Result<(), Error> {
+    let variants = listing
+        .variants
+        .iter()
+        .map(|variant| Some(variant.as_str()));
+    for variant in std::iter::once(None).chain(variants) {
+        let scene = load_scene(listing.folder.clone(), variant)?;
+        print_scene_notes([&scene]);
+        for note in find_coincident_surfaces(&scene)? {
+            print_note(&note);
+        }
+    }
+    Ok(())
 }
 
 /// Lists the named scenes and filters, or all. Tries out the user's own filters.

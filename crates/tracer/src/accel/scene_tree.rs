@@ -7,7 +7,7 @@ use crate::accel::world_leaves::collect_world_leaves;
 use crate::accel::world_tree::{Part, WorldTree};
 use crate::error::TraceError;
 use crate::geometry::aabb::Aabb;
-use crate::geometry::ray::{Hit, LIFT, Ray};
+use crate::geometry::ray::{Hit, IN_ONE_PLACE, LIFT, Ray};
 use crate::geometry::triangle::Crossing;
 use crate::limits::LARGEST_COORDINATE;
 use crate::material::surface::{Sight, find_solid_objects, is_seen};
@@ -146,6 +146,22 @@ impl<'a> SceneTree<'a> {
                 && (object != last.object || crossing.t > together)
         };
         self.closest_of(lanes, poses, ray, Sight::Everything, behind)
+    }
+
+    /// Finds a surface at the place of a hit of the same ray, of those that `is_other` names by object and triangle.
+    pub fn coincident<L: Lanes>(
+        &self,
+        lanes: L,
+        poses: &mut Poses,
+        ray: &Ray,
+        hit: &Hit,
+        is_other: &(dyn Fn(usize, u32) -> bool + Sync),
+    ) -> Option<Hit> {
+        let farthest = hit.t * (1.0 + IN_ONE_PLACE);
+        let is_there = |object: usize, triangle: u32, crossing: &Crossing| {
+            (hit.t..=farthest).contains(&crossing.t) && is_other(object, triangle)
+        };
+        self.closest_of(lanes, poses, ray, Sight::Everything, is_there)
     }
 
     /// Finds the nearest of the surfaces that `is_wanted` names.

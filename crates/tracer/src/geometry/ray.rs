@@ -6,6 +6,9 @@ use glam::{DAffine3, DVec3};
 /// it.
 pub(crate) const LIFT: f64 = 1e-9;
 
+/// Relative difference of distances below which two surfaces are in one place: rounding of their positions to 32 bits.
+pub(crate) const IN_ONE_PLACE: f64 = 1e-6;
+
 /// The points `origin + t * direction` for `t > 0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
