@@ -74,7 +74,8 @@ fn other_primaries_are_converted_wherever_a_picture_enters() {
     let error = (flip(&scores(&sandbox, "")) - flip(&plain)).abs();
     assert!(error < 1e-4, "{error}");
     let note = "colours were converted to Rec.709 (Bradford) from red [0.713";
-    assert_contains(&sandbox.done(SCORE), &[note]);
+    let json: Value = serde_json::from_str(&sandbox.done(&format!("{SCORE} --json"))).unwrap();
+    assert_contains(&json["notes"].to_string(), &[note]);
     let converted = blur();
     for (one, other) in converted.pixels.iter().zip(&blurred.pixels) {
         let is_near = one

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use filters::Convention;
-use frame::{ExrFile, Frame, Ladder, Replicate, Truth, read_exr, write_exr};
+use frame::{ExrFile, Frame, Ladder, Replicate, Truth, read_exr, read_passes, write_exr};
 use suite::{
     Monitor, TRAVERSALS, Verification, list_scene_renders, read_finished_picture, score,
     verify_scene,
@@ -19,6 +19,7 @@ use crate::seeds::{made, shipped};
 pub fn exr(place: &mut Place, input: &[u8]) -> Option<()> {
     let path = place.write("input.exr", input);
     drop(read_exr(&path));
+    drop(read_passes(&path));
     drop(Replicate::read(&path).map(|replicate| Truth::of(&[replicate.clone(), replicate])));
     let scene = place.copy("out").join("plate");
     let [frame, truth, ladder] = rendered_files(&scene);

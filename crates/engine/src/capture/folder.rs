@@ -9,8 +9,8 @@ use store::read_text;
 use suite::Error;
 
 use crate::capture::buffers::{
-    COLOR_ENDINGS, check_size, find_buffer, find_picture, read_color, read_depth, read_exclusion,
-    read_objects, read_objects_beside_color, read_velocity, read_velocity_z,
+    COLOR_ENDINGS, Color, check_size, find_buffer, find_picture, read_color, read_depth,
+    read_exclusion, read_objects, read_objects_beside_color, read_velocity, read_velocity_z,
 };
 use crate::capture::description::{CAPTURE_FILE, CaptureDescription};
 use crate::capture::half_floats::{are_halves, rounding_of};
@@ -66,36 +66,29 @@ impl Capture {
         let Some(color_path) = find_picture(folder, "color")? else {
             return refuse_missing(&folder.join("color.exr"), "the radiance of one instant");
         };
-        let color = read_color(&color_path, &convention, &description)?;
-        let mut notes: Vec<String> = color.note.into_iter().collect();
-        let color = color.image;
+        let Color { image: color, note } = read_color(&color_path, &convention, &description)?;
+        let mut notes: Vec<String> = note.into_iter().collect();
 
         let path = require(folder, ["velocity", "velocity.X"], "every pixel's motion")?;
         let velocity = read_velocity(&path, &description, "velocity")?;
         check_size(&path, &velocity, &color)?;
         let is_half = are_halves(velocity.pixels.iter().flatten().copied());
         let exposure = find_velocity_exposure(folder, &description, &convention)?;
-        let restore_velocity = |velocity: &Vectors, path: &Path| {
-            let restored = convention.restore_velocity(velocity, exposure);
-            restored.map_err(|reason| FileError::foreign(path, reason))
-        };
-        let velocity = restore_velocity(&velocity, &path)?;
+        let velocity = in_file(&path, convention.restore_velocity(&velocity, exposure))?;
         notes.extend(is_half.then(|| velocity_note(&path, &velocity)));
         let read_next = |path: &Path| {
             let next = read_velocity(path, &description, "velocity_next")?;
-            Ok(restore_velocity(&next, path)?)
+            in_file(path, convention.restore_velocity(&next, exposure))
         };
-        let names = ["velocity_next", "velocity_next.X"];
-        let velocity_next = read_optional(folder, names, &color, read_next)?;
+        let next = ["velocity_next", "velocity_next.X"];
+        let velocity_next = read_optional(folder, next, &color, read_next)?;
 
         let path = require(folder, ["depth", "Z"], "the distance of every pixel")?;
         let depth = read_depth(&path, &convention, &description)?;
         check_size(&path, &depth, &color)?;
         let is_half = are_halves(depth.pixels.iter().copied());
         notes.extend(is_half.then(|| depth_note(&path, &convention)).flatten());
-        let depth = (convention.restore_depth(&depth))
-            .map_err(|reason| FileError::foreign(&path, reason))?;
-
+        let depth = in_file(&path, convention.restore_depth(&depth))?;
         let read_z = |path: &Path| read_velocity_z(path, &description);
         let read_ids = |path: &Path| read_objects(path, &description);
         let mut blurred = None;
@@ -225,6 +218,11 @@ fn read_optional<T>(
     let picture = read(&path)?;
     check_size(&path, &picture, color)?;
     Ok(Some(picture))
+}
+
+/// Names the file in the reason why its content was refused.
+fn in_file<T>(path: &Path, content: Result<T, String>) -> Result<T, Error> {
+    Ok(content.map_err(|reason| FileError::foreign(path, reason))?)
 }
 
 fn refuse_missing<T>(path: &Path, holds: &str) -> Result<T, Error> {

@@ -156,7 +156,7 @@ fn check_restored<const N: usize>(
     match lost {
         None => Ok(()),
         Some((from, to)) => Err(format!(
-            "its {from} becomes {to} by the [convention]; allowed: finite numbers, and others than 0; correct {keys}"
+            "its {from} becomes {to} by the [convention]; allowed: finite numbers, not all 0; correct {keys}"
         )),
     }
 }

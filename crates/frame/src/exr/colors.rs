@@ -5,12 +5,12 @@ use exr::meta::header::Header;
 use glam::{DMat3, DVec3};
 
 /// CIE xy of red, green, blue and white.
-type Primaries = [[f64; 2]; 4];
+type Primaries = [[f32; 2]; 4];
 
 /// Rec.709, whose white is D65.
 const REC_709: Primaries = [[0.64, 0.33], [0.3, 0.6], [0.15, 0.06], [0.3127, 0.329]];
 /// Largest difference of a coordinate that is rounding: programs write three to five digits.
-const ROUNDING: f64 = 1e-4;
+const ROUNDING: f32 = 1e-4;
 /// Responses of the eye's cones to XYZ, in which Bradford's adaptation scales white to white.
 const BRADFORD: DMat3 = DMat3::from_cols(
     DVec3::new(0.8951, -0.7502, 0.0389),
@@ -93,7 +93,7 @@ fn primaries_of(attribute: Chromaticities) -> Primaries {
         blue,
         white,
     } = attribute;
-    [red, green, blue, white].map(|place| [place.0, place.1].map(f64::from))
+    [red, green, blue, white].map(|place| [place.0, place.1])
 }
 
 fn is_rec_709(primaries: &Primaries) -> bool {
@@ -108,15 +108,19 @@ fn describe([red, green, blue, white]: &Primaries) -> String {
 }
 
 /// XYZ of a white with luminance 1.
-fn xyz([x, y]: [f64; 2]) -> DVec3 {
+fn xyz(white: [f32; 2]) -> DVec3 {
+    let [x, y] = white.map(f64::from);
     DVec3::new(x / y, 1.0, (1.0 - x - y) / y)
 }
 
 /// Returns the matrix from linear colours to XYZ, where (1, 1, 1) has the white's XYZ; none if the primaries span no colours.
 fn to_xyz([red, green, blue, white]: &Primaries) -> Option<DMat3> {
-    let column = |[x, y]: &[f64; 2]| DVec3::new(*x, *y, 1.0 - x - y);
+    let column = |place: &[f32; 2]| {
+        let [x, y] = place.map(f64::from);
+        DVec3::new(x, y, 1.0 - x - y)
+    };
     let unscaled = DMat3::from_cols(column(red), column(green), column(blue));
-    let spans = unscaled.determinant().abs() > FLAT && white[1] > FLAT;
+    let spans = unscaled.determinant().abs() > FLAT && f64::from(white[1]) > FLAT;
     spans.then(|| unscaled * DMat3::from_diagonal(unscaled.inverse() * xyz(*white)))
 }
 
@@ -180,7 +184,7 @@ mod tests {
         flat[2] = flat[1];
         let mut dark = REC_709;
         dark[3] = [0.3, 0.0];
-        for primaries in [flat, dark, [[0.0; 2]; 4], [[f64::NAN; 2]; 4]] {
+        for primaries in [flat, dark, [[0.0; 2]; 4], [[f32::NAN; 2]; 4]] {
             let reason = matrix(primaries).unwrap_err();
             assert!(reason.contains("no primaries of colours"), "{reason}");
         }
