@@ -78,7 +78,8 @@ fn names_of_others_are_text_on_the_page_and_on_the_site() {
     (reader.speed, reader.adapter.name) = (None, hostile.to_owned());
     (reader.cases[0].filter, reader.cases[0].preset) = (hostile.to_owned(), hostile.to_owned());
     cards.push(reader);
-    // The program's own bench names the card of the times, and a file of results the adapter and a filter.
+    // The program's own bench names the card of the times, and a file of results the adapter and a
+    // filter.
     cards[0].adapter.name = hostile.to_owned();
     for own in &mut results {
         own.adapter = Some(hostile.to_owned());

@@ -8,7 +8,8 @@ pub const ACES_CG: [f32; 8] = [0.713, 0.293, 0.165, 0.83, 0.128, 0.044, 0.32168,
 /// Primaries of Rec.709.
 pub const REC_709: [f32; 8] = [0.64, 0.33, 0.3, 0.6, 0.15, 0.06, 0.3127, 0.329];
 
-/// Converts a colour to ACEScg, with Bradford's adaptation: the published matrix of ACES, "Rec.709 to AP1".
+/// Converts a colour to ACEScg, with Bradford's adaptation: the published matrix of ACES, "Rec.709
+/// to AP1".
 pub fn to_aces_cg([r, g, b]: [f32; 3]) -> [f32; 3] {
     [
         0.613_097 * r + 0.339_523 * g + 0.047_379 * b,

@@ -99,8 +99,8 @@ fn lock(out: &Path, sharing: Sharing) -> Result<Option<File>, Error> {
     }
 }
 
-/// Removes leftovers in a scene's folder and in those below it: of later frames, and of cases and replicates. Nothing beyond a
-/// link is ours.
+/// Removes leftovers in a scene's folder and in those below it: of later frames, and of cases and
+/// replicates. Nothing beyond a link is ours.
 fn remove_all_leftovers(folder: &Path) {
     if folder.is_symlink() {
         return;

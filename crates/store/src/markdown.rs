@@ -1,14 +1,17 @@
-//! Escapes for text that others wrote, so that Markdown shows it as text: GitHub's, and that of a site's pages.
+//! Escapes for text that others wrote, so that Markdown shows it as text: GitHub's, and that of a
+//! site's pages.
 
 use crate::printable::printable;
 
-/// Characters with a meaning within a line: of code, tables, emphasis, links, HTML, entities, strikethrough and a site's includes.
+/// Characters with a meaning within a line: of code, tables, emphasis, links, HTML, entities,
+/// strikethrough and a site's includes.
 const INLINE: &str = "\\`|*[]<>&~{}";
-/// Characters that make a heading or a rule at the beginning of a line. Signs of numbers, which make lists, are apart.
+/// Characters that make a heading or a rule at the beginning of a line. Signs of numbers, which
+/// make lists, are apart.
 const LEADING: &str = "#=_";
 
-/// Escapes text for a line, a cell or the words of a link: it stays on one line, and no part of it makes a link, a picture, HTML or
-/// another block. Addresses stay as text.
+/// Escapes text for a line, a cell or the words of a link: it stays on one line, and no part of it
+/// makes a link, a picture, HTML or another block. Addresses stay as text.
 pub fn escape_markdown(text: &str) -> String {
     let line = text.trim().replace('\n', " ");
     let line: Vec<char> = printable(&line).chars().collect();
@@ -38,7 +41,8 @@ pub fn escape_markdown(text: &str) -> String {
     escaped
 }
 
-/// Formats a name as code, or as escaped text if it has a character that may end the code or its cell.
+/// Formats a name as code, or as escaped text if it has a character that may end the code or its
+/// cell.
 pub fn markdown_code(name: &str) -> String {
     let escaped = escape_markdown(name);
     if escaped == name && !name.is_empty() {

@@ -1,5 +1,6 @@
-//! Records of finished work with hashes of its inputs, of its files and of the record itself. A record is read back while the
-//! inputs are the same and nothing has altered the files or the record.
+//! Records of finished work with hashes of its inputs, of its files and of the record itself. A
+//! record is read back while the inputs are the same and nothing has altered the files or the
+//! record.
 
 use std::collections::BTreeMap;
 use std::fmt::Debug;
@@ -19,7 +20,8 @@ pub const CASE_RECORD: &str = "case.json";
 /// A finished piece of work, as its file stores it.
 #[derive(Serialize, Deserialize)]
 struct Record<T> {
-    /// Hash of this text with an empty hash. It is the first key, so that no other text is taken for it.
+    /// Hash of this text with an empty hash. It is the first key, so that no other text is taken
+    /// for it.
     hash: String,
     /// Hash of everything that determines it.
     inputs: String,
@@ -70,8 +72,8 @@ pub fn remove_altered_files(path: &Path, inputs: &str) {
     }
 }
 
-/// Reads a whole record of these inputs. None if it is altered, or if it names a file outside its own folder, or beyond a link
-/// to a folder: nothing out there is read or removed.
+/// Reads a whole record of these inputs. None if it is altered, or if it names a file outside its
+/// own folder, or beyond a link to a folder: nothing out there is read or removed.
 fn read_whole<T: DeserializeOwned>(path: &Path, inputs: &str) -> Option<Record<T>> {
     let text = String::from_utf8(read_bounded(path, MAX_JSON_BYTES).ok()?).ok()?;
     let record: Record<T> = serde_json::from_str(&text).ok()?;
@@ -124,7 +126,8 @@ pub fn hash_program() -> Option<String> {
     hash_file(&std::env::current_exe().ok()?).ok()
 }
 
-/// Hashes a regular file piece by piece: the program, which every run hashes, has a hundred megabytes with debug information.
+/// Hashes a regular file piece by piece: the program, which every run hashes, has a hundred
+/// megabytes with debug information.
 fn hash_file(path: &Path) -> Result<String, FileError> {
     let (file, _) = open_regular(path, MAX_TAKEN_BYTES)?;
     let mut hasher = blake3::Hasher::new();

@@ -77,7 +77,8 @@ fn one_file_of_blender_s_passes_gives_the_same_frame() {
         .retain(|channel| !channel.name.starts_with("Composite"));
     write_exr(&capture.path("color.exr"), &both).unwrap();
     assert_eq!(show(&sandbox), expected);
-    // Its vectors may end before the motion to the next frame, which is then no motion of the last one.
+    // Its vectors may end before the motion to the next frame, which is then no motion of the last
+    // one.
     both.push_plane("Vector.Z", &expected.2);
     write_exr(&capture.path("color.exr"), &both).unwrap();
     ingest(&sandbox);

@@ -176,7 +176,8 @@ fn a_flipped_bit_in_a_foreign_picture_s_deflated_chunks_is_refused() {
     file.push_plane("R", &steps);
     write_small_exr(&path, file).unwrap();
     let (bytes, whole) = (fs::read(&path).unwrap(), read_passes(&path).unwrap());
-    // The table of three chunks of at most 16 rows begins 24 bytes before the first chunk, and says where that is.
+    // The table of three chunks of at most 16 rows begins 24 bytes before the first chunk, and says
+    // where that is.
     let number = |at: usize| u64::from_le_bytes(bytes[at..at + 8].try_into().unwrap());
     let mut places = 0..bytes.len() - 24;
     let chunks = places.find(|at| number(*at) == *at as u64 + 24).unwrap() + 24;
@@ -198,7 +199,8 @@ fn a_flipped_bit_in_a_foreign_picture_s_deflated_chunks_is_refused() {
         }
     }
     let all = 8 * (bytes.len() - chunks);
-    // A flip that permutes bytes may leave both sums of Adler-32 as they are. zlib accepts these 17, too.
+    // A flip that permutes bytes may leave both sums of Adler-32 as they are. zlib accepts these
+    // 17, too.
     assert!(changed <= 17, "{changed} of {all}");
     // A few bits are hints that decoders ignore.
     assert!(kept * 20 < all, "{kept} of {all}");

@@ -12,7 +12,8 @@ use crate::output::{count_text, print_note};
 /// Files that a note names before it counts the rest.
 const MAX_NAMED: usize = 4;
 
-/// Refuses a path that is neither a folder nor a pack, before anything is rendered, and says whom the run believes.
+/// Refuses a path that is neither a folder nor a pack, before anything is rendered, and says whom
+/// the run believes.
 pub fn check_truths(truths: &Path) -> Result<(), Error> {
     if truths.is_file() {
         Pack::open(truths)?;

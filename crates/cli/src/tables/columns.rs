@@ -51,7 +51,8 @@ pub fn mean_text(numbers: impl Iterator<Item = f64>, text: impl Fn(f64) -> Strin
     cell(mean, text)
 }
 
-/// Makes a table of Markdown. Text of others in a cell is escaped before: [`store::escape_markdown`].
+/// Makes a table of Markdown. Text of others in a cell is escaped before:
+/// [`store::escape_markdown`].
 pub fn markdown_table(titles: &[&str], rows: impl IntoIterator<Item = Vec<String>>) -> String {
     let mut text = format!(
         "| {} |\n|{}\n",

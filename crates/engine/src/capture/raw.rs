@@ -17,11 +17,14 @@ const CHANNELS: [&str; 4] = ["R", "G", "B", "A"];
 const LEAST_FLOAT: f32 = 1e-6;
 /// Largest usual magnitude of a number in any unit.
 const LARGEST: f32 = 1e6;
-/// Upper limit on different halves without a leading digit that are byte-swapped round numbers. More are small numbers.
+/// Upper limit on different halves without a leading digit that are byte-swapped round numbers.
+/// More are small numbers.
 const FEW: usize = 16;
-/// Largest part of the numbers, apart from zeros, that may be unusual in a dump whose bytes are in order.
+/// Largest part of the numbers, apart from zeros, that may be unusual in a dump whose bytes are in
+/// order.
 const MOST_UNUSUAL: f64 = 0.01;
-/// Smallest ratio of the unusual numbers as they are to those in the other order of bytes that shows a big-endian dump.
+/// Smallest ratio of the unusual numbers as they are to those in the other order of bytes that
+/// shows a big-endian dump.
 const TELLING: usize = 10;
 
 /// Layout of a dump: little-endian numbers, pixel by pixel and row by row, without padding.
@@ -67,7 +70,8 @@ fn read_number(bytes: &[u8]) -> f32 {
     }
 }
 
-/// Returns the smallest usual magnitude of a half: engines store small velocities without a leading digit, and these differ.
+/// Returns the smallest usual magnitude of a half: engines store small velocities without a leading
+/// digit, and these differ.
 fn least_half(numbers: &[f32]) -> f32 {
     let least = f16::MIN_POSITIVE.to_f32();
     let small = numbers
@@ -77,8 +81,8 @@ fn least_half(numbers: &[f32]) -> f32 {
     if different.len() > FEW { 0.0 } else { least }
 }
 
-/// Finds an unusual number in a dump that makes sense only in the other order of its bytes; none in any other dump. Colours below 0
-/// are unusual, too.
+/// Finds an unusual number in a dump that makes sense only in the other order of its bytes; none in
+/// any other dump. Colours below 0 are unusual, too.
 fn find_big_endian(bytes: &[u8], each: usize, numbers: &[f32], is_color: bool) -> Option<f32> {
     let least = if each == 2 {
         least_half(numbers)

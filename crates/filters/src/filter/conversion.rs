@@ -72,7 +72,8 @@ impl Convention {
         })
     }
 
-    /// Converts the engine's depth to metres. The value of a cleared buffer becomes the background, and so do distances beyond it.
+    /// Converts the engine's depth to metres. The value of a cleared buffer becomes the background,
+    /// and so do distances beyond it.
     ///
     /// # Errors
     /// A depth is not above 0; the text names keys.
@@ -128,7 +129,8 @@ impl Convention {
     /// Reads the colours of an engine's file as scene-linear Rec.709.
     ///
     /// # Errors
-    /// The file lacks colours or says that they are of an unknown kind, or the convention makes impossible ones of them.
+    /// The file lacks colours or says that they are of an unknown kind, or the convention makes
+    /// impossible ones of them.
     pub fn read_color(&self, file: &mut ExrFile) -> Result<Image, FileError> {
         // The factor gives colours the unit that they lack.
         if self.color_scale.is_some() {
@@ -139,7 +141,8 @@ impl Convention {
     }
 }
 
-/// Refuses a conversion that makes infinite numbers of finite ones, or of every number 0 or less than a float has digits for.
+/// Refuses a conversion that makes infinite numbers of finite ones, or of every number 0 or less
+/// than a float has digits for.
 fn check_restored<const N: usize>(
     stored: &Raster<[f32; N]>,
     restored: &Raster<[f32; N]>,

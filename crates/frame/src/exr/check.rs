@@ -25,7 +25,8 @@ impl ExrFile {
         }
     }
 
-    /// Refuses a file whose pixels are a part of its display window, or extend beyond it, or are not square.
+    /// Refuses a file whose pixels are a part of its display window, or extend beyond it, or are
+    /// not square.
     pub fn expect_plain_pixels(&self) -> Result<(), FileError> {
         match &self.odd_pixels {
             None => Ok(()),
@@ -33,7 +34,8 @@ impl ExrFile {
         }
     }
 
-    /// Refuses colours that the file's attribute `colorInteropID` calls other than linear, or names primaries of, without stating them.
+    /// Refuses colours that the file's attribute `colorInteropID` calls other than linear, or names
+    /// primaries of, without stating them.
     pub(super) fn expect_linear(&self) -> Result<(), FileError> {
         const NAME: &str = "colorInteropID";
         let Some(space) = self.attributes.get(NAME) else {

@@ -20,7 +20,8 @@ const BRADFORD: DMat3 = DMat3::from_cols(
 /// Smallest determinant of primaries that span colours; Rec.709's is 0.11.
 const FLAT: f64 = 1e-6;
 
-/// Meaning of a file's colours, by its attributes. The default is this program's: Rec.709 without a unit.
+/// Meaning of a file's colours, by its attributes. The default is this program's: Rec.709 without a
+/// unit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ColorMeaning {
     /// Primaries and white; none for Rec.709.
@@ -39,8 +40,8 @@ impl ColorMeaning {
         }
     }
 
-    /// Returns the matrix that converts linear colours to Rec.709, with Bradford's adaptation to D65; none if they are Rec.709. The
-    /// error is a reason.
+    /// Returns the matrix that converts linear colours to Rec.709, with Bradford's adaptation to
+    /// D65; none if they are Rec.709. The error is a reason.
     pub(super) fn to_rec_709(self) -> Result<Option<DMat3>, String> {
         if let Some(luminance) = self.white_luminance {
             return Err(format!(
@@ -113,7 +114,8 @@ fn xyz(white: [f32; 2]) -> DVec3 {
     DVec3::new(x / y, 1.0, (1.0 - x - y) / y)
 }
 
-/// Returns the matrix from linear colours to XYZ, where (1, 1, 1) has the white's XYZ; none if the primaries span no colours.
+/// Returns the matrix from linear colours to XYZ, where (1, 1, 1) has the white's XYZ; none if the
+/// primaries span no colours.
 fn to_xyz([red, green, blue, white]: &Primaries) -> Option<DMat3> {
     let column = |place: &[f32; 2]| {
         let [x, y] = place.map(f64::from);

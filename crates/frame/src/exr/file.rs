@@ -42,7 +42,8 @@ pub struct ExrFile {
     pub channels: Vec<Channel>,
     /// Text attributes of the header.
     pub attributes: BTreeMap<String, String>,
-    /// Reason why the pixels are not a whole picture of square pixels; `None` in every file of this program.
+    /// Reason why the pixels are not a whole picture of square pixels; `None` in every file of this
+    /// program.
     pub odd_pixels: Option<String>,
     /// Meaning of the colours, by the file's attributes.
     pub meaning: ColorMeaning,
@@ -182,7 +183,8 @@ impl ExrFile {
     /// Reads `R G B`, of a named layer or at the top, and converts them to Rec.709.
     ///
     /// # Errors
-    /// The file lacks a channel, or its attributes say that the colours are not linear, or of an unknown kind.
+    /// The file lacks a channel, or its attributes say that the colours are not linear, or of an
+    /// unknown kind.
     pub fn color(&self, layer: &str) -> Result<Image, FileError> {
         let color = self.join(["R", "G", "B"].map(|name| in_layer(layer, name)))?;
         self.expect_linear()?;

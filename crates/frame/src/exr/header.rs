@@ -70,8 +70,8 @@ pub(crate) fn check_header(headers: &[Header], file_bytes: u64) -> Result<(), St
 /// Largest difference of a pixel's width and height that is rounding.
 const SQUARE: f32 = 1e-4;
 
-/// Describes a display window that is not the data window, or pixels that are not square; `None` for a picture as this program
-/// writes it.
+/// Describes a display window that is not the data window, or pixels that are not square; `None`
+/// for a picture as this program writes it.
 pub(crate) fn describe_odd_pixels(header: &Header) -> Option<String> {
     let aspect = header.shared_attributes.pixel_aspect;
     if (aspect - 1.0).abs() > SQUARE {

@@ -1,4 +1,5 @@
-//! Names of channels in other programs' files: a renderer's passes, and the outputs of Blender's File Output node.
+//! Names of channels in other programs' files: a renderer's passes, and the outputs of Blender's
+//! File Output node.
 
 use std::path::Path;
 
@@ -64,8 +65,8 @@ pub fn read_passes(path: &Path) -> Result<ExrFile, FileError> {
 }
 
 impl Pass {
-    /// Chooses the channels of the buffer; none if the file lacks it. Two layers with the same bits are one: Blender writes a view
-    /// layer and the compositor's copy of it.
+    /// Chooses the channels of the buffer; none if the file lacks it. Two layers with the same bits
+    /// are one: Blender writes a view layer and the compositor's copy of it.
     fn choose(&self, file: &ExrFile) -> Result<Vec<String>, FileError> {
         let mut choices = self.find(file).into_iter();
         let first = choices.next().unwrap_or_default();

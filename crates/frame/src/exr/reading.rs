@@ -23,8 +23,9 @@ pub fn read_exr(path: &Path) -> Result<ExrFile, FileError> {
     decode(BufReader::new(handle), bytes, path)
 }
 
-/// Reads an OpenEXR file as [`read_exr`] does, from a program that writes no checksum of the content. Refuses chunks in a wrong place:
-/// the decoder checks what is in a chunk, and leaves those pixels black that no chunk has.
+/// Reads an OpenEXR file as [`read_exr`] does, from a program that writes no checksum of the
+/// content. Refuses chunks in a wrong place: the decoder checks what is in a chunk, and leaves
+/// those pixels black that no chunk has.
 pub(super) fn read_foreign_exr(path: &Path) -> Result<ExrFile, FileError> {
     let (handle, bytes) = open_regular(path, u64::MAX)?;
     check_places(BufReader::new(handle), bytes, path)?;

@@ -23,7 +23,8 @@ pub(crate) fn truth_files(
         .chain(rungs)
 }
 
-/// Advises to remove a truth and its folder of replicates: no run renders replicates again whose truth it can read.
+/// Advises to remove a truth and its folder of replicates: no run renders replicates again whose
+/// truth it can read.
 pub(crate) fn remove_truth(replicates: &Path) -> String {
     let truth = replicates.with_extension("exr");
     format!(
