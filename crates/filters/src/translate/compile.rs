@@ -170,9 +170,10 @@ fn run(
         .current_dir(workplace.path())
         .stdout(said)
         .stderr(errors);
+    let memory = MEMORY_LIMIT.min(half_of_memory());
     let limits = Limits {
         time: TIME_LIMIT,
-        memory: MEMORY_LIMIT.min(half_of_memory()),
+        memory,
         output: Some(OutputFile {
             path: output.clone(),
             bytes: MAX_MODULE_BYTES,
@@ -180,38 +181,42 @@ fn run(
         whole_tree: false,
     };
     let end = process::run(command, &limits)?;
+    if let Some(outcome) = find_outcome(program, &end, &output, memory) {
+        return Ok(outcome);
+    }
+    let mut said = Vec::new();
+    (File::open(&log)?.take(MAX_LOG_BYTES)).read_to_end(&mut said)?;
+    let said = remove_colors(&String::from_utf8_lossy(&said));
+    let (line, message) = find_error(&said, &input, &copies, folder);
+    let reason = format!("{program} refuses it: {message}");
+    Ok(Outcome::Failed(line, reason))
+}
+
+/// Finds what came of a compilation; none if the compiler's messages say why it failed. `memory` is
+/// the limit, in bytes.
+fn find_outcome(program: &str, end: &End, output: &Path, memory: u64) -> Option<Outcome> {
     let reason = match end {
-        End::Stopped => return Ok(Outcome::Stopped),
+        End::Stopped => return Some(Outcome::Stopped),
         End::OutOfTime => {
             let seconds = TIME_LIMIT.as_secs();
             format!("{program} took longer than {seconds} s and was stopped")
         }
         End::TooLarge => format!(
-            "{program} wrote more than {MAX_MODULE_BYTES} bytes and was stopped; a module may have as many"
+            "{program} wrote more than {MAX_MODULE_BYTES} bytes, the most that a module may have, and was stopped"
         ),
         // The system kills a program; an allocation that fails ends most compilers like this, too.
         End::Exited(status) if status.code().is_none() => {
-            let most = limits.memory >> 20;
+            let most = memory >> 20;
             format!(
                 "{program} ended with {status}; it may use {most} MiB of memory; simplify the shader"
             )
         }
         End::Exited(status) => {
-            let is_empty = std::fs::metadata(&output).map_or(true, |output| output.len() == 0);
-            if status.success() && !is_empty {
-                return Ok(read_module(program, &output));
-            }
-            let mut said = Vec::new();
-            (File::open(&log)?.take(MAX_LOG_BYTES)).read_to_end(&mut said)?;
-            let said = remove_colors(&String::from_utf8_lossy(&said));
-            let (line, message) = find_error(&said, &input, &copies, folder);
-            return Ok(Outcome::Failed(
-                line,
-                format!("{program} refuses it: {message}"),
-            ));
+            let is_empty = std::fs::metadata(output).map_or(true, |output| output.len() == 0);
+            return (status.success() && !is_empty).then(|| read_module(program, output));
         }
     };
-    Ok(Outcome::Failed(None, reason))
+    Some(Outcome::Failed(None, reason))
 }
 
 /// Reads the module that a compiler wrote.
