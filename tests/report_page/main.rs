@@ -157,7 +157,7 @@ fn a_broken_bound_is_seen_with_its_place_and_its_pictures() {
     assert_eq!(output.status.code(), Some(1));
     let mut browser = open_page(&make_page(&sandbox));
     let outcome = browser.text("$('.outcome').innerText");
-    let due = "FAIL 1 required bound: 1 broken";
+    let due = "FAIL: a required bound is broken. 1 required bound: 1 broken";
     assert!(outcome.starts_with(due), "{outcome}");
     browser.click(".failures a");
     browser.until("location.hash === '#plate/identity:default'");
