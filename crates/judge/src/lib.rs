@@ -44,9 +44,10 @@ pub use judgement::{JUDGEMENT_FILE, Judgement, Verdict};
 pub use numbers::{number, round_to_digits};
 pub use outcome::{Decision, Outcome, badness_within};
 pub use ranking::filters::{
-    MAX_RANKED, RANK_RULE, RankedFilter, list_summarized, no_gain_text, rank_for_summary,
+    MAX_RANKED, RANK_RULE, RankedFilter, list_summarized, rank_for_summary,
 };
 pub use ranking::lag::{lag_text, mean_lag};
+pub use ranking::no_blur::no_gain_text;
 pub use ranking::sequence_ranking::{RANKED_BY, RankedSequence, rank_sequences, rank_sequences_on};
 pub use results::{ResultScores, Results};
 use suite::{Case, Run, Sequence};

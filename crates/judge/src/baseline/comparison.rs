@@ -3,13 +3,12 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use metrics::{Measured, Metric};
+use metrics::Metric;
 use serde::Serialize;
 use suite::{Case, Error, ONE_SIDED, Run, SceneMean, plain_mean};
-use tracer::SceneId;
 
 use crate::baseline::Baseline;
-use crate::baseline::accept::round_score;
+use crate::baseline::loss::{SceneLoss, check_truth, find_loss};
 use crate::bounds::Margin;
 use crate::finding::settling_samples;
 use crate::outcome::Decision;
@@ -38,16 +37,6 @@ pub struct BaselineComparison {
     pub losses: Vec<SceneLoss>,
     /// Samples per pixel that would settle an inconclusive comparison.
     pub settled_by: Option<u64>,
-}
-
-/// Loss of a score on one scene.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct SceneLoss {
-    pub scene: SceneId,
-    /// Amount by which the score is worse, in the metric's unit; negative is better.
-    pub worse: f64,
-    /// Upper limit on the error of that amount by the truth's noise; 0 if the score is the baseline's.
-    pub noise: f64,
 }
 
 /// Uncertainty that a verdict depends on.
@@ -91,16 +80,6 @@ impl BaselineComparison {
             ComparisonKind::Worse => Decision::Broken,
             ComparisonKind::Inconclusive => Decision::Inconclusive,
         }
-    }
-}
-
-impl SceneLoss {
-    fn certainly_exceeds(&self, margin: f64) -> bool {
-        self.worse - self.noise > margin
-    }
-
-    fn may_exceed(&self, margin: f64) -> bool {
-        self.worse + self.noise > margin
     }
 }
 
@@ -201,65 +180,10 @@ fn decide(mean: &SceneMean, losses: &[SceneLoss], margin: f64) -> (ComparisonKin
     }
 }
 
-/// Refuses a case that was measured against another truth.
-fn check_truth(case: &Case, baseline: &Baseline) -> Result<(), String> {
-    let truths = baseline.truths.get(&case.scene);
-    match truths.and_then(|truths| truths.get(&case.alignment)) {
-        Some(hash) if *hash == case.truth_hash => Ok(()),
-        Some(_) => Err(format!(
-            "its truth of {} ({}) is another: scene, size, samples, seed or tracer have changed; measure with the settings of \
-             the baseline, or accept a run with the new truth: shuttertruth limits accept",
-            case.scene, case.alignment
-        )),
-        None => Err(format!(
-            "knows no truth of {} ({}); accept a run with it: shuttertruth limits accept",
-            case.scene, case.alignment
-        )),
-    }
-}
-
-/// Returns how much worse a case is than in the baseline; none if the metric did not apply then.
-fn find_loss(
-    case: &Case,
-    metric: Metric,
-    baseline: &Baseline,
-) -> Result<Option<SceneLoss>, String> {
-    let filters = baseline.scores.get(&case.scene);
-    let Some(scores) = filters.and_then(|filters| {
-        // A parameter with an overridden value is judged by its preset.
-        (filters.get(&case.name())).or_else(|| filters.get(&case.of_preset().name()))
-    }) else {
-        return Err(format!(
-            "has no scores of {} on {}; accept a run with them: shuttertruth limits accept",
-            case.name(),
-            case.scene
-        ));
-    };
-    let badness = |value: f64| metric.ideal().badness(value);
-    match (scores.get(&metric), case.scores.get(metric)) {
-        (Some(old), Measured::Score(new)) => Ok(Some(SceneLoss {
-            scene: case.scene.clone(),
-            worse: badness(new.value) - badness(*old),
-            noise: if round_score(new.value) == *old {
-                0.0
-            } else {
-                // One truth's noise is in both scores, and most of it cancels. Both half widths together are an upper limit; the
-                // baseline has none, so its half width is taken to be the same.
-                let interval = case.interval(metric);
-                interval.map_or(new.floor, |interval| interval.high - interval.low)
-            },
-        })),
-        (Some(old), Measured::NotApplicable { reason }) => Err(format!(
-            "{metric} of {} on {} was {old} and does not apply any more: {reason}",
-            case.name(),
-            case.scene
-        )),
-        (None, _) => Ok(None),
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use tracer::SceneId;
+
     use super::*;
 
     const MARGIN: f64 = 0.1;
@@ -267,7 +191,7 @@ mod tests {
     /// Compares a score on as many scenes as there are pairs of a loss and its noise.
     fn compare(losses: &[(f64, f64)]) -> BaselineComparison {
         let losses = (losses.iter().enumerate()).map(|(index, &(worse, noise))| SceneLoss {
-            scene: SceneId::new(&format!("scene_{index}"), None),
+            scene: SceneId::new(format!("scene_{index}"), None),
             worse,
             noise,
         });

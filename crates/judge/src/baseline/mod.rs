@@ -2,6 +2,7 @@
 
 mod accept;
 mod comparison;
+mod loss;
 
 use std::collections::BTreeMap;
 use std::path::Path;

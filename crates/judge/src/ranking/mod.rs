@@ -2,4 +2,5 @@
 
 pub mod filters;
 pub mod lag;
+pub mod no_blur;
 pub mod sequence_ranking;
