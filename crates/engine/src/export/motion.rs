@@ -71,8 +71,8 @@ fn check_turns(times: &[f64], fastest: &dyn Fn(f64, f64) -> f64) -> Result<(), S
         return Ok(());
     }
     Err(format!(
-        "turns by up to {speed:.0} degrees per frame; allowed: {allowed}, because glTF's 32-bit times tell {frames} frames no \
-         finer; export a scene or variant that turns more slowly"
+        "turns by up to {speed:.0} degrees per frame; allowed: {allowed}, because glTF's 32-bit times are too \
+         coarse for more over {frames} frames; export a scene or variant that turns more slowly"
     ))
 }
 
