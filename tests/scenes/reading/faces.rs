@@ -229,7 +229,9 @@ fn other_faces_that_cross_themselves_are_refused() {
     let star = "v 0 3 0\nv 2 -3 0\nv -3 1 0\nv 3 1 0\nv -2 -3 0\n";
     // Two ends of a snake over each other: its area is counted twice there.
     let snake = "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 1 4 0\nv 1 -1 0\nv 2 -1 0\nv 2 3 0\nv 3 3 0\nv 3 1 0\nv 0 1 0\n";
-    for (vertices, count) in [(star, 5), (snake, 10)] {
+    // Around its first corner by 390 degrees: a fan would cover 30 of them twice.
+    let spiral = "v 0 0 0\nv 4 0 0\nv -3 3 0\nv -1 -4 0\nv 3.4 2 0\n";
+    for (vertices, count) in [(star, 5), (snake, 10), (spiral, 5)] {
         let corners: Vec<String> = (1..=count).map(|corner| corner.to_string()).collect();
         folder.write(
             "mesh.obj",

@@ -74,7 +74,8 @@ const SQUARE: f32 = 1e-4;
 /// for a picture as this program writes it.
 pub(crate) fn describe_odd_pixels(header: &Header) -> Option<String> {
     let aspect = header.shared_attributes.pixel_aspect;
-    if (aspect - 1.0).abs() > SQUARE {
+    let is_square = (aspect - 1.0).abs() <= SQUARE;
+    if !is_square {
         return Some(format!(
             "its pixels are {aspect} times as wide as high (pixelAspectRatio); square ones are needed: write the picture without \
              an anamorphic squeeze"

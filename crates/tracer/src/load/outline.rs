@@ -1,5 +1,7 @@
 //! Outlines of faces in a plane, and their ears.
 
+use std::f64::consts::{PI, TAU};
+
 use glam::DVec3;
 
 /// Largest error of corners in files, as a part of a face's perimeter. Thin faces cross themselves by as much.
@@ -7,6 +9,9 @@ const ERROR_IN_FILES: f64 = 1e-5;
 
 /// Least part of a face's area, counted by turns, that shows the face's plane.
 const CANCELLED: f64 = 1e-3;
+
+/// Upper limit on the rounding of a sum of angles, in radians.
+const ROUNDING_OF_ANGLES: f64 = 1e-9;
 
 /// Corners of a face in a plane, counterclockwise.
 pub(super) struct Outline {
@@ -88,6 +93,21 @@ impl Outline {
             self.turn(a, b, c).abs()
         };
         (triangles.iter().map(turn).sum::<f64>() - self.area).abs()
+    }
+
+    /// Returns whether the outline goes around its first corner more than once. A fan from there would cover a part twice.
+    pub(super) fn surrounds_first(&self) -> bool {
+        let first = self.points[0];
+        let others = self.points[1..].iter().filter(|point| **point != first);
+        let directions: Vec<f64> = others
+            .map(|point| (point.y - first.y).atan2(point.x - first.x))
+            .collect();
+        let turns = directions
+            .windows(2)
+            .map(|pair| (pair[1] - pair[0]).rem_euclid(TAU));
+        // Turns of more than half a circle are clockwise.
+        let turns = turns.map(|turn| if turn > PI { turn - TAU } else { turn });
+        turns.sum::<f64>() > TAU + ROUNDING_OF_ANGLES
     }
 
     /// Finds a side that another side crosses, by more than errors of corners.

@@ -43,7 +43,11 @@ pub(super) fn triangulate(corners: &[Vec3]) -> Option<Cut> {
 fn cut_simple(outline: &Outline, points: &[DVec3]) -> Option<Vec<[u32; 3]>> {
     let fan = (2..points.len() as u32).map(|last| [0, last - 1, last]);
     let fan: Vec<[u32; 3]> = fan.collect();
-    let misfit = outline.misfit(&fan);
+    let misfit = if outline.surrounds_first() {
+        f64::INFINITY
+    } else {
+        outline.misfit(&fan)
+    };
     if fan.len() == 1 || misfit <= outline.rounding * outline.perimeter {
         return Some(fan);
     }
