@@ -89,6 +89,23 @@ impl Frame {
         }
     }
 
+    /// Keeps colour and coverage alone.
+    pub fn into_picture(self) -> Picture {
+        Picture {
+            color: self.color,
+            coverage: self.coverage,
+        }
+    }
+
+    /// Copies the frame with another picture's colour and coverage.
+    pub fn showing(&self, picture: &Picture) -> Frame {
+        Frame {
+            color: picture.color.clone(),
+            coverage: picture.coverage.clone(),
+            ..self.clone()
+        }
+    }
+
     /// Writes the frame as OpenEXR: `R G B`, `Z`, `velocity.X/Y`, `object.id`, `coverage.<object>`,
     /// `samples`; `velocity_next.X/Y` and `velocity_z` where it has them.
     pub fn write(&self, path: &Path) -> Result<(), FileError> {

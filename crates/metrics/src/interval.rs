@@ -1,4 +1,4 @@
-//! Jackknife intervals of scores against a noisy truth.
+//! Jackknife intervals of scores of noisy pictures against a noisy truth.
 
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, StudentsT};
@@ -6,7 +6,7 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 /// Confidence: the fraction of intervals that contain the converged score.
 const CONFIDENCE: f64 = 0.95;
 
-/// 95 % confidence interval of the score against a truth without noise.
+/// 95 % confidence interval of the score that a frame and a truth without noise would give.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Interval {
     /// Lower end, in the metric's unit.
@@ -27,45 +27,39 @@ impl Interval {
     }
 }
 
-/// Estimates the interval of a score. `whole` is its value from all of the truth's replicates; each value of `without` leaves
-/// out one of several equal groups of them. `None` for fewer than two groups.
+/// How noise in the pictures raises a score.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Rise {
+    /// By the inverse of the number of replicates: a smooth score of errors that are larger than the noise.
+    Inverse,
+    /// By a power of that number, between this one and the inverse. A mean of absolute errors rises by the inverse if few errors are
+    /// smaller than the noise, and by the noise itself, the inverse root, if the picture is perfect.
+    Power(f64),
+    /// Little, and less than parts of the replicates can tell: a percentile is no smooth function of the pictures.
+    Percentile,
+}
+
+/// Estimates the interval of a score that noise raises by the inverse of the replicates: see [`jackknife_of`].
+pub fn jackknife(whole: f64, without: &[f64]) -> Option<Interval> {
+    jackknife_of(whole, without, Rise::Inverse)
+}
+
+/// Estimates the interval of a score. `whole` is its value from all replicates of the pictures that go into it; each value of
+/// `without` leaves out one of several equal groups of them. `None` for fewer than two groups.
 ///
 /// This is the grouped jackknife (Quenouille 1956, Tukey 1958; Efron and Tibshirani, "An Introduction to the Bootstrap", 1993,
-/// chapter 11). It assumes that the score is a smooth, not a linear, function of the truth. For G groups, m being the mean of
-/// `without`:
+/// chapter 11). For G groups, m being the mean of `without`:
 ///
-/// - the squared standard error is (G - 1) / G times the sum of (without - m)^2,
-/// - the centre is `whole` + (G - 1)(`whole` - m): more replicates raise a score less. If the rise goes with the inverse of their number,
-///   the remaining rise is G - 1 times that of leaving a group out,
-/// - the half width is the standard error times the quantile of Student's t of G - 1 degrees of freedom.
+/// - The squared standard error is (G - 1) / G times the sum of (without - m)^2.
+/// - The centre is `whole` + (G - 1)(`whole` - m): the rise that is left is G - 1 times that of leaving a group out.
+/// - The half width is the standard error times the quantile of Student's t of G - 1 degrees of freedom.
 ///
-/// The noise of a truth falls with the root of the number of its replicates. A mean of absolute errors rises by the inverse of
-/// that number if few errors are smaller than the noise, but by as much as the noise, its inverse root, if the picture is
-/// perfect. The remaining rise is then 1 / (root(G / (G - 1)) - 1) times that of leaving a group out. Most scores are in
-/// between, so the interval reaches from one centre to the other, and a half width beyond both.
-pub fn jackknife(whole: f64, without: &[f64]) -> Option<Interval> {
-    let mut found = jackknife_by_inverse(whole, without)?;
-    let count = without.len() as f64;
-    let raised = without.iter().map(|value| value - whole).sum::<f64>() / count;
-    let center_by_root = whole - raised / ((count / (count - 1.0)).sqrt() - 1.0);
-    let apart = center_by_root - found.center;
-    found.low += apart.min(0.0);
-    found.high += apart.max(0.0);
-    Some(found)
-}
-
-/// Estimates the interval of a percentile. A percentile is not a smooth function of the truth: leaving groups out
-/// estimates its noise poorly, and its bias worse. So the interval has one centre, by the inverse, and is wider by the
-/// score's noise floor at each end.
-pub fn jackknife_of_percentile(whole: f64, without: &[f64], floor: f64) -> Option<Interval> {
-    let mut found = jackknife_by_inverse(whole, without)?;
-    found.low -= floor;
-    found.high += floor;
-    Some(found)
-}
-
-/// Estimates the interval of a score that noise raises by the inverse of the replicates.
-fn jackknife_by_inverse(whole: f64, without: &[f64]) -> Option<Interval> {
+/// A rise by the power p is 1 / ((G / (G - 1))^p - 1) times that of leaving a group out. For [`Rise::Power`] the interval reaches from
+/// one centre to the other, and a half width beyond both.
+///
+/// The rise of a percentile is known no better than the percentile. Its centre takes half of it out, and its standard error is about
+/// `whole`, not m, so that it contains the rise.
+pub fn jackknife_of(whole: f64, without: &[f64], rise: Rise) -> Option<Interval> {
     if without.len() < 2 {
         return None;
     }
@@ -73,13 +67,20 @@ fn jackknife_by_inverse(whole: f64, without: &[f64]) -> Option<Interval> {
     // Rise of the score without each group: exactly 0 for a score that no group changes.
     let raised: Vec<f64> = without.iter().map(|value| value - whole).collect();
     let mean = raised.iter().sum::<f64>() / count;
-    let squares: f64 = raised.iter().map(|value| (value - mean).powi(2)).sum();
+    let (center, about) = match rise {
+        Rise::Percentile => (whole - 0.5 * (count - 1.0) * mean, 0.0),
+        _ => (whole - (count - 1.0) * mean, mean),
+    };
+    let squares: f64 = raised.iter().map(|value| (value - about).powi(2)).sum();
     let standard_error = ((count - 1.0) / count * squares).sqrt();
-    let center = whole - (count - 1.0) * mean;
     let half_width = standard_error * quantile(count - 1.0);
+    let apart = match rise {
+        Rise::Power(power) => whole - mean / ((count / (count - 1.0)).powf(power) - 1.0) - center,
+        _ => 0.0,
+    };
     Some(Interval {
-        low: center - half_width,
-        high: center + half_width,
+        low: center + apart.min(0.0) - half_width,
+        high: center + apart.max(0.0) + half_width,
         center,
         standard_error,
     })
@@ -143,15 +144,31 @@ mod tests {
     fn noise_that_falls_with_the_root_of_the_replicates_is_held() {
         // The mean absolute error of a perfect picture, for noise of 1 in each group: its limit is 0.
         let noise = |groups: f64| 1.0 / groups.sqrt();
-        let interval = jackknife(noise(4.0), &[noise(3.0); 4]).unwrap();
+        let interval = jackknife_of(noise(4.0), &[noise(3.0); 4], Rise::Power(0.5)).unwrap();
         assert!(interval.low.abs() < 1e-12, "{interval:?}");
-        // By the inverse of the replicates, half of it would be left.
+        // By the inverse of the replicates, half of it would be left: the upper end.
         assert!((interval.high - 0.268).abs() < 1e-3, "{interval:?}");
         assert_eq!(interval.high, interval.center);
-        // A percentile has one centre.
-        let interval = jackknife_of_percentile(noise(4.0), &[noise(3.0); 4], 0.1).unwrap();
-        assert!((interval.high - interval.center - 0.1).abs() < 1e-12);
-        assert!((interval.center - interval.low - 0.1).abs() < 1e-12);
+        let inverse = jackknife_of(noise(4.0), &[noise(3.0); 4], Rise::Inverse).unwrap();
+        assert_eq!([inverse.low, inverse.high], [interval.center; 2]);
+    }
+
+    #[test]
+    fn an_interval_extends_to_the_side_of_the_slower_fall_only() {
+        // Noise lowers this score: SSIM of a perfect picture.
+        let lowered = |groups: f64| 1.0 - 1.0 / groups.sqrt();
+        let interval = jackknife_of(lowered(4.0), &[lowered(3.0); 4], Rise::Power(0.5)).unwrap();
+        assert!((interval.high - 1.0).abs() < 1e-12, "{interval:?}");
+        assert_eq!(interval.low, interval.center);
+    }
+
+    #[test]
+    fn a_percentile_counts_its_rise_as_noise() {
+        let interval = jackknife_of(1.0, &[1.1, 1.1, 1.1, 1.1], Rise::Percentile).unwrap();
+        // Half of 3 x 0.1 is taken out, and the root of 3 / 4 x 4 x 0.01 is the standard error.
+        assert!((interval.center - 0.85).abs() < 1e-12, "{interval:?}");
+        assert!((interval.standard_error - 0.03_f64.sqrt()).abs() < 1e-12);
+        assert!(interval.holds(1.0) && interval.holds(0.7));
     }
 
     #[test]

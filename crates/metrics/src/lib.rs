@@ -37,11 +37,11 @@ mod subframes;
 mod viewing;
 
 pub use color::absolute_error::SMAPE_EPSILON;
-pub use color::cross_error::{PSNR_LIMIT, RELATIVE_EPSILON};
+pub use color::cross_error::{PSNR_LIMIT, RELATIVE_EPSILON, psnr};
 pub use color::flip::{flip_hdr, flip_ldr};
 pub use error::MeasureError;
 pub use frame::{Region, Regions, regions};
-pub use interval::{Interval, jackknife, jackknife_of_percentile};
+pub use interval::{Interval, Rise, jackknife, jackknife_of};
 pub use maps::{ErrorMap, Maps, ProbeMaps};
 pub use metric::{
     EquivalentMetric, EquivalentScores, FrozenMetric, FrozenScores, Group, ImageMetric,
@@ -51,7 +51,7 @@ pub use metric::{
 pub use object::sides::{Side, object_sides};
 pub use probe::{ProbeMeasurement, Probes};
 pub use reference::{ColorReference, Jitter, Measurement, Reference};
-pub use scatter_oracle::{make_oracle, scatter_oracle};
+pub use scatter_oracle::{make_oracle, make_oracles, scatter_oracle};
 pub use score::{Ideal, Measured, Score};
 pub use scores::Scores;
 pub use sequence::{

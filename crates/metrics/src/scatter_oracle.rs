@@ -25,7 +25,7 @@ struct Sources<'a> {
     delays: Vec<f64>,
 }
 
-/// The numbers of each pixel that are not 0: its colour, then its coverages.
+/// The numbers of each pixel that are not 0: its colour, then its coverages, for each of the pictures.
 struct Content {
     /// Index of each pixel's first number; after the last pixel that of all.
     starts: Vec<usize>,
@@ -45,9 +45,21 @@ struct Fill {
 /// fills each hole with the farthest of the pixels that are nearest to it in the four directions, and averages. The picture is as large as
 /// the frame, guard band included.
 pub fn scatter_oracle(frame: &Frame, shutter: Shutter, profile: &ShutterProfile) -> Picture {
+    let own = frame.picture();
+    scatter_oracles(frame, &[&own], shutter, profile).remove(0)
+}
+
+/// Scatters several pictures as [`scatter_oracle`] does the frame's own, all with the frame's velocity and depth.
+pub fn scatter_oracles(
+    frame: &Frame,
+    pictures: &[&Picture],
+    shutter: Shutter,
+    profile: &ShutterProfile,
+) -> Vec<Picture> {
     let sources = Sources::new(frame, profile);
-    let content = Content::new(frame);
-    let channels = 3 + frame.coverage.len();
+    let content = Content::new(pictures);
+    let own_channels = 3 + frame.coverage.len();
+    let channels = own_channels * pictures.len();
     let mut sums = vec![0.0_f64; frame.color.pixels.len() * channels];
     for together in place_instants(frame, shutter, &profile.efficiency).chunks(TOGETHER) {
         let seen = |(time, weight): &(f64, f64)| (*weight, fill_holes(frame, sources.at(*time)));
@@ -61,32 +73,33 @@ pub fn scatter_oracle(frame: &Frame, shutter: Shutter, profile: &ShutterProfile)
             }
         });
     }
-    fn raster<T>((width, height): (u32, u32), pixels: impl Iterator<Item = T>) -> Raster<T> {
-        let pixels = pixels.collect();
-        Raster {
-            width,
-            height,
-            pixels,
-        }
-    }
-    let means = sums.chunks_exact(channels);
-    let coverage = |channel: usize| means.clone().map(move |pixel| pixel[channel] as f32);
-    Picture {
-        color: raster(
-            frame.size(),
-            means
-                .clone()
-                .map(|pixel| [0, 1, 2].map(|c| pixel[c] as f32)),
-        ),
-        coverage: (3..channels)
-            .map(|channel| raster(frame.size(), coverage(channel)))
-            .collect(),
-    }
+    let (width, height) = frame.size();
+    let at =
+        |x: u32, y: u32, channel: usize| sums[(y * width + x) as usize * channels + channel] as f32;
+    (0..pictures.len())
+        .map(|picture| picture * own_channels)
+        .map(|first| Picture {
+            color: Raster::from_fn(width, height, |x, y| [0, 1, 2].map(|c| at(x, y, first + c))),
+            coverage: (first + 3..first + own_channels)
+                .map(|channel| Raster::from_fn(width, height, |x, y| at(x, y, channel)))
+                .collect(),
+        })
+        .collect()
 }
 
 /// Makes the oracle's picture through the shutter of a truth, without the frame's guard band.
 pub fn make_oracle(frame: &Frame, truth: &Truth) -> Picture {
     scatter_oracle(frame, truth.shutter, &truth.shutter_profile).cropped(frame.guard_band)
+}
+
+/// Makes the oracle's pictures of the frame and of parts of its replicates, as [`make_oracle`] does.
+pub fn make_oracles(frame: &Frame, parts: &[Picture], truth: &Truth) -> (Picture, Vec<Picture>) {
+    let own = frame.picture();
+    let pictures: Vec<&Picture> = std::iter::once(&own).chain(parts).collect();
+    let made = scatter_oracles(frame, &pictures, truth.shutter, &truth.shutter_profile);
+    let mut made = made.into_iter().map(|own| own.cropped(frame.guard_band));
+    let own = made.next().expect("the frame is one of them");
+    (own, made.collect())
 }
 
 /// Lists times of the shutter, each with its share of the light.
@@ -160,12 +173,16 @@ impl<'a> Sources<'a> {
 }
 
 impl Content {
-    fn new(frame: &Frame) -> Self {
+    fn new(pictures: &[&Picture]) -> Self {
         let mut starts = vec![0];
         let mut numbers = Vec::new();
-        for (pixel, color) in frame.color.pixels.iter().enumerate() {
-            let coverage = frame.coverage.iter().map(|plane| plane.pixels[pixel]);
-            let own = (0..).zip(color.iter().copied().chain(coverage));
+        for pixel in 0..pictures[0].color.pixels.len() {
+            let of_picture = |picture: &&'_ Picture| {
+                let color = picture.color.pixels[pixel].into_iter();
+                let coverage = picture.coverage.iter().map(|plane| plane.pixels[pixel]);
+                color.chain(coverage).collect::<Vec<f32>>()
+            };
+            let own = (0..).zip(pictures.iter().flat_map(of_picture));
             numbers.extend(own.filter(|(_, number)| *number != 0.0));
             starts.push(numbers.len());
         }

@@ -77,8 +77,9 @@ pub use score::finished_picture::{FinishedPicture, read_finished_picture};
 pub use score::numbered::{find_numbered, numbered_file};
 pub use score::scores::{Scored, missing_scores, score};
 pub use score::sequence::{SequenceTruth, file_at_frame, score_sequence};
-pub use stats::intervals::{MIN_REPLICATES, intervals, truths_without_pairs};
+pub use stats::intervals::intervals;
 pub use stats::overall::{overall, rank_filters};
+pub use stats::parts::{Groups, MIN_REPLICATES};
 pub use stats::scene_mean::{
     MIN_SCENES, ONE_SIDED, SceneMean, TWO_SIDED, Weighted, plain_mean, scene_mean,
 };

@@ -11,11 +11,10 @@ use crate::stage::Stage;
 
 const PROGRAM: &str = concat!("shuttertruth ", env!("CARGO_PKG_VERSION"));
 
-/// The content hash of the frame that [`trace_frame`](crate::trace_frame) would render. It covers the scene's own hash, the
-/// settings and the tracer's sources, so equal hashes mean equal pixels.
+/// The content hash of the frame with these settings and replicates, on its picture's own pixels. It covers the scene's own hash,
+/// the settings and the tracer's sources, so equal hashes mean equal pixels.
 pub fn frame_hash(scene: &Scene, settings: &RenderSettings) -> String {
     let own = RenderSettings {
-        replicates: 1,
         exposure: Some(settings.exposure(scene)),
         ..*settings
     };

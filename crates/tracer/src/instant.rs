@@ -1,6 +1,8 @@
 //! The frame of the instant, as an engine would hand it to its motion blur.
 
-use frame::{FAR_DEPTH, Frame, Plane, Raster, Tile, Vectors, VelocityKind};
+use frame::{
+    Alignment, FAR_DEPTH, Frame, Picture, Plane, Raster, Tile, TracedFrame, Vectors, VelocityKind,
+};
 use rayon::prelude::*;
 
 use crate::content_hash::{grid_hash, provenance};
@@ -23,6 +25,7 @@ use crate::sampler::Stream;
 use crate::scene::Scene;
 use crate::settings::{RenderSettings, check_next_frame};
 use crate::stage::Stage;
+use crate::truth::TruthTracer;
 
 /// A rasteriser's output at the pixels' centres, without colour.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,21 +62,89 @@ impl PointLayers {
     }
 }
 
-/// Renders the instant `t = 0`. Colour and coverage are filtered over each pixel or sampled at its centre. Velocity, depth and
-/// object id come from the point at the centre, through translucent surfaces unless a material says otherwise. All rasters
-/// extend beyond the picture by the guard band of the settings.
+/// Renders the instant `t = 0` in one replicate. Colour and coverage are filtered over each pixel or sampled at its centre.
+/// Velocity, depth and object id come from the point at the centre, through translucent surfaces unless a material says otherwise.
+/// All rasters extend beyond the picture by the guard band of the settings.
 pub fn trace_frame(
     scene: &Scene,
     settings: &RenderSettings,
     watch: Watch,
 ) -> Result<Frame, TraceError> {
     let own = PixelGrid::of_picture(settings.width, settings.height);
-    trace_frame_part(scene, settings, &own, None, watch)
+    let single = RenderSettings {
+        replicates: 1,
+        ..*settings
+    };
+    Ok(trace_frame_part(scene, &single, &own, None, watch)?.frame)
 }
 
-/// Renders the instant as [`trace_frame`] does, on another grid of pixels over the picture of the settings, and all of it or a
-/// tile. Guard band and tile are in pixels of the grid; a tile counts from the band's corner. Its rasters have its size, and
-/// the content of the whole frame's there.
+/// The time around the instant that a frame's samples are chosen for.
+enum OpenShutter<'a> {
+    /// The shutter of the truths that go with the frame.
+    Truths(TruthTracer<'a>),
+    /// The instant alone, of a scene that is not defined while the shutter is open.
+    Instant(Stage<'a>),
+}
+
+impl<'a> OpenShutter<'a> {
+    fn of(scene: &'a Scene, settings: &RenderSettings) -> Result<Self, TraceError> {
+        let pair = settings.with_replicates(2);
+        match TruthTracer::new(scene, &pair, &[Alignment::Trailing]) {
+            Ok(tracer) => Ok(Self::Truths(tracer)),
+            Err(_) => Ok(Self::Instant(Stage::try_new(scene, 0.0, 0.0)?)),
+        }
+    }
+
+    fn stage(&self) -> &Stage<'a> {
+        match self {
+            Self::Truths(tracer) => tracer.stage(),
+            Self::Instant(stage) => stage,
+        }
+    }
+
+    /// Chooses the samples of every pixel in a replicate: the truths', so that what stands still has the same samples in both.
+    fn choose_samples(
+        &self,
+        settings: &RenderSettings,
+        canvas: Canvas,
+        watch: Watch,
+    ) -> Result<SampleCounts, TraceError> {
+        let stage = match self {
+            Self::Truths(tracer) => return tracer.samples_on(canvas, watch),
+            Self::Instant(stage) => stage,
+        };
+        let uniform = SampleCounts::Uniform(PILOT_SAMPLES);
+        let pilot = Film {
+            replicates: 0..PILOT_REPLICATES,
+            samples: &uniform,
+            stream: Stream::Pilot,
+            ..film_instant(stage, settings, canvas)
+        };
+        let nothing_moves = vec![false; stage.scene.objects.len() + 1];
+        let mean = settings.samples_per_replicate();
+        choose_samples(&pilot, &nothing_moves, 0, mean, watch)
+    }
+}
+
+/// Prepares a film of the instant, without samples.
+fn film_instant<'f>(stage: &'f Stage, settings: &RenderSettings, canvas: Canvas) -> Film<'f> {
+    Film {
+        integrator: Integrator::new(stage, 0.0),
+        canvas,
+        color: settings.options.color,
+        times: &[Times::Instant],
+        instant: None,
+        recalled: &[],
+        replicates: 0..0,
+        samples: &SampleCounts::Uniform(0),
+        seed: settings.seed,
+        stream: Stream::Picture,
+    }
+}
+
+/// Renders the instant as [`trace_frame`] does, in the replicates of the settings, on another grid of pixels over their picture, and
+/// all of it or a tile. Guard band and tile are in pixels of the grid; a tile counts from the band's corner. Its rasters have its
+/// size, and the content of the whole frame's there.
 ///
 /// # Errors
 /// The settings or the grid do not fit the scene, a pixel is not finite, or the watcher cancelled.
@@ -83,38 +154,39 @@ pub fn trace_frame_part(
     grid: &PixelGrid,
     tile: Option<Tile>,
     watch: Watch,
-) -> Result<Frame, TraceError> {
+) -> Result<TracedFrame, TraceError> {
     settings.check_frame(scene)?;
     let canvas = check_canvas(settings, grid)?;
     let tile = tile.unwrap_or(canvas.whole());
-    let stage = &Stage::try_new(scene, 0.0, 0.0)?;
-    let make_film = |samples, replicates, stream| Film {
-        integrator: Integrator::new(stage, 0.0),
-        canvas,
-        color: settings.options.color,
-        times: &[Times::Instant],
-        instant: None,
-        recalled: &[],
-        replicates,
-        samples,
-        seed: settings.seed,
-        stream,
-    };
     let pixels = tile.pixels(canvas.columns());
-    let uniform = SampleCounts::Uniform(PILOT_SAMPLES);
-    let pilot = make_film(&uniform, 0..PILOT_REPLICATES, Stream::FramePilot);
-    let nothing_moves = vec![false; scene.objects.len() + 1];
-    let samples = choose_samples(&pilot, &nothing_moves, 0, settings.samples_per_pixel, watch)?;
-    let film = make_film(&samples, 0..1, Stream::Frame);
+    let shutter = OpenShutter::of(scene, settings)?;
+    let (stage, samples) = (
+        shutter.stage(),
+        &shutter.choose_samples(settings, canvas, watch)?,
+    );
+    let film = Film {
+        replicates: 0..settings.replicates,
+        samples,
+        ..film_instant(stage, settings, canvas)
+    };
     let meter = Meter::new(watch, film.work(&pixels));
-    let means = film.render(&pixels, &meter)?.remove(0).remove(0);
-    let picture = means.into_picture(tile);
+    let replicates: Vec<Picture> = (film.render(&pixels, &meter)?.into_iter())
+        .map(|mut pictures| pictures.remove(0).into_picture(tile))
+        .collect();
+    let picture = Picture::mean(&replicates);
     check_picture(scene, &picture)?;
     let points = sample_points(stage, canvas, settings, &PointMotion::RIGHT).part(tile);
     let layers = PointLayers::new(scene, &points)?;
     let hash = grid_hash(scene, settings, grid);
-    Ok(Frame {
-        provenance: provenance(stage, settings.seed, settings.samples_per_pixel, 1, hash),
+    let count = settings.replicates;
+    let frame = Frame {
+        provenance: provenance(
+            stage,
+            settings.seed,
+            settings.samples_per_pixel,
+            count,
+            hash,
+        ),
         exposure: settings.exposure(scene),
         frames_per_second: Some(scene.rate().per_second)
             .filter(|rate| *rate != FrameRate::WRITTEN.per_second),
@@ -131,8 +203,9 @@ pub fn trace_frame_part(
         velocity_z: None,
         depth: layers.depth,
         object_id: layers.object_id,
-        samples: Some(samples.to_plane(canvas).part(tile)),
-    })
+        samples: Some((samples.to_plane(canvas).part(tile)).map(|samples| samples * count as f32)),
+    };
+    Ok(TracedFrame { frame, replicates })
 }
 
 /// Samples a rasteriser's output for other points or another motion than the frame's.
@@ -158,7 +231,7 @@ pub fn trace_motion_on(
     motion: &PointMotion,
     grid: &PixelGrid,
 ) -> Result<PointLayers, TraceError> {
-    settings.check_frame(scene)?;
+    settings.check_instant(scene)?;
     let canvas = check_canvas(settings, grid)?;
     // Objects stand still if they do over the interval of the motion.
     let from = match motion.through_walls {

@@ -12,14 +12,13 @@ const LENS_SET: u32 = u32::MAX;
 /// Independent streams of random numbers, so that no two renders of a scene share their noise.
 #[derive(Clone, Copy)]
 pub(crate) enum Stream {
-    Frame,
-    Truth,
+    /// Truths, and the frame that goes with them: they differ by nothing where nothing changes.
+    Picture,
     /// An accumulation of this many sub-frames.
     Accumulation(u32),
     Support,
-    /// Pilots of frames and of truths.
-    FramePilot,
-    TruthPilot,
+    /// The pilot of a picture.
+    Pilot,
     /// A pass of depth of field.
     Defocus,
 }
@@ -34,13 +33,11 @@ pub(crate) struct Sampler {
 /// The seed of one replicate of one pixel: different for each replicate of a pixel, unrelated between pixels.
 pub(crate) fn pixel_seed(seed: u64, stream: Stream, pixel: u32, replicate: u32) -> u32 {
     let stream = match stream {
-        Stream::Frame => 0,
-        Stream::Truth => 1,
+        Stream::Picture => 1,
         Stream::Accumulation(subframes) => 1 + u64::from(subframes),
         // Greater than any number of sub-frames.
         Stream::Support => u64::MAX,
-        Stream::TruthPilot => u64::MAX - 1,
-        Stream::FramePilot => u64::MAX - 2,
+        Stream::Pilot => u64::MAX - 1,
         Stream::Defocus => u64::MAX - 3,
     };
     let pixel_hash = mix64(mix64(mix64(seed) ^ stream) ^ u64::from(pixel));

@@ -15,10 +15,10 @@ pub struct RenderSettings {
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// Mean samples per pixel: of a frame, or of a truth over all its replicates; each takes a power of two up to 65536. Time grows
+    /// Mean samples per pixel of a frame or of a truth over all its replicates; each takes a power of two up to 65536. Time grows
     /// with them, noise falls faster than their square root: a pilot shares them out.
     pub samples_per_pixel: u32,
-    /// Independent, complete renders of a truth, an even number. More of them measure the noise better and stratify worse.
+    /// Independent, complete renders; an even number for a truth. More of them measure the noise better and stratify worse.
     pub replicates: u32,
     /// Seed of the random numbers.
     pub seed: u64,
@@ -69,9 +69,14 @@ impl RenderSettings {
 
     /// Refuses settings with which the scene's frame cannot be rendered.
     pub fn check_frame(&self, scene: &Scene) -> Result<(), TraceError> {
+        check_samples(self.samples_per_pixel, self.replicates)?;
+        self.check_instant(scene)
+    }
+
+    /// Refuses settings with which the motion at the instant cannot be sampled.
+    pub(crate) fn check_instant(&self, scene: &Scene) -> Result<(), TraceError> {
         self.check_sizes()?;
         Alignment::Trailing.shutter(self.exposure(scene))?;
-        check_samples(self.samples_per_pixel, 1)?;
         let earliest = earliest_time(self.options.velocity);
         scene.check_defined(earliest, 0.0)?;
         check_field_of_view(scene, earliest, 0.0)
@@ -121,6 +126,9 @@ pub(crate) fn check_size(width: u32, height: u32) -> Result<(), TraceError> {
 }
 
 fn check_samples(samples_per_pixel: u32, replicates: u32) -> Result<(), TraceError> {
+    if replicates == 0 {
+        return Err(TraceError::Replicates(replicates));
+    }
     let each = samples_per_pixel / replicates;
     if each * replicates == samples_per_pixel && each.is_power_of_two() && each <= MAX_SAMPLES {
         return Ok(());

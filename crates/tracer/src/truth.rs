@@ -111,7 +111,7 @@ impl<'a> TruthTracer<'a> {
         let pixels = tile.pixels(self.settings.width);
         let samples = self.samples(watch)?;
         let times: Vec<Times> = self.shutters.iter().map(AlignedShutter::times).collect();
-        let film = self.film(&times, samples, index..index + 1, Stream::Truth);
+        let film = self.film(&times, samples, index..index + 1, Stream::Picture);
         let meter = Meter::new(watch, film.work(&pixels));
         let supports = self.supports(&film, &meter)?;
         let recalled: Vec<&Raster<bool>> = supports.iter().map(|own| &own.shaded).collect();
@@ -195,20 +195,33 @@ impl<'a> TruthTracer<'a> {
 
     /// The samples of every pixel, which are the same for every replicate and every alignment of the family.
     fn samples(&self, watch: Watch) -> Result<&SampleCounts, TraceError> {
-        get_or_try_init(&self.samples, || {
-            let times: Vec<Times> = self.family.iter().map(AlignedShutter::times).collect();
-            let uniform = SampleCounts::Uniform(PILOT_SAMPLES);
-            let pilot = Film {
-                instant: None,
-                ..self.film(&times, &uniform, 0..PILOT_REPLICATES, Stream::TruthPilot)
-            };
-            let moving: Vec<bool> = (0..self.stage.scene.objects.len() + 1)
-                .map(|object| self.family.iter().any(|shutter| shutter.moving[object]))
-                .collect();
-            let mean = self.settings.samples_per_replicate();
-            let margin = motion_margin(self.settings.height);
-            choose_samples(&pilot, &moving, margin, mean, watch)
-        })
+        get_or_try_init(&self.samples, || self.samples_on(self.canvas(), watch))
+    }
+
+    /// Chooses the samples of every pixel of a canvas in a replicate: a truth's, or those of the frame that goes with it.
+    pub(crate) fn samples_on(
+        &self,
+        canvas: Canvas,
+        watch: Watch,
+    ) -> Result<SampleCounts, TraceError> {
+        let times: Vec<Times> = self.family.iter().map(AlignedShutter::times).collect();
+        let uniform = SampleCounts::Uniform(PILOT_SAMPLES);
+        let pilot = Film {
+            canvas,
+            instant: None,
+            ..self.film(&times, &uniform, 0..PILOT_REPLICATES, Stream::Pilot)
+        };
+        let moving: Vec<bool> = (0..self.stage.scene.objects.len() + 1)
+            .map(|object| self.family.iter().any(|shutter| shutter.moving[object]))
+            .collect();
+        let mean = self.settings.samples_per_replicate();
+        let margin = motion_margin(self.settings.height);
+        choose_samples(&pilot, &moving, margin, mean, watch)
+    }
+
+    /// The scene over the shutters of the family.
+    pub(crate) fn stage(&self) -> &Stage<'a> {
+        &self.stage
     }
 
     /// The supports of all truths, which are the same for every replicate.

@@ -8,7 +8,7 @@ use metrics::{
     jackknife, make_oracle,
 };
 use store::RenderFile;
-use suite::{Error, MIN_REPLICATES, SHARP, StoredRun, sharp_picture, truths_without_pairs};
+use suite::{Error, Groups, MIN_REPLICATES, SHARP, StoredRun, sharp_picture};
 use tracer::{Progress, Watch};
 
 use crate::compare::change::{Change, Uncertainty};
@@ -106,7 +106,10 @@ impl TruthParts {
         let read = || Ok::<_, FileError>(Ladder::read_rung(&rung, SHARP)?.rungs.remove(0));
         let sharp = sharp_picture(&frame, &whole, read).ok();
         let mut truths = vec![whole];
-        truths.extend(truths_without_pairs(&replicates)?);
+        let groups = Groups::of(count);
+        for group in groups.list() {
+            truths.push(groups.truth_without(group, &replicates)?);
+        }
         Ok(Some(Self {
             sharp,
             oracle,

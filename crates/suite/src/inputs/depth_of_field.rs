@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use frame::Frame;
 use tracer::{Defocus, PixelGrid, Scene, trace_defocus};
 
-use super::renderer::Renderer;
+use super::renderer::{Renderer, Renders};
 use crate::render::settings::settings_of;
 use crate::{Error, Monitor, named};
 
@@ -37,6 +37,7 @@ impl DepthOfField {
         self,
         frame: Frame,
         scene: &'s Scene,
+        renders: &Renders,
         monitor: Monitor,
     ) -> Result<(Frame, Cow<'s, Scene>), Error> {
         match self {
@@ -45,7 +46,7 @@ impl DepthOfField {
                 let scene = scene.clone().pinhole();
                 let settings = settings_of(&frame);
                 let grid = PixelGrid::of_picture(settings.width, settings.height);
-                let renderer = Renderer::of(&frame, &scene, monitor);
+                let renderer = Renderer::of(&frame, &scene, renders, monitor);
                 let frame = renderer.frame("frame of a pinhole", &settings, &grid)?;
                 Ok((frame, Cow::Owned(scene)))
             }
@@ -63,9 +64,11 @@ impl DepthOfField {
             return Ok(None);
         }
         let settings = settings_of(frame);
-        let pass = Renderer::of(frame, scene, monitor).watch("depth of field", |watch| {
-            trace_defocus(scene, &settings, watch)
-        })?;
+        let renders = Renders::default();
+        let pass = Renderer::of(frame, scene, &renders, monitor)
+            .watch("depth of field", |watch| {
+                trace_defocus(scene, &settings, watch)
+            })?;
         Ok(Some(pass))
     }
 }

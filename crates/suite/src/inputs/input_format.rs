@@ -1,6 +1,6 @@
 //! Forms of the input that an engine gives its motion blur.
 
-use frame::{Frame, Vectors, VelocityKind};
+use frame::{Frame, Picture, Vectors, VelocityKind};
 use serde::{Deserialize, Serialize};
 use tracer::Scene;
 
@@ -11,7 +11,7 @@ use super::depth_format::DepthFormat;
 use super::depth_of_field::DepthOfField;
 use super::multisampling::Multisampling;
 use super::render_scale::RenderScale;
-use super::renderer::Renderer;
+use super::renderer::{Renderer, Renders};
 use super::shutter_rule::ShutterRule;
 use super::velocity_defect::VelocityDefect;
 use super::velocity_format::VelocityFormat;
@@ -122,22 +122,42 @@ impl InputFormat {
         }
     }
 
-    /// Returns the frame as a filter gets it. Some forms need the scene to render it again.
+    /// Returns the frame as a filter gets it, and colour and coverage of its replicates in the same form. Some forms need the scene to
+    /// render it again.
     ///
     /// # Errors
     /// The form needs a scene, and there is none; or the scene cannot be rendered in this form.
-    pub fn apply(
+    pub(crate) fn apply(
+        &self,
+        frame: &Frame,
+        replicates: &[Picture],
+        scene: Option<&Scene>,
+        monitor: Monitor,
+    ) -> Result<(Frame, Vec<Picture>), Error> {
+        let mut renders = Renders::default();
+        let whole = self.apply_with(frame, scene, &renders, monitor)?;
+        let mut pictures = Vec::new();
+        for (index, replicate) in replicates.iter().enumerate() {
+            renders.replicate = Some(index);
+            let own = self.apply_with(&frame.showing(replicate), scene, &renders, monitor)?;
+            pictures.push(own.into_picture());
+        }
+        Ok((whole, pictures))
+    }
+
+    fn apply_with(
         &self,
         frame: &Frame,
         scene: Option<&Scene>,
+        renders: &Renders,
         monitor: Monitor,
     ) -> Result<Frame, Error> {
         self.check(frame.options.velocity, scene.is_some())?;
         let mut stored = frame.clone();
         if let Some(scene) = scene {
             self.depth_of_field.check(scene)?;
-            let (seen, scene) = self.depth_of_field.apply(stored, scene, monitor)?;
-            let renderer = Renderer::of(frame, &scene, monitor);
+            let (seen, scene) = self.depth_of_field.apply(stored, scene, renders, monitor)?;
+            let renderer = Renderer::of(frame, &scene, renders, monitor);
             stored = self.msaa.apply(seen, &renderer)?;
             stored = self.jitter.apply(stored, &renderer)?;
             stored = self.scale.apply(stored, &renderer)?;

@@ -102,7 +102,8 @@ fn take_further<T: Copy>(
 fn sample_settings(frame: &Frame) -> [RenderSettings; 4] {
     let mut settings = settings_of(frame);
     settings.options.color = ColorSampling::Point;
-    settings.samples_per_pixel = (settings.samples_per_pixel / SAMPLES.len() as u32).max(1);
+    let least = settings.replicates;
+    settings.samples_per_pixel = (settings.samples_per_pixel / SAMPLES.len() as u32).max(least);
     [1, 2, 3, 4].map(|sample| RenderSettings {
         seed: settings.seed.wrapping_add(sample),
         ..settings

@@ -10,9 +10,9 @@ use metrics::{
 use tracer::Defocus;
 
 use super::dilated_velocity::read_dilated_velocity;
-use super::pictures::write_case;
+use super::pictures::{PARTS_FILE, write_case, write_parts};
 use super::planned_case::{PictureSource, PlannedCase};
-use super::probes::{FilterOutput, blur_noise_frames, blur_with_probes};
+use super::probes::{FilterOutput, blur_noise_frames, blur_picture, blur_with_probes};
 use super::references::TruthReferences;
 use super::run_scene::RunScene;
 use super::scene::SceneContext;
@@ -69,6 +69,8 @@ struct MeasuredPicture {
     jitter: Option<Jitter>,
     intervals: Intervals,
     dilated_velocity: Option<Vectors>,
+    /// Pictures of parts of the frame's replicates.
+    parts: Vec<Picture>,
 }
 
 impl MeasuredPicture {
@@ -81,6 +83,7 @@ impl MeasuredPicture {
             jitter: None,
             intervals: Intervals::new(),
             dilated_velocity: None,
+            parts: Vec::new(),
         }
     }
 }
@@ -108,18 +111,12 @@ impl CaseContext<'_> {
         Ok(MeasuredPicture::new(picture, measurement))
     }
 
-    /// Measures the engine's own picture, with intervals as for filters.
+    /// Measures the engine's own picture. Its scores have no intervals: an engine's sub-frames are no random samples.
     fn measure_engine(&self, scene: &EngineScene) -> Result<MeasuredPicture, Error> {
         let picture = scene.read_picture(self.frame)?;
-        let (measurement, intervals) = self.measure_with_intervals(|reference| {
-            let mut measurement = reference.measure(&picture)?;
-            measurement.scores.take_out_mattes(NO_MATTES);
-            Ok(measurement)
-        })?;
-        Ok(MeasuredPicture {
-            intervals,
-            ..MeasuredPicture::new(picture, measurement)
-        })
+        let mut measurement = self.references.reference.measure(&picture)?;
+        measurement.scores.take_out_mattes(NO_MATTES);
+        Ok(MeasuredPicture::new(picture, measurement))
     }
 
     fn measure_filter(
@@ -129,33 +126,24 @@ impl CaseContext<'_> {
     ) -> Result<MeasuredPicture, Error> {
         let mut stored = self.stored_frames.iter();
         let stored = stored.find(|stored| stored.format == input);
-        let StoredFrame { frame, before, .. } =
-            stored.expect("the frame was stored in every form of the plan");
-        // The first frame has no previous one; it serves as its own.
-        let before = before.as_ref().unwrap_or(frame);
+        let stored = stored.expect("the frame was stored in every form of the plan");
+        let frame = &stored.frame;
         let picture = self.picture_size();
         let mut runner = Runner::new(self.scene.gpu, choice, frame.size())?;
         let mut wide = Runner::with_wide_colors(self.scene.gpu, choice, frame.size());
-        let mut output = blur_with_probes(
-            &mut runner,
-            wide.as_mut(),
-            frame,
-            (before, self.scene.scene.id().frame),
-            picture,
-        )
-        .map_err(|error| name_scene(error, self.scene.scene))?;
         let pass = self.pass_behind(input);
-        if let Some(pass) = pass {
-            output.picture = pass.apply(&output.picture);
-        }
+        let (output, parts) = self
+            .blur_stored(stored, (&mut runner, wide.as_mut()), pass)
+            .map_err(|error| name_scene(error, self.scene.scene))?;
         // A smaller one would not fit into the output's file.
         let dilated_velocity = match input.scale.blurred_size(picture) == picture {
             true => read_dilated_velocity(&choice.filter, &runner, frame)?,
             false => None,
         };
         let jitter = self.measure_jitter(&mut runner, frame, pass)?;
-        let (measurement, intervals) =
-            self.measure_with_intervals(|reference| measure_output(reference, &output))?;
+        let (measurement, intervals) = self.measure_with_intervals(&parts, &output.picture, {
+            |reference, picture| measure_output(reference, picture, &output)
+        })?;
         Ok(MeasuredPicture {
             intervals,
             nonlinearity: Some(output.nonlinearity),
@@ -163,7 +151,40 @@ impl CaseContext<'_> {
             measurement,
             jitter,
             dilated_velocity,
+            parts,
         })
+    }
+
+    /// Runs the filter on a stored frame, and on each part of its replicates.
+    fn blur_stored(
+        &self,
+        stored: &StoredFrame,
+        (runner, mut wide): (&mut Runner, Option<&mut Runner>),
+        pass: Option<&Defocus>,
+    ) -> Result<(FilterOutput, Vec<Picture>), FilterError> {
+        // The first frame has no previous one; it serves as its own.
+        let (before, parts_before) = match &stored.before {
+            Some(before) => (before, &stored.parts_before),
+            None => (&stored.frame, &stored.parts),
+        };
+        let index = self.scene.scene.id().frame;
+        let size = self.picture_size();
+        let defocused = |picture: Picture| match pass {
+            Some(pass) => pass.apply(&picture),
+            None => picture,
+        };
+        let own = (before, index);
+        let mut output = blur_with_probes(runner, wide.as_deref_mut(), &stored.frame, own, size)?;
+        output.picture = defocused(output.picture);
+        let parts = (stored.parts.iter().zip(parts_before))
+            .map(|(part, part_before)| {
+                let wide = wide.as_deref_mut();
+                let own = (&stored.frame, part);
+                let before = (before, part_before, index);
+                Ok(defocused(blur_picture(runner, wide, own, before, size)?))
+            })
+            .collect::<Result<_, FilterError>>()?;
+        Ok((output, parts))
     }
 
     /// Returns the pass between a filter's output and its measurement; none if the filter comes last.
@@ -176,18 +197,20 @@ impl CaseContext<'_> {
         self.references.truth.size().into()
     }
 
-    /// Measures a picture, with score intervals if requested.
+    /// Measures a picture, with score intervals from the pictures of `parts` of the frame's replicates if requested.
     fn measure_with_intervals(
         &self,
-        measure: impl Fn(&Reference) -> Result<Measurement, MeasureError>,
+        parts: &[Picture],
+        whole: &Picture,
+        measure: impl Fn(&Reference, &Picture) -> Result<Measurement, MeasureError>,
     ) -> Result<(Measurement, Intervals), MeasureError> {
-        let measurement = measure(&self.references.reference)?;
-        let without_pairs = (self.references.without_pairs.iter())
-            .map(|reference| Ok(measure(reference)?.scores))
+        let measurement = measure(&self.references.reference, whole)?;
+        let scores = (self.references.parts.iter().zip(parts))
+            .map(|(reference, part)| Ok(measure(reference, part)?.scores))
             .collect::<Result<Vec<_>, MeasureError>>()?;
-        let intervals = match without_pairs.as_slice() {
+        let intervals = match scores.as_slice() {
             [] => Intervals::new(),
-            without_pairs => intervals(&measurement.scores, without_pairs, Metric::all()),
+            parts => intervals(&measurement.scores, parts, Metric::all()),
         };
         Ok((measurement, intervals))
     }
@@ -234,12 +257,17 @@ impl CaseContext<'_> {
             CommonTruth::Missing => ImageScores::not_applicable(OTHER_SHUTTER),
         };
         let folder = planned.id.folder();
-        let files = write_case(
-            &self.scene.plan.out.join(&folder),
+        let path = self.scene.plan.out.join(&folder);
+        let mut files = write_case(
+            &path,
             self.frame,
             (picture, measured.dilated_velocity.as_ref()),
             measurement,
         )?;
+        if !self.scene.plan.frames.is_one() && !measured.parts.is_empty() {
+            write_parts(&path, &measured.parts)?;
+            files.push(PARTS_FILE.to_owned());
+        }
         let choice = match &planned.source {
             PictureSource::Filter(choice, _) => Some(choice),
             _ => None,
@@ -272,12 +300,13 @@ impl CaseContext<'_> {
     }
 }
 
-/// Measures a filter's output by its picture and its probes.
+/// Measures a filter's picture of a frame or of a part of its replicates, and its probes, which have no noise.
 fn measure_output(
     reference: &Reference,
+    picture: &Picture,
     output: &FilterOutput,
 ) -> Result<Measurement, MeasureError> {
-    let mut measurement = reference.measure(&output.picture)?;
+    let mut measurement = reference.measure(picture)?;
     add_probes(reference, output, &mut measurement);
     Ok(measurement)
 }

@@ -9,7 +9,7 @@ use super::planned_case::PlannedCase;
 use crate::Error;
 use crate::render::settings::frame_settings;
 use crate::run::sequence::{Frames, MAX_FRAMES};
-use crate::stats::intervals::MIN_REPLICATES;
+use crate::stats::parts::MIN_REPLICATES;
 
 impl RunPlan {
     /// Refuses settings that a scene cannot be rendered with, and names that no folder can have, before anything is rendered.

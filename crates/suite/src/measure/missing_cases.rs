@@ -10,7 +10,7 @@ use tracer::{Defocus, Progress, TraceError, Watch};
 
 use super::case::{CaseContext, CommonTruth};
 use super::planned_case::PlannedCase;
-use super::references::TruthReferences;
+use super::references::{TruthPart, TruthReferences};
 use super::run_scene::RunScene;
 use super::scene::SceneContext;
 use super::stored_frames::store_frames;
@@ -20,7 +20,7 @@ use crate::inputs::input_format::InputFormat;
 use crate::render::ladders::{SHARP, needed_rungs};
 use crate::run::case::Case;
 use crate::run::failure::Failure;
-use crate::stats::intervals::truths_without_pairs;
+use crate::stats::parts::Groups;
 
 impl SceneContext<'_> {
     /// Measures some cases, and writes each record as soon as it is complete.
@@ -59,8 +59,8 @@ impl SceneContext<'_> {
                 common = Some(Reference::new(&frame.cropped(), &truth, None, &viewing)?.into());
                 continue;
             }
-            let without_pairs = self.truths_without_pairs(alignment, &own)?;
-            let references = self.references(frame, &truth, &without_pairs)?;
+            let parts = self.truth_parts(alignment, &own)?;
+            let references = self.references(frame, &truth, &parts)?;
             let context = CaseContext {
                 scene: self,
                 frame,
@@ -90,13 +90,13 @@ impl SceneContext<'_> {
         &self,
         frame: &Frame,
         truth: &'t Truth,
-        without_pairs: &'t [Truth],
+        parts: &'t [TruthPart],
     ) -> Result<TruthReferences<'t>, Error> {
         let read_sharp = || Ok(self.read_rung(truth, SHARP)?.rungs.remove(0));
         let rungs = self.scene.rungs(self.plan.ladders).iter();
         let rungs = rungs.map(|rung| self.read_rung(truth, *rung));
         let viewing = frame.display.into();
-        TruthReferences::new(frame, truth, read_sharp, rungs, without_pairs, &viewing)
+        TruthReferences::new(frame, truth, read_sharp, rungs, parts, &viewing)
     }
 
     /// Prepares the pass of depth of field after filters; none if every filter comes last.
@@ -175,13 +175,13 @@ impl SceneContext<'_> {
         }
     }
 
-    /// Makes the truths of an alignment without one pair of replicates each, if cases of filters get intervals. Makes none for an engine's
-    /// scene: sub-frames are no random samples, and a truth without some of them has holes.
-    fn truths_without_pairs(
+    /// Makes the parts of the frame and of an alignment's truth, if cases of filters get intervals. Makes none for an engine's scene:
+    /// sub-frames are no random samples, and a truth without some of them has holes.
+    fn truth_parts(
         &self,
         alignment: Alignment,
         cases: &[(usize, &PlannedCase)],
-    ) -> Result<Vec<Truth>, Error> {
+    ) -> Result<Vec<TruthPart>, Error> {
         let has_filters = cases.iter().any(|(_, case)| !case.id.is_reference);
         let RunScene::Traced(scene) = self.scene else {
             return Ok(Vec::new());
@@ -189,9 +189,20 @@ impl SceneContext<'_> {
         if !has_filters || !self.plan.intervals {
             return Ok(Vec::new());
         }
-        let files = self.plan.rendering(scene).files(alignment);
-        let replicates = files.replicates(0..self.plan.render.replicates)?;
-        Ok(truths_without_pairs(&replicates)?)
+        let rendering = self.plan.rendering(scene);
+        let count = self.plan.render.replicates;
+        let (frames, truths) = (
+            rendering.frame_replicates()?,
+            rendering.files(alignment).replicates(0..count)?,
+        );
+        let groups = Groups::of(count);
+        let without = |group| {
+            Ok(TruthPart {
+                picture: groups.picture_without(group, &frames),
+                truth: groups.truth_without(group, &truths)?,
+            })
+        };
+        groups.list().map(without).collect()
     }
 }
 

@@ -25,6 +25,27 @@ pub(crate) const CASE_FILES: [&str; 6] = [
     "errors.exr",
 ];
 
+/// File with a filter's colours for parts of the frame's replicates, in the folder of a case of a sequence with intervals.
+pub(crate) const PARTS_FILE: &str = "output_parts.exr";
+
+/// Names the layer of a part in [`PARTS_FILE`].
+pub(crate) fn part_layer(index: usize) -> String {
+    format!("part_{index}")
+}
+
+/// Writes [`PARTS_FILE`].
+pub(crate) fn write_parts(folder: &Path, parts: &[Picture]) -> Result<(), FileError> {
+    let Some(first) = parts.first() else {
+        return Ok(());
+    };
+    let mut file = ExrFile::new(first.color.width, first.color.height);
+    for (index, part) in parts.iter().enumerate() {
+        file.push_color(&part_layer(index), &part.color);
+    }
+    file.set("kind", "output parts");
+    write_small_exr(&folder.join(PARTS_FILE), file)
+}
+
 /// Names the picture of a truth and its file, in the folder of its scene.
 pub(crate) fn truth_files(alignment: Alignment) -> [String; 2] {
     let file = RenderFile::Truth(alignment);

@@ -80,6 +80,39 @@ pub(crate) fn blur_with_probes(
     })
 }
 
+/// Runs the filter on other colours and coverages of the frame, such as those of a part of its replicates, and of the previous one.
+/// Outputs are upscaled to `picture` as in [`blur_with_probes`].
+pub(crate) fn blur_picture(
+    runner: &mut Runner,
+    wide: Option<&mut Runner>,
+    (frame, own): (&FilterFrame, &Picture),
+    (before, own_before, frame_index): (&FilterFrame, &Picture, u32),
+    picture: [u32; 2],
+) -> Result<Picture, FilterError> {
+    let mattes = pack_planes(&own.coverage);
+    let mattes_before = pack_planes(&own_before.coverage);
+    let run = |runner: &mut Runner, colors: &[&Image], colors_before: &[&Image]| {
+        let now = Input {
+            frame_index,
+            ..filter_input(frame, colors)
+        };
+        let outputs = runner.run_after(&now, &filter_input(before, colors_before))?;
+        let outputs = crop_all(outputs, frame.guard_band);
+        Ok::<_, FilterError>(upscale_all(outputs, picture))
+    };
+    let color = run(runner, &[&own.color], &[&own_before.color])?.remove(0);
+    let mattes: Vec<&Image> = mattes.iter().collect();
+    let mattes_before: Vec<&Image> = mattes_before.iter().collect();
+    let mattes = match wide {
+        Some(wide) => run(wide, &mattes, &mattes_before)?,
+        None => run(runner, &mattes, &mattes_before)?,
+    };
+    Ok(Picture {
+        color,
+        coverage: unpack_planes(&mattes, own.coverage.len()),
+    })
+}
+
 /// Returns true if 16-bit floats represent all values exactly.
 fn has_half_floats(image: &Image) -> bool {
     // The last 13 of the 23 bits of a mantissa.

@@ -1,11 +1,10 @@
 //! Truths, prepared for measuring many pictures.
 
-use frame::{Accumulation, Frame, Ladder, Picture, Truth};
-use metrics::{Reference, Viewing};
+use frame::{Accumulation, Alignment, Frame, Ladder, Picture, Truth};
+use metrics::{Reference, Viewing, make_oracles};
 
 use crate::Error;
 use crate::render::ladders::sharp_picture;
-use metrics::make_oracle;
 
 /// The truth of one shutter, with everything needed to measure pictures.
 pub(crate) struct TruthReferences<'a> {
@@ -15,41 +14,62 @@ pub(crate) struct TruthReferences<'a> {
     pub oracle: Picture,
     /// All that pictures are compared with.
     pub reference: Reference<'a>,
-    /// References to the truths without one pair of replicates each; empty if scores get no intervals.
-    pub without_pairs: Vec<Reference<'a>>,
+    /// References to parts of the replicates of frame and truth; empty if scores get no intervals.
+    pub parts: Vec<Reference<'a>>,
+}
+
+/// A part of the replicates of a frame and of its truth.
+pub(crate) struct TruthPart {
+    /// The frame's colour and coverage, guard band included.
+    pub picture: Picture,
+    /// The truth.
+    pub truth: Truth,
 }
 
 impl<'a> TruthReferences<'a> {
-    /// Prepares the truth, and the same truth without each pair of its replicates. The ladder's rungs are read one at a time, since
-    /// together they need more memory than all else; `read_sharp` reads the rung that is the sharp picture of the shutter's middle.
+    /// Prepares the truth, and the same for each of `parts`. The ladder's rungs are read one at a time, since together they need more
+    /// memory than all else; `read_sharp` reads the rung that is the sharp picture of the shutter's middle.
     pub fn new(
         frame: &Frame,
         truth: &'a Truth,
         read_sharp: impl FnOnce() -> Result<Accumulation, Error>,
         rungs: impl Iterator<Item = Result<Ladder, Error>>,
-        without_pairs: &'a [Truth],
+        parts: &'a [TruthPart],
         viewing: &Viewing,
     ) -> Result<Self, Error> {
-        let oracle = make_oracle(frame, truth);
+        let pictures: Vec<Picture> = parts.iter().map(|part| part.picture.clone()).collect();
+        let (oracle, oracles) = make_oracles(frame, &pictures, truth);
+        let band = frame.guard_band;
         let frame = frame.cropped();
         let sharp = sharp_picture(&frame, truth, read_sharp)?;
-        let reference = |truth: &'a Truth| {
-            Reference::new(&frame, truth, None, viewing)?.with_ends(&sharp, &oracle)
+        let mut own = Reference::new(&frame, truth, None, viewing)?.with_ends(&sharp, &oracle)?;
+        let of_part = |(part, oracle): (&'a TruthPart, Picture)| {
+            let Picture { color, coverage } = part.picture.cropped(band);
+            let frame = Frame {
+                color,
+                coverage,
+                ..frame.clone()
+            };
+            // The sharp picture of a centred shutter is the frame.
+            let sharp = match truth.alignment {
+                Alignment::Centred => &frame.picture(),
+                _ => &sharp,
+            };
+            Reference::new(&frame, &part.truth, None, viewing)?.with_ends(sharp, &oracle)
         };
-        let mut own = reference(truth)?;
-        let mut without_pairs: Vec<Reference> = (without_pairs.iter())
-            .map(reference)
+        let mut references: Vec<Reference> = (parts.iter().zip(oracles))
+            .map(of_part)
             .collect::<Result<_, _>>()?;
         for rung in rungs {
             let rung = rung?;
-            for reference in std::iter::once(&mut own).chain(&mut without_pairs) {
+            for reference in std::iter::once(&mut own).chain(&mut references) {
                 reference.add_rungs(&rung)?;
             }
         }
         Ok(Self {
             truth,
             reference: own,
-            without_pairs,
+            parts: references,
             oracle,
         })
     }

@@ -7,13 +7,15 @@ use metrics::{Instant, SequenceReference, SequenceScores};
 use store::{RenderFile, RenderPath};
 use tracer::{PointLayers, Scene};
 
+use super::pictures::{PARTS_FILE, part_layer};
 use super::plan::RunPlan;
 use super::points_of_frame::{make_instant, trace_points};
 use crate::Error;
 use crate::colors::magma;
 use crate::run::case::{Case, Intervals};
 use crate::run::sequence::{Sequence, SequenceFrame, worst_frames};
-use crate::stats::intervals::{count_pairs, sequence_intervals, truth_without_pair};
+use crate::stats::intervals::sequence_intervals;
+use crate::stats::parts::Groups;
 
 /// Picture of the error of the change since the previous frame, next to a case's other pictures.
 pub const CHANGE_PICTURE: &str = "change.png";
@@ -90,19 +92,21 @@ impl SequenceTruths<'_> {
         all: &[Vec<&Case>],
     ) -> Result<Vec<Intervals>, Error> {
         let has_intervals = |own: &Sequence| self.plan.intervals && !own.is_reference;
-        let mut without: Vec<Vec<SequenceScores>> = vec![Vec::new(); sequences.len()];
+        let mut parts: Vec<Vec<SequenceScores>> = vec![Vec::new(); sequences.len()];
         if sequences.iter().any(has_intervals) {
-            for pair in 0..count_pairs(self.plan.render.replicates as usize) {
-                let reference = self.without_pair(pair)?;
-                let all = sequences.iter().zip(all).zip(&mut without);
+            let groups = Groups::of(self.plan.render.replicates);
+            for group in groups.list() {
+                let reference = self.without(groups, group)?;
+                let all = sequences.iter().zip(all).zip(&mut parts);
                 for ((_, cases), scores) in all.filter(|((own, _), _)| has_intervals(own)) {
-                    scores.push(reference.measure(&self.plan.read_outputs(cases)?)?.scores);
+                    let outputs = self.plan.read_part_outputs(cases, group)?;
+                    scores.push(reference.measure(&outputs)?.scores);
                 }
             }
         }
-        let both = sequences.iter().zip(&without);
+        let both = sequences.iter().zip(&parts);
         Ok(both
-            .map(|(own, without)| sequence_intervals(&own.scores, without))
+            .map(|(own, parts)| sequence_intervals(&own.scores, parts))
             .collect())
     }
 
@@ -117,12 +121,12 @@ impl SequenceTruths<'_> {
         })
     }
 
-    /// Makes the truths of all frames without one pair of replicates.
-    fn without_pair(&self, pair: usize) -> Result<SequenceReference, Error> {
+    /// Makes the truths of all frames without one group of their replicates.
+    fn without(&self, groups: Groups, group: usize) -> Result<SequenceReference, Error> {
         self.reference(|scene| {
             let files = self.plan.rendering(scene).files(self.alignment);
             let replicates = files.replicates(0..self.plan.render.replicates)?;
-            Ok(truth_without_pair(&replicates, pair)?)
+            Ok(groups.truth_without(group, &replicates)?)
         })
     }
 
@@ -149,6 +153,12 @@ impl RunPlan {
             .iter()
             .map(|case| self.out.join(&case.folder).join("output.exr"));
         paths.map(|path| Ok(read_exr(&path)?.color("")?)).collect()
+    }
+
+    /// Reads the colours of a sequence's pictures of the frames without one group of their replicates.
+    fn read_part_outputs(&self, cases: &[&Case], group: usize) -> Result<Vec<Image>, Error> {
+        let paths = (cases.iter()).map(|case| self.out.join(&case.folder).join(PARTS_FILE));
+        (paths.map(|path| Ok(read_exr(&path)?.color(&part_layer(group))?))).collect()
     }
 }
 

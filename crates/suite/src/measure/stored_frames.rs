@@ -1,6 +1,6 @@
 //! The frame in the forms that filters get, and the previous frame for filters that read it.
 
-use frame::Frame;
+use frame::{Frame, Picture};
 use tracer::Scene;
 
 use super::plan::RunPlan;
@@ -9,13 +9,18 @@ use crate::Error;
 use crate::inputs::input_format::InputFormat;
 use crate::render::exclusion::{FilterFrame, draw_exclusion, write_exclusion};
 use crate::render::velocities::write_further_velocities;
+use crate::stats::parts::Groups;
 
 /// A frame in one of the forms that filters get.
 pub(crate) struct StoredFrame {
     pub format: InputFormat,
     pub frame: FilterFrame,
+    /// Its colour and coverage, for parts of its replicates; empty if scores get no intervals.
+    pub parts: Vec<Picture>,
     /// The previous frame; none for the first frame, and if no filter reads it.
     pub before: Option<FilterFrame>,
+    /// The previous frame's colour and coverage, like `parts`.
+    pub parts_before: Vec<Picture>,
 }
 
 /// Stores a scene's frame in every form, and the previous frame for filters with history.
@@ -31,23 +36,35 @@ pub(super) fn store_frames(
     }
     let frame = whole.as_ref().unwrap_or(frame);
     let before = read_frame_before(plan, scene)?;
+    let groups = Groups::of(plan.render.replicates);
     let store = |format: &InputFormat, frame: &Frame, own: RunScene| {
-        let frame = format.apply(frame, own.traced(), plan.monitor)?;
+        let replicates = read_replicates(plan, own)?;
+        let (frame, replicates) = format.apply(frame, &replicates, own.traced(), plan.monitor)?;
+        let parts = match replicates.is_empty() {
+            true => Vec::new(),
+            false => (groups.list())
+                .map(|group| groups.picture_without(group, &replicates))
+                .collect(),
+        };
         let mask = plan.reads_exclusion().then(|| match own {
             RunScene::Traced(scene) => Ok(Some(draw_exclusion(&frame, scene))),
             RunScene::Drawn(scene) => scene.read_exclusion(&frame),
         });
         let exclusion = mask.transpose()?.flatten();
-        Ok::<_, Error>(FilterFrame { frame, exclusion })
+        Ok::<_, Error>((FilterFrame { frame, exclusion }, parts))
     };
     let stored: Vec<StoredFrame> = (formats.iter())
         .map(|format| {
             let before = before.as_ref();
             let before = before.map(|(scene, frame)| store(format, frame, RunScene::Traced(scene)));
+            let (before, parts_before) = before.transpose()?.unzip();
+            let (frame, parts) = store(format, frame, scene)?;
             Ok(StoredFrame {
                 format: *format,
-                frame: store(format, frame, scene)?,
-                before: before.transpose()?,
+                frame,
+                parts,
+                before,
+                parts_before: parts_before.unwrap_or_default(),
             })
         })
         .collect::<Result<_, Error>>()?;
@@ -60,6 +77,14 @@ pub(super) fn store_frames(
         mask.map_or(Ok(()), |mask| write_exclusion(mask, frame, &folder))?;
     }
     Ok(stored)
+}
+
+/// Reads the replicates of a scene's frame if scores get intervals; none of an engine's.
+fn read_replicates(plan: &RunPlan, scene: RunScene) -> Result<Vec<Picture>, Error> {
+    let scene = scene.traced().filter(|_| plan.intervals);
+    scene.map_or(Ok(Vec::new()), |scene| {
+        plan.rendering(scene).frame_replicates()
+    })
 }
 
 /// Reads the frame with the velocities that few filters read; none if no filter of the plan does, and of an engine's scene.

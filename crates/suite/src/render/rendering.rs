@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use filters::{EXCLUSION, Filter};
-use frame::{Alignment, Frame, write_small_exr};
+use frame::{Alignment, Frame, Picture, TracedFrame, read_frame_replicates, write_small_exr};
 use store::{RenderFile, refuse_scene, scene_folder};
 use tracer::{PixelGrid, RenderSettings, Scene};
 
@@ -31,24 +31,41 @@ impl Rendering<'_> {
     pub fn frame(&self) -> Result<Frame, Error> {
         refuse_scene(&scene_folder(self.out, self.scene))?;
         let own = frame_settings(&self.settings);
-        let path = self.path(RenderFile::Frame);
         let hash = tracer::frame_hash(self.scene, &own);
-        if let Ok(found) = Frame::read(&path)
+        if let Ok(found) = Frame::read(&self.path(RenderFile::Frame))
             && found.provenance.is_rendered_of(&hash)
         {
             return Ok(found);
         }
+        Ok(self.trace_frame()?.frame)
+    }
+
+    /// Reads the replicates of the frame, or renders it again if its file lacks them.
+    pub fn frame_replicates(&self) -> Result<Vec<Picture>, Error> {
+        self.frame()?;
+        match read_frame_replicates(&self.path(RenderFile::Frame))? {
+            found if found.is_empty() => Ok(self.trace_frame()?.replicates),
+            found => Ok(found),
+        }
+    }
+
+    /// Renders the frame and writes it with its replicates.
+    fn trace_frame(&self) -> Result<TracedFrame, Error> {
+        let own = frame_settings(&self.settings);
         own.check_frame(self.scene)?;
         self.check_memory(self.settings.replicates)?;
         let label = format!("{} frame", self.scene.id);
-        let frame =
-            (self.monitor).watch(&label, |watch| tracer::trace_frame(self.scene, &own, watch))?;
+        let grid = PixelGrid::of_picture(own.width, own.height);
+        let traced = (self.monitor).watch(&label, |watch| {
+            tracer::trace_frame_part(self.scene, &own, &grid, None, watch)
+        })?;
         assert_eq!(
-            frame.provenance.content_hash, hash,
+            traced.frame.provenance.content_hash,
+            tracer::frame_hash(self.scene, &own),
             "{label}: the hash must not depend on the render"
         );
-        frame.write(&path)?;
-        Ok(frame)
+        traced.write(&self.path(RenderFile::Frame))?;
+        Ok(traced)
     }
 
     /// Renders the frame as [`Rendering::frame`] does, with the velocities that few filters read, which its file need not have.
@@ -71,9 +88,11 @@ impl Rendering<'_> {
 
     /// Renders the frame with all that filters may read, and writes all of it to its file.
     pub fn write_further_inputs(&self) -> Result<(), Error> {
+        let replicates = self.frame_replicates()?;
         let frame = self.frame_with_further_velocities()?;
-        let mut file = frame.to_exr();
-        file.push_plane(EXCLUSION, &draw_exclusion(&frame, self.scene));
+        let exclusion = draw_exclusion(&frame, self.scene);
+        let mut file = TracedFrame { frame, replicates }.to_exr();
+        file.push_plane(EXCLUSION, &exclusion);
         Ok(write_small_exr(&self.path(RenderFile::Frame), file)?)
     }
 

@@ -8,9 +8,6 @@ use tracer::RenderSettings;
 /// Allowed numbers of columns and rows of a picture.
 pub const SIDES: RangeInclusive<u32> = 16..=16384;
 
-/// Replicates of a truth with as many samples as a frame, for truths of any size.
-const FRAME_REPLICATES: u32 = 4;
-
 /// Lists name and value of every setting that a run's cases share.
 pub fn list_settings(settings: &RenderSettings) -> [(&'static str, String); 8] {
     [
@@ -31,13 +28,9 @@ pub fn list_settings(settings: &RenderSettings) -> [(&'static str, String); 8] {
     ]
 }
 
-/// Selects the settings of the frame that goes with truths: half as many samples as a truth of eight replicates. The pilot distributes
-/// them, so that their noise is about that of twice as many without it.
+/// Selects the settings of the frame that goes with truths: their own, so that what stands still has the same samples in both.
 pub(crate) fn frame_settings(settings: &RenderSettings) -> RenderSettings {
-    RenderSettings {
-        samples_per_pixel: FRAME_REPLICATES * settings.samples_per_pixel / settings.replicates,
-        ..*settings
-    }
+    *settings
 }
 
 /// Reads the settings of a frame that was rendered here.
@@ -50,6 +43,7 @@ pub(crate) fn settings_of(frame: &Frame) -> RenderSettings {
         guard_band: band,
         options: frame.options,
         samples_per_pixel: frame.provenance.samples_per_pixel,
+        replicates: frame.provenance.replicates,
         seed: frame.provenance.seed,
         exposure: Some(frame.exposure),
         ..RenderSettings::default()

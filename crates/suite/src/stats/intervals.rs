@@ -1,88 +1,155 @@
-//! Jackknife intervals of scores, from truths without one pair of replicates each.
+//! Jackknife intervals of scores, from parts of the replicates of frame and truth.
 
-use frame::{Replicate, Truth, TruthError};
 use metrics::{
-    Interval, Measured, Metric, Scores, SequenceMetric, SequenceScores, jackknife,
-    jackknife_of_percentile,
+    FrozenMetric, Ideal, ImageMetric, Interval, Measured, Metric, ObjectMetric, ProbeMetric,
+    Region, Rise, Scores, SequenceMetric, SequenceScores, jackknife_of, psnr,
 };
 
 use crate::run::case::Intervals;
 
-/// Replicates that are left out together: one of each half, so that the halves stay equally large.
-const GROUP: usize = 2;
-
-/// Smallest number of replicates for an interval: two groups.
-pub const MIN_REPLICATES: u32 = 4;
-
-/// Makes one truth per pair of `replicates`, from all the others. Replicates share one support, so that scores keep pooling over the same
-/// pixels.
-pub fn truths_without_pairs(replicates: &[Replicate]) -> Result<Vec<Truth>, TruthError> {
-    (0..count_pairs(replicates.len()))
-        .map(|pair| truth_without_pair(replicates, pair))
-        .collect()
-}
-
-/// Counts the pairs of a number of replicates.
-pub(crate) fn count_pairs(replicates: usize) -> usize {
-    replicates / GROUP
-}
-
-/// Makes the truth of all replicates except one pair.
-pub(crate) fn truth_without_pair(
-    replicates: &[Replicate],
-    pair: usize,
-) -> Result<Truth, TruthError> {
-    let others = (replicates.iter().enumerate()).filter(|(at, _)| at / GROUP != pair);
-    let others: Vec<Replicate> = (others.map(|(_, replicate)| replicate).zip(0..))
-        .map(|(replicate, index)| Replicate {
-            index,
-            ..replicate.clone()
-        })
-        .collect();
-    Truth::of(&others)
-}
-
-/// Computes the interval, by [`jackknife`] or [`jackknife_of_percentile`], of each of `metrics` that has a score against the whole truth
-/// and against the truth without each of its pairs.
+/// Computes the interval of each of `metrics` that has a score of the whole and of all `parts`, each without one of the
+/// [`Groups`](crate::Groups) of replicates.
 pub fn intervals(
     whole: &Scores,
-    without: &[Scores],
+    parts: &[Scores],
     metrics: impl IntoIterator<Item = Metric>,
 ) -> Intervals {
     (metrics.into_iter())
         .filter_map(|metric| {
-            let without = without.iter().map(|scores| scores.get(metric));
-            let found = interval(&whole.get(metric), without, metric.row().is_percentile)?;
-            Some((metric, found))
+            let found = match metric {
+                Metric::Object(object) => worst_interval(whole, parts, (metric, object), true),
+                Metric::Image(ImageMetric::Psnr, region) => {
+                    let error = Metric::Image(ImageMetric::Mse, region);
+                    let parts = parts.iter().map(|scores| scores.get(error).value());
+                    psnr_interval(whole, interval(&whole.get(error), parts, error), region)
+                }
+                Metric::OccluderContamination => {
+                    let object = ObjectMetric::LabelTotalVariation;
+                    worst_interval(whole, parts, (metric, object), false)
+                }
+                _ => {
+                    let parts = parts.iter().map(|scores| scores.get(metric).value());
+                    interval(&whole.get(metric), parts, metric)
+                }
+            };
+            Some((metric, found?))
         })
         .collect()
 }
 
 /// Computes the intervals of a sequence's scores like [`intervals`] for a picture.
-pub(crate) fn sequence_intervals(whole: &SequenceScores, without: &[SequenceScores]) -> Intervals {
+pub(crate) fn sequence_intervals(whole: &SequenceScores, parts: &[SequenceScores]) -> Intervals {
     (SequenceMetric::ALL.into_iter())
         .filter_map(|metric| {
-            let row = metric.row();
-            let without = without.iter().map(|scores| scores.get(metric).clone());
-            let found = interval(whole.get(metric), without, row.is_percentile)?;
-            Some((Metric::Sequence(metric), found))
+            let parts = parts.iter().map(|scores| scores.get(metric).value());
+            let named = Metric::Sequence(metric);
+            Some((named, interval(whole.get(metric), parts, named)?))
         })
         .collect()
 }
 
-/// Computes the interval of one score; none if it does not apply to every truth.
+/// Slowest power of the number of replicates by which noise in a mean of absolute errors falls, and the same for FLIP over nearly perfect
+/// pictures: FLIP raises small differences to the power of 0.7.
+const ROOT: f64 = 0.5;
+const ROOT_OF_FLIP: f64 = 0.35;
+
+/// Returns how noise raises a score. FLIP where things move is raised like a smooth score, because most errors there exceed the noise.
+fn find_rise(metric: Metric) -> Rise {
+    use ImageMetric::{Flip, FlipHdr, Mae, Smape};
+    match metric {
+        _ if metric.row().is_percentile => Rise::Percentile,
+        Metric::Image(Flip | FlipHdr, Region::Still | Region::Full) => Rise::Power(ROOT_OF_FLIP),
+        Metric::Image(Mae | Smape, _)
+        | Metric::Frozen(FrozenMetric::Flip)
+        | Metric::Probe(ProbeMetric::GatherOffset | ProbeMetric::GatherSpread) => Rise::Power(ROOT),
+        _ => Rise::Inverse,
+    }
+}
+
+/// Computes the interval of one score; none if it does not apply to every part.
 fn interval(
     whole: &Measured,
-    without: impl Iterator<Item = Measured>,
-    is_percentile: bool,
+    without: impl Iterator<Item = Option<f64>>,
+    metric: Metric,
 ) -> Option<Interval> {
-    let Measured::Score(score) = whole else {
+    let without: Vec<f64> = without.collect::<Option<_>>()?;
+    jackknife_of(whole.value()?, &without, find_rise(metric))
+}
+
+/// Converts the interval of a squared error to that of PSNR. An error that may be none leaves the end open at the limit of PSNR.
+fn psnr_interval(whole: &Scores, error: Option<Interval>, region: Region) -> Option<Interval> {
+    let Measured::Score(score) = whole.get(Metric::Image(ImageMetric::Mse, region)) else {
         return None;
     };
-    let without: Option<Vec<f64>> = without.map(|score| score.value()).collect();
-    let (value, without) = (score.value, without?);
-    match is_percentile {
-        true => jackknife_of_percentile(value, &without, score.floor),
-        false => jackknife(value, &without),
+    let error = error?;
+    let [low, center, high] = [
+        (error.high, 0.0),
+        (error.center, score.floor),
+        (error.low, 0.0),
+    ]
+    .map(|(mse, floor)| psnr(mse, floor));
+    // The slope of 10 log10, at an error that the truth can tell from none.
+    let known = error.center.max(score.floor).max(f64::MIN_POSITIVE);
+    let slope = 10.0 / (std::f64::consts::LN_10 * known);
+    Some(Interval {
+        low,
+        high,
+        center,
+        standard_error: slope * error.standard_error,
+    })
+}
+
+/// Computes the interval of the worst object's score. The worst object of noisy pictures need not be the worst without noise: any whose
+/// interval reaches the least that the worst must have may be it.
+fn worst_interval(
+    whole: &Scores,
+    parts: &[Scores],
+    (metric, object): (Metric, ObjectMetric),
+    moves: bool,
+) -> Option<Interval> {
+    let ideal = metric.ideal();
+    let of_object = |at: usize| {
+        let own = &whole.objects[at];
+        let parts = parts
+            .iter()
+            .map(|scores| scores.objects[at].get(object).value());
+        (own.moves == moves).then(|| interval(own.get(object), parts, metric))?
+    };
+    let all: Vec<Interval> = (0..whole.objects.len()).filter_map(of_object).collect();
+    let least = |own: &Interval| least_badness(ideal, own);
+    let most = |own: &Interval| f64::max(ideal.badness(own.low), ideal.badness(own.high));
+    let certain = all.iter().map(least).fold(f64::NEG_INFINITY, f64::max);
+    let mut candidates = all.iter().filter(|own| most(own) >= certain);
+    let first = *candidates.next()?;
+    let joined = candidates.fold(first, |joined, own| {
+        let is_worse = ideal.badness(own.center) > ideal.badness(joined.center);
+        let worst = if is_worse { own } else { &joined };
+        Interval {
+            low: joined.low.min(own.low),
+            high: joined.high.max(own.high),
+            ..*worst
+        }
+    });
+    Some(without_better(joined, ideal, certain))
+}
+
+/// Returns the smallest badness of an interval's values.
+fn least_badness(ideal: Ideal, own: &Interval) -> f64 {
+    match ideal {
+        Ideal::Target(target) if own.holds(target) => 0.0,
+        _ => f64::min(ideal.badness(own.low), ideal.badness(own.high)),
     }
+}
+
+/// Cuts off an end of values that are better than the least that is certain.
+fn without_better(own: Interval, ideal: Ideal, certain: f64) -> Interval {
+    let mut cut = own;
+    match ideal {
+        Ideal::Lowest => cut.low = own.low.max(certain),
+        Ideal::Highest => cut.high = own.high.min(-certain),
+        Ideal::Target(target) if own.low > target => cut.low = own.low.max(target + certain),
+        Ideal::Target(target) if own.high < target => cut.high = own.high.min(target - certain),
+        Ideal::Target(_) => {}
+    }
+    cut
 }

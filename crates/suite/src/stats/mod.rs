@@ -2,4 +2,5 @@
 
 pub mod intervals;
 pub mod overall;
+pub mod parts;
 pub mod scene_mean;

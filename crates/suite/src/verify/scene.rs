@@ -103,7 +103,7 @@ fn verify_frame(work: &Work) -> Result<Vec<(PathBuf, Tile)>, Error> {
     let further = has_further.then(|| trace_further_velocities(work.scene, &settings, &grid));
     let further = further.transpose()?;
     work.trace_tiles(&[RenderFile::Frame], frame.size(), |_, tile, watch| {
-        let mut made = trace_frame_part(work.scene, &settings, &grid, Some(tile), watch)?;
+        let mut made = trace_frame_part(work.scene, &settings, &grid, Some(tile), watch)?.frame;
         made.velocity_next = further.as_ref().map(|(next, _)| next.part(tile));
         made.velocity_z = further.as_ref().map(|(_, z)| z.part(tile));
         let mut file = made.to_exr();

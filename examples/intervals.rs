@@ -1,0 +1,226 @@
+//! Counts how many intervals contain the score that infinitely many samples would give, over many seeds, and prints the table of
+//! `results/studies/intervals.md`. `cargo run --release -p cli --example intervals -- 48 64 4096 railing,flag,fan,two_spheres`
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use filters::{Filter, Gpu};
+use metrics::{Ideal, Interval, Metric};
+use suite::{Error, FilterChoice, Monitor, RunPlan, measure_scenes, open_gpu};
+use tracer::{RenderSettings, load_scene};
+
+/// One filter per shutter: trailing and centred.
+const FILTERS: [(&str, &str); 2] = [("jump_flood", "paper"), ("mcguire", "paper")];
+const SIZE: [u32; 2] = [160, 90];
+/// Folder of all renders: an interrupted study continues.
+const FOLDER: &str = "target/tmp/intervals";
+/// Replicates of the truths, and the seed and the replicates of the converged one: more of them need no more memory at once.
+const REPLICATES: u32 = 8;
+const CONVERGED_SEED: u64 = 1_000_000;
+/// Limits at these multiples of the converged score: one is broken, one kept.
+const LIMITS: [f64; 2] = [0.95, 1.05];
+
+/// What the study asks for.
+struct Study {
+    seeds: u64,
+    samples: u32,
+    converged: u32,
+    scenes: Vec<String>,
+}
+
+/// The scores of one filter on one scene.
+struct Subject {
+    name: String,
+    /// Score without noise, and the measured score with its interval per seed.
+    scores: BTreeMap<Metric, (f64, Vec<(f64, Interval)>)>,
+}
+
+/// The coverage of one score's intervals.
+struct Coverage {
+    metric: Metric,
+    /// Share of the intervals that contain the converged score.
+    held: f64,
+    /// Factor by which the half widths are larger than 95 % coverage needs.
+    wide: f64,
+}
+
+fn main() -> ExitCode {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let Some(study) = parse(&words) else {
+        eprintln!("give seeds, samples per pixel, those of the converged truth, and scenes: 48 64 4096 railing,flag,fan,two_spheres");
+        return ExitCode::from(2);
+    };
+    match measure(&study) {
+        Ok(subjects) => {
+            print_study(&study, &subjects);
+            ExitCode::SUCCESS
+        }
+        Err(error) => {
+            eprintln!("{error}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn parse(words: &[String]) -> Option<Study> {
+    let [seeds, samples, converged, scenes] = words else {
+        return None;
+    };
+    Some(Study {
+        seeds: seeds.parse().ok()?,
+        samples: samples.parse().ok()?,
+        converged: converged.parse().ok()?,
+        scenes: scenes.split(',').map(str::to_owned).collect(),
+    })
+}
+
+fn measure(study: &Study) -> Result<Vec<Subject>, Error> {
+    let choices = FILTERS.map(|(filter, preset)| {
+        let filter = Filter::load(&Path::new("shaders").join(filter))?;
+        FilterChoice::new(filter, preset)
+    });
+    let choices = choices.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let gpu = open_gpu(&choices, None, Monitor::SILENT)?;
+    let mut subjects = Vec::new();
+    for scene in &study.scenes {
+        let run = |samples, seed| run(scene, &choices, (samples, seed), gpu.as_ref());
+        let converged = run(study.converged, CONVERGED_SEED)?;
+        let mut own: Vec<Subject> = (converged.cases.iter().filter(|case| !case.is_reference))
+            .map(|case| Subject {
+                name: format!("{scene}, {}", case.filter_id()),
+                scores: (Metric::all().into_iter())
+                    .filter_map(|metric| Some((metric, (case.estimate(metric)?, Vec::new()))))
+                    .collect(),
+            })
+            .collect();
+        for seed in 1..=study.seeds {
+            let found = run(study.samples, seed)?;
+            let cases = found.cases.iter().filter(|case| !case.is_reference);
+            for (subject, case) in own.iter_mut().zip(cases) {
+                for (metric, (_, seeds)) in &mut subject.scores {
+                    let score = case.scores.get(*metric).value();
+                    seeds.extend(score.zip(case.intervals.get(metric).copied()));
+                }
+            }
+            eprintln!("{scene}: seed {seed} of {}", study.seeds);
+        }
+        subjects.extend(own);
+    }
+    Ok(subjects)
+}
+
+/// Measures the filters on a scene as `check` does.
+fn run(
+    scene: &str,
+    choices: &[FilterChoice],
+    (samples_per_pixel, seed): (u32, u64),
+    gpu: Option<&Gpu>,
+) -> Result<suite::Run, Error> {
+    let [width, height] = SIZE;
+    let plan = RunPlan {
+        scenes: vec![load_scene(Path::new("scenes").join(scene), None)?],
+        filters: choices.iter().map(|own| own.scaled_to(width)).collect(),
+        render: RenderSettings {
+            width,
+            height,
+            samples_per_pixel,
+            replicates: REPLICATES,
+            seed,
+            ..RenderSettings::default()
+        },
+        out: PathBuf::from(FOLDER).join(format!("{samples_per_pixel}_{seed}")),
+        intervals: true,
+        ladders: false,
+        ..RunPlan::default()
+    };
+    plan.check()?;
+    measure_scenes(&plan, gpu, Vec::new())
+}
+
+/// Counts the intervals of every score that noise changes and all seeds have.
+fn count_coverage(study: &Study, subject: &Subject) -> Vec<Coverage> {
+    let all = subject.scores.iter();
+    let changed = all.filter(|(_, (_, seeds))| {
+        seeds.len() as u64 == study.seeds && seeds.iter().any(|(value, _)| *value != seeds[0].0)
+    });
+    changed
+        .map(|(&metric, (converged, seeds))| {
+            let holds = seeds.iter().filter(|(_, own)| own.holds(*converged));
+            Coverage {
+                metric,
+                held: holds.count() as f64 / seeds.len() as f64,
+                wide: 1.0 / needed_width(*converged, seeds),
+            }
+        })
+        .collect()
+}
+
+/// Returns the factor on all half widths with which 95 % of the intervals would just contain the converged score.
+fn needed_width(converged: f64, seeds: &[(f64, Interval)]) -> f64 {
+    let factor = |own: &Interval| {
+        let middle = 0.5 * (own.low + own.high);
+        (converged - middle).abs() / (0.5 * (own.high - own.low)).max(f64::MIN_POSITIVE)
+    };
+    let mut factors: Vec<f64> = seeds.iter().map(|(_, own)| factor(own)).collect();
+    factors.sort_by(f64::total_cmp);
+    let rank = (0.95 * factors.len() as f64).ceil() as usize;
+    factors[rank - 1]
+}
+
+fn print_study(study: &Study, subjects: &[Subject]) {
+    println!(
+        "{} seeds, {} samples per pixel, converged: {}\n",
+        study.seeds, study.samples, study.converged
+    );
+    println!("| scene and filter | scores | 93 to 97 % | below 90 % | over 97 % | twice too wide |");
+    println!("|---|---|---|---|---|---|");
+    let mut details = String::new();
+    for subject in subjects {
+        let found = count_coverage(study, subject);
+        let count = |is: &dyn Fn(&Coverage) -> bool| found.iter().filter(|own| is(own)).count();
+        println!(
+            "| {} | {} | {} | {} | {} | {} |",
+            subject.name,
+            found.len(),
+            count(&|own| (0.93..=0.97).contains(&own.held)),
+            count(&|own| own.held < 0.9),
+            count(&|own| own.held > 0.97),
+            count(&|own| own.wide > 2.0),
+        );
+        let low = found.iter().filter(|own| own.held < 0.9);
+        let low: Vec<String> =
+            low.map(|own| format!("{} {:.0}", own.metric, 100.0 * own.held)).collect();
+        details += &format!("- {}: {}\n", subject.name, list(&low));
+    }
+    println!("\nBelow 90 %, with the percentage that contain the converged score:\n\n{details}");
+    print_limits(subjects);
+}
+
+fn list(words: &[String]) -> String {
+    match words {
+        [] => "none".to_owned(),
+        _ => words.join(", "),
+    }
+}
+
+/// Prints how limits near the converged FLIP are judged: the first should break, the second be kept, and none break at its own value.
+fn print_limits(subjects: &[Subject]) {
+    let metric: Metric = "flip_moving".parse().expect("it is a metric");
+    let all: Vec<(f64, Interval)> = (subjects.iter())
+        .filter_map(|subject| subject.scores.get(&metric))
+        .flat_map(|(converged, seeds)| seeds.iter().map(move |(_, own)| (*converged, *own)))
+        .collect();
+    assert_eq!(metric.ideal(), Ideal::Lowest, "limits are highest scores");
+    let share = |is: &dyn Fn(&(f64, Interval)) -> bool| {
+        100.0 * all.iter().filter(|own| is(own)).count() as f64 / all.len() as f64
+    };
+    let [low, high] = LIMITS;
+    println!(
+        "flip_moving: a limit of {low} times the converged score breaks in {:.1} %, of {high} times is kept in {:.1} %, \
+         and of the converged score breaks in {:.1} %.",
+        share(&|(converged, own)| own.low > low * converged),
+        share(&|(converged, own)| own.high < high * converged),
+        share(&|(converged, own)| own.low > *converged),
+    );
+}
