@@ -48,7 +48,9 @@ struct Coverage {
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
     let Some(study) = parse(&words) else {
-        eprintln!("give seeds, samples per pixel, those of the converged truth, and scenes: 48 64 4096 railing,flag,fan,two_spheres");
+        eprintln!(
+            "give seeds, samples per pixel, those of the converged truth, and scenes: 48 64 4096 railing,flag,fan,two_spheres"
+        );
         return ExitCode::from(2);
     };
     match measure(&study) {
@@ -173,7 +175,9 @@ fn print_study(study: &Study, subjects: &[Subject]) {
         "{} seeds, {} samples per pixel, converged: {}\n",
         study.seeds, study.samples, study.converged
     );
-    println!("| scene and filter | scores | 93 to 97 % | below 90 % | over 97 % | twice too wide |");
+    println!(
+        "| scene and filter | scores | 93 to 97 % | below 90 % | over 97 % | twice too wide |"
+    );
     println!("|---|---|---|---|---|---|");
     let mut details = String::new();
     for subject in subjects {
@@ -189,8 +193,9 @@ fn print_study(study: &Study, subjects: &[Subject]) {
             count(&|own| own.wide > 2.0),
         );
         let low = found.iter().filter(|own| own.held < 0.9);
-        let low: Vec<String> =
-            low.map(|own| format!("{} {:.0}", own.metric, 100.0 * own.held)).collect();
+        let low: Vec<String> = low
+            .map(|own| format!("{} {:.0}", own.metric, 100.0 * own.held))
+            .collect();
         details += &format!("- {}: {}\n", subject.name, list(&low));
     }
     println!("\nBelow 90 %, with the percentage that contain the converged score:\n\n{details}");

@@ -3,12 +3,12 @@
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use frame::{Alignment, Efficiency, Frame, Ladder, Truth, VelocityKind};
+use frame::{Alignment, Efficiency, Frame, Ladder, Picture, Truth, VelocityKind};
 use glam::{DVec3, Vec3};
 use tests::text::read_rows;
 use tracer::{
-    Background, Lens, Progress, RenderSettings, Scene, TraceError, frame_hash, ladder_hash,
-    replicate_hash, trace_ladder, trace_truth, truth_hash,
+    Background, Lens, PixelGrid, Progress, RenderSettings, Scene, TraceError, frame_hash,
+    ladder_hash, replicate_hash, trace_frame_part, trace_ladder, trace_truth, truth_hash,
 };
 
 use crate::lens::with_lens;
@@ -58,20 +58,28 @@ fn everything(scene: &Scene, settings: &RenderSettings) -> (Frame, Truth, Ladder
 }
 
 #[test]
-fn frame_and_truth_do_not_share_their_noise() {
-    let mut scene = busy_scene();
-    for object in &mut scene.objects {
+fn what_stands_still_has_the_same_noise_in_frame_and_truth() {
+    let traced = |scene: &Scene| {
+        let settings = own_settings();
+        let grid = PixelGrid::of_picture(settings.width, settings.height);
+        let frame = trace_frame_part(scene, &settings, &grid, None, &unwatched).unwrap();
+        [Alignment::Trailing, Alignment::Centred]
+            .map(|alignment| (frame.clone(), render_truth(scene, &settings, alignment)))
+    };
+    let mut still = busy_scene();
+    for object in &mut still.objects {
         object.motion.keys.truncate(1);
     }
-    // Nothing moves: with shared numbers the frame would equal the truth's first replicate, pixel by pixel.
-    let settings = own_settings().with_replicates(2);
-    let frame = render_frame(&scene, &settings.with_replicates(1));
-    let truth = render_truth(&scene, &settings, Alignment::Centred);
-    for half in &truth.halves {
-        let pairs = frame.color.pixels.iter().zip(&half.color.pixels);
-        let equal = pairs.filter(|(a, b)| a == b).count();
-        // Only pixels of the even lamp are naturally equal; the rest is lit and noisy.
-        assert!(equal * 2 < frame.color.pixels.len(), "{equal} are equal");
+    for (frame, truth) in traced(&still) {
+        let halves =
+            [0, 1].map(|half| Picture::mean(frame.replicates.iter().skip(half).step_by(2)));
+        assert_eq!(halves, truth.halves);
+        assert_eq!(frame.frame.samples.as_ref(), Some(&truth.samples));
+        assert_ne!(halves[0], halves[1], "the scene is lit and noisy");
+    }
+    // A mover changes the light on all that it can be seen from.
+    for (frame, truth) in traced(&busy_scene()) {
+        assert_ne!(frame.frame.picture(), truth.mean());
     }
 }
 
@@ -101,11 +109,19 @@ fn another_seed_gives_other_noise() {
     assert_ne!(a.2.rungs[2].halves, b.2.rungs[2].halves);
 }
 
+/// Returns the settings of a frame of one replicate, as `trace_frame` renders it.
+fn of_one_replicate(settings: &RenderSettings) -> RenderSettings {
+    RenderSettings {
+        replicates: 1,
+        ..*settings
+    }
+}
+
 /// Returns the hashes of a scene's frame, truth, replicates and ladder.
 fn hashes(scene: &Scene, settings: &RenderSettings) -> [String; 4] {
     let centred = Alignment::Centred;
     [
-        frame_hash(scene, settings),
+        frame_hash(scene, &of_one_replicate(settings)),
         truth_hash(scene, settings, centred),
         replicate_hash(scene, settings, centred),
         ladder_hash(scene, settings, centred, &RUNGS),
@@ -150,12 +166,10 @@ fn hashes_change_with_everything_that_changes_pixels() {
         &|scene| scene.shutter_profile.rolling = 0.1,
         &|scene| scene.shutter_profile.efficiency = Efficiency::Table(vec![1.0, 1.0]),
     ];
-    for (number, change) in changes.into_iter().enumerate() {
+    for change in changes {
         let mut scene = scene.clone();
         change(&mut scene);
-        let own = hashes(&scene, &settings);
-        // A frame has no shutter.
-        all.extend(own.into_iter().skip(usize::from(number > 3)));
+        all.extend(hashes(&scene, &settings));
     }
     let count = all.len();
     all.sort();
@@ -173,10 +187,9 @@ fn hashes_leave_out_what_changes_no_pixel() {
     of_frame.guard_band = 3;
     let own = hashes(&scene, &settings);
     assert_eq!(own[1..], hashes(&scene, &of_frame)[1..]);
-    assert_ne!(own[0], frame_hash(&scene, &of_frame));
-    let mut of_truth = named;
-    of_truth.replicates = 2;
-    assert_eq!(own[0], frame_hash(&scene, &of_truth));
+    assert_ne!(own[0], frame_hash(&scene, &of_one_replicate(&of_frame)));
+    assert_eq!(own[0], frame_hash(&scene, &of_one_replicate(&named)));
+    assert_ne!(own[0], frame_hash(&scene, &named));
     let lens = with_lens(scene, 0.3, 3.0);
     assert_eq!(own, hashes(&lens.pinhole(), &settings));
 }

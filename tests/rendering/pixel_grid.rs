@@ -15,6 +15,7 @@ const HEIGHT: u32 = 24;
 fn settings(size: [u32; 2]) -> RenderSettings {
     let mut settings = settings_with(size, 4, VelocityKind::PreviousFrame);
     settings.options.color = ColorSampling::Point;
+    settings.replicates = 1;
     settings
 }
 
@@ -31,7 +32,8 @@ fn drifting_sphere() -> Scene {
 fn render_on(size: [u32; 2], offset: [f64; 2]) -> Frame {
     let grid = PixelGrid { size, offset };
     let settings = settings([WIDTH, HEIGHT]);
-    trace_frame_part(&drifting_sphere(), &settings, &grid, None, &unwatched).expect("allowed")
+    let traced = trace_frame_part(&drifting_sphere(), &settings, &grid, None, &unwatched);
+    traced.expect("allowed").frame
 }
 
 #[test]

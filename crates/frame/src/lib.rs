@@ -19,7 +19,7 @@
 //! | coverage | per object: the fraction of (shutter x pixel area) in which that object is the visible surface; sums to 1 with the background. A translucent surface counts by the share of the light that it stops or reflects |
 //! | lens | a camera may have one. Colour and coverage of frames, and all of a truth, are then means over the points of its disc; velocity, depth and object id belong to a pinhole at its centre. A truth's state at the instant is seen from the same point of the lens, so that it shows motion alone |
 //! | translucent surfaces | in colour and coverage; velocity, depth and object id come from the first opaque surface behind them, unless their material says otherwise |
-//! | noise | a truth is R independent, complete replicates; its file has two halves A and B and the standard error. Colour and coverage of a frame are the mean of four such replicates; nothing else in it has noise |
+//! | noise | a truth is R independent, complete replicates; its file has two halves A and B and the standard error. Colour and coverage of a frame are the mean of as many. Replicate r of both has the same random numbers, so that what stands still is equal in both; nothing else in a frame has noise |
 //! | support | the pixels where the open shutter sees an object at all: a function of scene, shutter and size, which the noise of a truth does not change; see [`Support`] |
 //! | determinism | the same inputs give the same bytes on any number of threads |
 
@@ -79,7 +79,7 @@ pub use shutter::{
 };
 pub use support::Support;
 pub use tile::Tile;
-pub use traced_frame::{FRAME_REPLICATES, TracedFrame, read_frame_replicates};
+pub use traced_frame::{TracedFrame, read_frame_replicates};
 pub use truth::{
     FLIP_REACH, Truth, TruthError, motion_margin, moving_region, regions, shaded_region, truth_hash,
 };

@@ -5,10 +5,6 @@ use std::path::Path;
 use crate::exr::{ExrFile, read_exr, write_small_exr};
 use crate::{FileError, Frame, Picture};
 
-/// Replicates of the frame that goes with a truth, whatever the truth's number: with them, its noise is a number of intervals' degrees
-/// of freedom, and it is as well stratified as a replicate of the truth.
-pub const FRAME_REPLICATES: u32 = 4;
-
 /// Attribute of a frame's file with the number of its replicates.
 const REPLICATES: &str = "frame_replicates";
 

@@ -18,7 +18,8 @@ pub fn frame_hash(scene: &Scene, settings: &RenderSettings) -> String {
         exposure: Some(settings.exposure(scene)),
         ..*settings
     };
-    content_hash(scene, "frame", &own)
+    // Its samples are chosen for the time that its truths' shutters are open.
+    content_hash(scene, "frame", &(own, &scene.shutter_profile))
 }
 
 /// The content hash of the frame that [`trace_frame_part`](crate::trace_frame_part) would render; on the picture's own

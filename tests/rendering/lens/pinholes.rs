@@ -56,7 +56,8 @@ fn a_frame_is_the_mean_of_shifted_pinhole_frames() {
         // With one seed their noise would be the same, and stay in the mean.
         let mut settings = settings_of_two(SIZE, 64);
         settings.seed = seed;
-        trace_frame_part(&scene, &settings, &grid, None, &unwatched).unwrap()
+        let traced = trace_frame_part(&scene, &settings, &grid, None, &unwatched);
+        traced.unwrap().frame
     });
     let pictures: Vec<Picture> = pinholes.map(|frame: Frame| frame.picture()).collect();
     expect_same(&own.picture(), &Picture::mean(&pictures));

@@ -61,6 +61,7 @@ fn find_rise(metric: Metric) -> Rise {
         Metric::Image(Flip | FlipHdr, Region::Still | Region::Full) => Rise::Power(ROOT_OF_FLIP),
         Metric::Image(Mae | Smape, _)
         | Metric::Frozen(FrozenMetric::Flip)
+        | Metric::Object(ObjectMetric::RowLoss)
         | Metric::Probe(ProbeMetric::GatherOffset | ProbeMetric::GatherSpread) => Rise::Power(ROOT),
         _ => Rise::Inverse,
     }
