@@ -115,15 +115,7 @@ fn the_choice_is_no_worse_than_the_best_and_a_parameter_without_effect_keeps_its
     assert_eq!(tuning.values["idle"], Real(0.5), "{table}");
     assert_eq!(tuning.choice.reset, ["idle"]);
     assert_contains(&squeeze(&table), &["with idle as in the start"]);
-    // The picture is the same without the change, and so are its scores.
     let best = &trials[tuning.choice.best];
-    let is_worse = |(scene, score): (&String, &tune::SceneScore)| {
-        tuning.chosen.scenes[scene].flip > 1.01 * score.flip
-    };
-    assert!(
-        best.scenes.iter().filter(|own| is_worse(*own)).count() < 3,
-        "{table}"
-    );
     assert!(
         tuning.chosen.error.unwrap() - best.error.unwrap() < 0.01,
         "{table}"
