@@ -75,9 +75,10 @@ impl Loss {
 
     /// Returns true if the scenes do not tell the trial from the best: its loss is within one standard error of 0.
     ///
-    /// Among equals, a loss is beyond one standard error about as often on few scenes as on many (25 % of the time on two, 18 % on
-    /// six, 16 % on hundreds, by Student's t). A test at 5 % would let pass whatever few scenes cannot exclude: on two scenes,
-    /// losses of up to six standard errors.
+    /// No trial that is worse on all of several scenes is: numbers above 0 have a mean above its standard error. Among equals, a loss
+    /// is beyond one standard error about as often on few scenes as on many (25 % of the time on two, 18 % on six, 16 % on hundreds, by
+    /// Student's t). A test at 5 % would let pass whatever few scenes cannot exclude: on two scenes, losses of up to six standard
+    /// errors.
     fn is_within_noise(&self) -> bool {
         self.mean <= self.standard_error
     }
