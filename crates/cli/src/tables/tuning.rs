@@ -88,7 +88,7 @@ fn choice_text(tuning: &Tuning) -> String {
         "it is the best, and the scenes prefer it to all that is nearer to the start".to_owned()
     } else {
         format!(
-            "the best is trial {}; the difference, {} with a standard error of {:.1} %, is too small to leave the start further",
+            "nearer to the start than the best, trial {}, with a difference of {} and a standard error of {:.1} %",
             choice.best,
             percent(choice.loss.mean),
             100.0 * choice.loss.standard_error
