@@ -69,11 +69,15 @@ pub struct Finding {
 }
 
 /// Estimates the samples per pixel that would settle the score, whose interval excludes the limit then. Assumes that its middle stays.
-fn samples_to_settle(run: &Run, metric: Metric, interval: &Interval, limit: f64) -> u64 {
-    let middle = metric.ideal().badness((interval.low + interval.high) / 2.0);
+fn samples_to_settle(
+    samples_per_pixel: u32,
+    metric: Metric,
+    [low, high]: [f64; 2],
+    limit: f64,
+) -> u64 {
+    let middle = metric.ideal().badness((low + high) / 2.0);
     let apart = (middle - limit_as_badness(metric.ideal(), limit)).abs();
-    let half_width = (interval.high - interval.low) / 2.0;
-    settling_samples(run.render.samples_per_pixel, half_width, apart)
+    settling_samples(samples_per_pixel, (high - low) / 2.0, apart)
 }
 
 /// Doubles samples per pixel until an uncertainty, which shrinks with their root, is as small as a distance.
@@ -136,7 +140,9 @@ impl Finding {
             reason,
             settled_by: match (outcome, &interval) {
                 (Outcome::Inconclusive, Some(interval)) => {
-                    Some(samples_to_settle(run, metric, interval, bound.limit))
+                    let ends = [interval.low, interval.high];
+                    let samples = run.render.samples_per_pixel;
+                    Some(samples_to_settle(samples, metric, ends, bound.limit))
                 }
                 _ => None,
             },
@@ -173,5 +179,33 @@ impl Finding {
             "" => number(value),
             unit => format!("{} {unit}", number(value)),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn four_times_the_samples_settle_what_is_half_an_uncertainty_from_its_limit() {
+        let psnr: Metric = "psnr_moving".parse().unwrap();
+        for (metric, ends, limit, expected) in [
+            // The half width is 0.0625, and the middle is that, a half, a quarter and a little more away.
+            (Metric::FLIP, [0.0625, 0.1875], 0.1875, 64),
+            (Metric::FLIP, [0.0625, 0.1875], 0.15625, 256),
+            (Metric::FLIP, [0.0625, 0.1875], 0.140625, 1024),
+            (Metric::FLIP, [0.0625, 0.1875], 0.109, 1024),
+            // The half width is 1 dB, and the middle is 1 dB above the limit.
+            (psnr, [29.0, 31.0], 29.0, 64),
+            (psnr, [29.0, 31.0], 29.5, 256),
+            // Nothing settles what lies on its limit.
+            (Metric::FLIP, [0.0625, 0.1875], 0.125, MAX_SAMPLES),
+        ] {
+            let samples = samples_to_settle(64, metric, ends, limit);
+            assert_eq!(samples, expected, "{metric}: {ends:?} at {limit}");
+        }
+        // Three times the samples are not offered, because replicates are doubled.
+        assert_eq!(settling_samples(64, 3f64.sqrt(), 1.0), 256);
+        assert_eq!(settling_samples(64, 0.5, 1.0), 64);
     }
 }

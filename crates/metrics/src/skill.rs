@@ -44,3 +44,61 @@ fn measure_skill(error: fn(&Pooled) -> f64, own: &Pooled, noise: &Pooled, ends: 
     }
     Measured::score((sharp - own) / way, (sharp - noise) / way)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Makes errors of the same size by each measure.
+    fn pooled(error: f64) -> Pooled {
+        Pooled {
+            mse: error,
+            relmse: 0.0,
+            mae: 0.0,
+            smape: 0.0,
+            flip: error,
+            flip_weighted_median: 0.0,
+            flip_p95: 0.0,
+            flip_p99: 0.0,
+            flip_hdr: 0.0,
+            ssim: None,
+            label: error,
+            label_p95: 0.0,
+        }
+    }
+
+    fn skill(own: f64, noise: f64, [sharp, best]: [f64; 2]) -> [Measured; 3] {
+        let [sharp, best] = [sharp, best].map(pooled);
+        let ends = Ends { sharp, best };
+        let scores = score_skill(&Ok((pooled(own), pooled(noise))), Some(&ends));
+        [scores.mse, scores.flip, scores.label_total_variation]
+    }
+
+    #[test]
+    fn skill_is_the_share_of_the_way_and_its_floor_ends_at_the_noise() {
+        // The way from 0.5 to 0.25: half of it to 0.375, and 7 / 4 of it to the noise of 0.0625.
+        for measured in skill(0.375, 0.0625, [0.5, 0.25]) {
+            assert_eq!(measured, Measured::score(0.5, 1.75));
+        }
+        for (own, expected) in [(0.5, 0.0), (0.25, 1.0), (0.75, -1.0)] {
+            for measured in skill(own, 0.0625, [0.5, 0.25]) {
+                assert_eq!(measured.value(), Some(expected));
+            }
+        }
+    }
+
+    #[test]
+    fn a_way_no_longer_than_the_noise_has_no_skill() {
+        let applies = |noise| skill(0.375, noise, [0.5, 0.25]).map(|own| own.value().is_some());
+        assert_eq!(applies(0.249), [true; 3]);
+        assert_eq!(applies(0.25), [false; 3]);
+        assert_eq!(applies(0.26), [false; 3]);
+        let [measured, ..] = skill(0.375, 0.25, [0.5, 0.25]);
+        let Measured::NotApplicable { reason } = measured else {
+            panic!("{measured:?}");
+        };
+        assert!(reason.contains("2.5e-1 of the error"), "{reason}");
+        let missing = score_skill(&Ok((pooled(0.3), pooled(0.1))), None);
+        assert_eq!(missing.flip, Measured::not_applicable(NO_ENDS));
+    }
+}

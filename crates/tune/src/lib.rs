@@ -1,5 +1,6 @@
 //! Tuning of a filter's parameters towards the truth, and its validation on held-out scenes.
 
+mod ablation;
 mod advice;
 mod candidate;
 mod comparison;
@@ -31,7 +32,7 @@ pub use options::{TuneOptions, interleave_families};
 pub use pareto::{pareto_front, round_bleed};
 pub use preset::tuned_preset_toml;
 pub use search::Search;
-pub use selection::{Choice, ChoiceLimits, Fold, choose_trial, cross_validate};
+pub use selection::{Choice, ChoiceLimits, Fold, Loss, choose_trial, cross_validate};
 pub use sensitivity::{ParameterSensitivity, Sensitivity, analyze_sensitivity, count_candidates};
 pub use sobol::{Estimate, SobolIndices, sobol_indices};
 pub use space::Space;

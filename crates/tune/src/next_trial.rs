@@ -21,8 +21,7 @@ const RACE_STEP: usize = 2;
 /// A candidate is dropped if chance alone would make it look this bad less often than this.
 const RACE_LEVEL: f64 = 0.1;
 
-/// Asks the search for the next candidate and runs it. A candidate that the filter fails on is a failed trial, unless it is the
-/// start.
+/// Asks the search for the next candidate and runs it.
 pub fn run_next_trial(
     options: &TuneOptions,
     evaluator: &mut Evaluator,
@@ -34,6 +33,16 @@ pub fn run_next_trial(
         0 => options.space.start.clone(),
         _ => options.space.settings(&search.ask(&losses)),
     };
+    run_trial(options, evaluator, trials, &settings)
+}
+
+/// Runs a candidate after other trials. A candidate that the filter fails on is a failed trial, unless it is the start.
+pub fn run_trial(
+    options: &TuneOptions,
+    evaluator: &mut Evaluator,
+    trials: &[Trial],
+    settings: &Settings,
+) -> Result<Trial, Error> {
     let values = (options.space.axes.iter())
         .map(|axis| (axis.name.clone(), settings.values[&axis.name].clone()))
         .collect();
@@ -47,7 +56,7 @@ pub fn run_next_trial(
         cost: None,
         scenes: BTreeMap::new(),
     };
-    match measure_trial(options, evaluator, trials, &settings, &mut trial) {
+    match measure_trial(options, evaluator, trials, settings, &mut trial) {
         Ok(()) => Ok(trial),
         Err(error @ (Error::Trace(_) | Error::Filter(FilterError::Interrupted))) => Err(error),
         Err(error) if trials.is_empty() => Err(error),

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use suite::{Error, PROGRAM};
 use tracer::TraceError;
 
+use crate::ablation::ablate_choice;
 use crate::comparison::compare_candidates;
 use crate::evaluator::Evaluator;
 use crate::held_out::{HeldOutResult, record_held_out_result};
@@ -21,7 +22,7 @@ use crate::target::{Target, render_scenes};
 use crate::trial::{JOURNAL_FORMAT, JournalHeader, Objective, Trial, TrialOutcome};
 
 /// Version of the layout of `tune.json`.
-pub const TUNE_FORMAT: u32 = 1;
+pub const TUNE_FORMAT: u32 = 2;
 
 /// A finished tuning: `tune.json`.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -42,7 +43,7 @@ pub struct Tuning {
     pub front: Vec<Trial>,
     /// Choice among the trials.
     pub choice: Choice,
-    /// The chosen trial.
+    /// The chosen trial, with the parameters of [`Choice::reset`] at the start.
     pub chosen: Trial,
     /// The choice's value of every parameter, as the command `evaluate` reads them.
     pub values: BTreeMap<String, Value>,
@@ -88,7 +89,7 @@ pub fn tune(
         on_trial(&trial);
         journal.append(trial)?;
     }
-    let mut tuning = conclude(options, header, &journal.trials)?;
+    let mut tuning = conclude(options, &mut evaluator, header, &journal.trials)?;
     if !options.held_out.is_empty() {
         tuning.held_out = evaluate_held_out(options, gpu, &tuning.values)?;
     }
@@ -160,14 +161,25 @@ fn make_header(options: &TuneOptions, evaluator: &Evaluator, search: &Search) ->
 /// Chooses among the trials and summarises them.
 fn conclude(
     options: &TuneOptions,
+    evaluator: &mut Evaluator,
     header: JournalHeader,
     trials: &[Trial],
 ) -> Result<Tuning, Error> {
     let space = &options.space;
     let limits = options.choice_limits(&trials[0]);
-    let choice = choose_trial(trials, space, limits, |_| true)
+    let mut choice = choose_trial(trials, space, limits, |_| true)
         .expect("the start is always allowed, and has scenes");
-    let done: Vec<&Trial> = trials.iter().filter(|trial| trial.is_done()).collect();
+    let chosen = ablate_choice(options, evaluator, trials, &mut choice)?;
+    // The choice replaces the trial that it was made from.
+    let done: Vec<&Trial> = (trials.iter().filter(|trial| trial.is_done()))
+        .map(|trial| {
+            if trial.trial == chosen.trial {
+                &chosen
+            } else {
+                trial
+            }
+        })
+        .collect();
     let measured = |it: &&Trial| [it.error, it.bleed.map(round_bleed), it.cost].into_iter();
     let rows: Vec<Vec<f64>> = done
         .iter()
@@ -182,7 +194,6 @@ fn conclude(
         TrialOutcome::Failed { reason } => Some((trial.trial, reason.clone())),
         _ => None,
     });
-    let chosen = trials[choice.trial].clone();
     Ok(Tuning {
         format: TUNE_FORMAT,
         journal: header,

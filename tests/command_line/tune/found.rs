@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use filters::Filter;
+use filters::Value::Real;
 use serde_json::Value;
 use tests::filter_folder::copy_shipped_filter;
 use tests::text::{assert_contains, squeeze};
@@ -87,6 +88,47 @@ fn the_choice_is_a_file_of_parameters_and_a_preset() {
     assert_eq!((tuned.size, tuned.samples_per_pixel), ([64, 32], 16));
     let scenes = tuning.journal.scenes.iter().map(|(name, _)| name);
     assert!(tuned.scenes.iter().eq(scenes));
+}
+
+/// Tunes the filter `gain`, which starts a fifth too dark and has a parameter without effect.
+fn tune_gain(sandbox: &Sandbox, more: &str) -> String {
+    let filter = tests::root().join("tests/fixtures/filters/gain");
+    let filter = filter.display();
+    let words =
+        "--objective flip --scenes a,b,c,d,e,f --size 64x32 --samples-per-pixel 16 --out out";
+    sandbox.done(&format!(
+        "tune search --quiet --filter {filter} {words} {more}"
+    ))
+}
+
+#[test]
+fn the_choice_is_no_worse_than_the_best_and_a_parameter_without_effect_keeps_its_value() {
+    let sandbox = set_up();
+    let table = tune_gain(&sandbox, "--budget 60");
+    let tuning = read_tuning(&sandbox);
+    let trials = read_trials(&sandbox);
+    assert!(
+        trials[1..]
+            .iter()
+            .all(|trial| trial.values["idle"] != Real(0.5))
+    );
+    assert_eq!(tuning.values["idle"], Real(0.5), "{table}");
+    assert_eq!(tuning.choice.reset, ["idle"]);
+    assert_contains(&squeeze(&table), &["with idle as in the start"]);
+    let best = &trials[tuning.choice.best];
+    assert!(
+        tuning.chosen.error.unwrap() - best.error.unwrap() < 0.01,
+        "{table}"
+    );
+    // Another call measures no new trial of the journal, and chooses the same.
+    tune_gain(&sandbox, "--budget 60");
+    assert_eq!(read_trials(&sandbox), trials);
+    assert_eq!(read_tuning(&sandbox).chosen, tuning.chosen);
+    // A range without the start's value is respected.
+    fs::remove_dir_all(sandbox.path("out")).unwrap();
+    tune_gain(&sandbox, "--budget 20 --vary gain,idle=0.6..1");
+    let tuning = read_tuning(&sandbox);
+    assert!(tuning.choice.trial > 0 && tuning.choice.reset.is_empty());
 }
 
 #[test]

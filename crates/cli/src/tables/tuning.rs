@@ -42,23 +42,8 @@ pub fn tuning_table(tuning: &Tuning) -> String {
     if tuning.front.len() > ROWS {
         text += &format!("and {} more in tune.json\n", tuning.front.len() - ROWS);
     }
-    let chosen = format!(
-        "{}: trial {}, {}; the best is trial {}, and {} lies within its standard error of {:.3}",
-        match tuning.advice() {
-            Advice::Take => "chosen",
-            _ => "candidate",
-        },
-        tuning.choice.trial,
-        percent(tuning.chosen.error.expect("the choice is done")),
-        tuning.choice.best,
-        match tuning.choice.trial == tuning.choice.best {
-            true => "nothing nearer to the start",
-            false => "this one, nearer to the start,",
-        },
-        tuning.choice.standard_error,
-    );
     text += "\n";
-    push_wrapped(&mut text, 0, &chosen);
+    push_wrapped(&mut text, 0, &choice_text(tuning));
     if !tuning.folds.is_empty() {
         text += "\n";
         text += &heading("family left out  scenes  trial  on the others  on the family    gap");
@@ -85,6 +70,34 @@ pub fn tuning_table(tuning: &Tuning) -> String {
         push_wrapped(&mut text, 0, &format!("failed: trial {trial}: {reason}"));
     }
     text
+}
+
+/// Describes the choice and its distance from the best.
+fn choice_text(tuning: &Tuning) -> String {
+    let choice = &tuning.choice;
+    let title = match tuning.advice() {
+        Advice::Take => "chosen",
+        _ => "candidate",
+    };
+    let error = percent(tuning.chosen.error.expect("the choice is done"));
+    let reset = match choice.reset.as_slice() {
+        [] => String::new(),
+        names => format!(" with {} as in the start", names.join(", ")),
+    };
+    let distance = if choice.trial == choice.best && choice.reset.is_empty() {
+        "it is the best, and the scenes prefer it to all that is nearer to the start".to_owned()
+    } else {
+        format!(
+            "nearer to the start than the best, trial {}, with a difference of {} and a standard error of {:.1} %",
+            choice.best,
+            percent(choice.loss.mean),
+            100.0 * choice.loss.standard_error
+        )
+    };
+    format!(
+        "{title}: trial {}{reset}, {error}; {distance}",
+        choice.trial
+    )
 }
 
 /// Recommends the choice and names its files, or says why there is no preset.

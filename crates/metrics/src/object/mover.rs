@@ -127,3 +127,39 @@ fn unit(vector: [f64; 2]) -> [f64; 2] {
         vector.map(|component| component / distance)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn translation(displacement: [f64; 2], deviation: f64) -> Result<[f64; 2], String> {
+        let silhouette = Silhouette {
+            lateral: 2.0,
+            across: 1.0,
+        };
+        let mover = Mover {
+            displacement,
+            deviation,
+            silhouette,
+        };
+        mover.translation()
+    }
+
+    #[test]
+    fn a_mover_translates_if_its_pixels_deviate_by_at_most_a_tenth_of_their_mean() {
+        assert_eq!(translation([6.0, -8.0], 0.0), Ok([0.6, -0.8]));
+        assert_eq!(translation([6.0, -8.0], 0.999), Ok([0.6, -0.8]));
+        let reason = translation([6.0, -8.0], 1.001).unwrap_err();
+        assert!(
+            reason.contains("deviates by 1.00 px from its mean of 10.00 px"),
+            "{reason}"
+        );
+        // A tenth of a pixel is the least that counts as motion.
+        assert_eq!(translation([0.1, 0.0], 0.0), Ok([1.0, 0.0]));
+        let reason = translation([0.099, 0.0], 0.0).unwrap_err();
+        assert!(
+            reason.contains("their mean displacement is 0.10 px"),
+            "{reason}"
+        );
+    }
+}

@@ -44,8 +44,12 @@ pub fn summary(tuning: &Tuning) -> Markup {
         }
         p {
             "The error is the mean over scenes of log(FLIP / FLIP of the start), shown as a change in percent. The best is trial "
-            (choice.best) ". Of all within its standard error of " (format!("{:.3}", choice.standard_error))
-            ", trial " (choice.trial) " is nearest to the start. " (tuning.dropped) " of " (tuning.trials)
+            (choice.best) ". Trial " (choice.trial) " is the nearest to the start that the scenes do not tell from it (difference "
+            (percent(choice.loss.mean)) ", standard error " (format!("{:.1} %", 100.0 * choice.loss.standard_error)) "). "
+            @if !choice.reset.is_empty() {
+                "Set back to the start, without an effect that the scenes show: " (choice.reset.join(", ")) ". "
+            }
+            (tuning.dropped) " of " (tuning.trials)
             " trials were dropped after the first scenes, " (tuning.failed.len()) " did not run."
         }
     }
