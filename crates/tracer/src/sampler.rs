@@ -14,8 +14,8 @@ const LENS_SET: u32 = u32::MAX;
 pub(crate) enum Stream {
     Frame,
     Truth,
-    /// An accumulation of this many sub-frames.
-    Accumulation(u32),
+    /// Accumulations of sub-frames, and the whole shutter that they are compared with.
+    Ladder,
     Support,
     /// Pilots of frames and of truths.
     FramePilot,
@@ -36,8 +36,7 @@ pub(crate) fn pixel_seed(seed: u64, stream: Stream, pixel: u32, replicate: u32) 
     let stream = match stream {
         Stream::Frame => 0,
         Stream::Truth => 1,
-        Stream::Accumulation(subframes) => 1 + u64::from(subframes),
-        // Greater than any number of sub-frames.
+        Stream::Ladder => 2,
         Stream::Support => u64::MAX,
         Stream::TruthPilot => u64::MAX - 1,
         Stream::FramePilot => u64::MAX - 2,

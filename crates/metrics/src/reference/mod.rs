@@ -6,8 +6,9 @@ mod frozen;
 mod jitter;
 mod lateral_bleed;
 mod measurement;
+mod sharp;
 
-use frame::{Frame, Image, Ladder, Picture, Plane, Raster, Truth, regions};
+use frame::{Accumulation, Frame, Image, Ladder, Picture, Plane, Raster, Truth, regions};
 use rayon::prelude::*;
 
 use crate::color::absolute_error::absolute_error;
@@ -22,18 +23,21 @@ use crate::picture::scores::{Found, score_image, score_labels};
 use crate::picture::seen_truth::SeenTruth;
 use crate::probe::{OriginReference, ProbeMeasurement, Probes};
 use crate::skill::{Ends, score_skill};
-use crate::subframes::Equivalent;
-use crate::subframes::ladder::{Curves, ErrorKind};
+use crate::subframes::ladder::{Curves, Errors, RungTruth};
+use crate::subframes::{Equivalent, Subframes, count_equivalents};
 use crate::{
-    EquivalentScores, MeasureError, Measured, ObjectScores, ProbeScores, Region, Regions, Scores,
-    Viewing,
+    EquivalentMetric, EquivalentScores, MeasureError, Measured, ObjectScores, ProbeScores, Region,
+    Regions, Scores, Viewing,
 };
-use check::{check_agreement, check_brightness, check_ladder, check_picture, check_viewing};
+use check::{
+    check_agreement, check_brightness, check_ladder, check_picture, check_rung, check_viewing,
+};
 use frozen::FrozenReference;
 
 pub use color::ColorReference;
 pub use jitter::Jitter;
 pub use measurement::Measurement;
+pub use sharp::Sharp;
 
 const NO_INSTANT: &str =
     "an engine's sub-frames do not say where their surfaces were at the instant";
@@ -115,53 +119,110 @@ impl<'a> Reference<'a> {
         Ok(reference)
     }
 
+    /// Returns the errors of the rungs.
+    pub fn curves(&self) -> &Curves {
+        &self.curves
+    }
+
     /// Adds rungs of the ladder, each with more sub-frames than those before. Memory then need not hold all of them at once.
     pub fn add_rungs(&mut self, ladder: &Ladder) -> Result<(), MeasureError> {
         check_ladder(ladder, self.truth)?;
-        let truth = (
-            &self.mean,
-            self.truth.halves.each_ref().map(|half| &half.color),
-        );
+        let has_noise = self.truth.provenance.engine.is_none();
+        let truth = RungTruth {
+            mean: &self.mean,
+            half: if has_noise {
+                &self.truth.halves[0]
+            } else {
+                &self.mean
+            },
+            seen: &self.seen.display,
+        };
         for rung in &ladder.rungs {
-            self.curves.add(
-                rung,
-                truth,
-                &self.seen.display,
-                &self.regions,
-                &self.viewing,
-            );
+            self.curves.add(rung, &truth, &self.regions, &self.viewing);
         }
         Ok(())
     }
 
     /// Adds the pictures that skill is measured between. `sharp` shows the instant in the middle of the shutter and has a skill
     /// of 0; `best` is the one-frame oracle's, the best that one frame can give, and has 1. Without them skill does not apply.
-    pub fn with_ends(mut self, sharp: &Picture, best: &Picture) -> Result<Self, MeasureError> {
-        check_picture(
-            sharp,
-            self.truth,
-            "the sharp picture of the shutter's middle",
-        )?;
+    pub fn with_ends(mut self, sharp: &Sharp, best: &Picture) -> Result<Self, MeasureError> {
+        let what = "the sharp picture of the shutter's middle";
         check_picture(best, self.truth, "the one-frame oracle")?;
-        let pool = |picture: &Picture| {
-            let errors = self.map_errors(picture, &self.display(picture));
-            Pooled::new(&errors, &self.regions, Region::Moving, &self.windows)
+        let sharp = match sharp {
+            Sharp::Frame(picture) => {
+                check_picture(picture, self.truth, what)?;
+                self.pool_moving(picture, self.half_colors())
+            }
+            Sharp::Accumulation(rung) => {
+                check_rung(rung, self.truth, what)?;
+                // With the truth's noise, which other pictures are measured with too.
+                let picture = self.truth.halves[0].plus(&rung.difference());
+                let halves = rung
+                    .halves()
+                    .map(|half| subtract(&picture.color, &half.color));
+                self.pool_moving(&picture, halves.each_ref())
+            }
         };
-        let ends = pool(sharp).zip(pool(best));
+        let ends = sharp.zip(self.pool_moving(best, self.half_colors()));
         self.ends = ends.map(|(sharp, best)| Ends { sharp, best });
         Ok(self)
     }
 
+    /// Pools a picture's errors over the moving region; none if nothing moves.
+    fn pool_moving(&self, picture: &Picture, halves: [&Image; 2]) -> Option<Pooled> {
+        let errors = self.map_errors(picture, &self.display(picture), halves);
+        Pooled::new(&errors, &self.regions, Region::Moving, &self.windows)
+    }
+
     /// Measures one picture.
     pub fn measure(&self, output: &Picture) -> Result<Measurement, MeasureError> {
+        self.measure_against(output, self.half_colors(), self.frozen.halves())
+    }
+
+    /// Measures the picture of an accumulation of the same shutter. It has the truth's noise, so that only its difference from
+    /// the truth counts as error; its equivalent sub-frames are its own.
+    pub fn measure_accumulation(&self, rung: &Accumulation) -> Result<Measurement, MeasureError> {
+        let what = format!("the accumulation of {} sub-frames", rung.subframes);
+        check_rung(rung, self.truth, &what)?;
+        let picture = rung.picture(&self.mean);
+        let differences = rung.halves().map(|half| half.color);
+        let halves = [0, 1].map(|half| subtract(&picture.color, &differences[half]));
+        // Each half of the picture is compared with its own half of the truth, whose noise it shares.
+        let colors = self.half_colors();
+        let frozen = [0, 1].map(|half| {
+            let shading = subtract(colors[half], self.frozen.halves()[half]);
+            subtract(&halves[half], &shading)
+        });
+        let mut measurement =
+            self.measure_against(&picture, halves.each_ref(), frozen.each_ref())?;
+        let counts = &mut measurement.scores.equivalent_subframes;
+        for metric in EquivalentMetric::ALL {
+            if let Equivalent::Subframes(count) = counts.get(metric).clone() {
+                let own = Subframes::of_rung(rung.subframes, count.floor);
+                *counts.get_mut(metric) = Equivalent::Subframes(own);
+            }
+        }
+        Ok(measurement)
+    }
+
+    /// Measures one picture: squared errors against these halves of the truth, and of the one with frozen shading.
+    fn measure_against(
+        &self,
+        output: &Picture,
+        halves: [&Image; 2],
+        frozen_halves: [&Image; 2],
+    ) -> Result<Measurement, MeasureError> {
         check_picture(output, self.truth, "the output")?;
         check_brightness(output, &self.viewing, "the output")?;
         let displayed = self.display(output);
-        let errors = self.map_errors(output, &displayed);
+        let errors = self.map_errors(output, &displayed, halves);
         let (objects, [bleed, gradient_error]) = self.measure_objects(output, &errors);
-        let (frozen, frozen_squared) =
-            self.frozen
-                .measure((&output.color, &displayed), &self.regions, &self.viewing);
+        let (frozen, frozen_squared) = self.frozen.measure(
+            (&output.color, &displayed),
+            frozen_halves,
+            &self.regions,
+            &self.viewing,
+        );
         let static_change = self.map_static_change(&output.color);
         let pooled = Pooled::over_all(&errors, &self.regions, &self.windows);
         let pooled = Region::ALL.map(|region| -> Found {
@@ -261,8 +322,12 @@ impl<'a> Reference<'a> {
         Displayed::new(&picture.color, &self.viewing)
     }
 
-    fn map_errors(&self, picture: &Picture, displayed: &Displayed) -> ErrorMaps {
-        let halves = self.half_colors();
+    fn map_errors(
+        &self,
+        picture: &Picture,
+        displayed: &Displayed,
+        halves: [&Image; 2],
+    ) -> ErrorMaps {
         ErrorMaps::new((picture, displayed), halves, &self.mean, &self.seen)
     }
 
@@ -274,27 +339,81 @@ impl<'a> Reference<'a> {
         })
     }
 
+    /// Counts the equivalent sub-frames of a measured picture again, with intervals. `without` holds the reference without each
+    /// group of samples, and the scores of the picture without it. Counts that do not apply stay so.
+    pub fn count_subframes(
+        &self,
+        scores: &Scores,
+        without: &[(&Reference, &Scores)],
+    ) -> EquivalentScores {
+        let mut counts = scores.equivalent_subframes.clone();
+        let without: Option<Vec<(Errors, &Curves)>> = (without.iter())
+            .map(|(reference, scores)| Some((measured_errors(scores)?.0, &reference.curves)))
+            .collect();
+        if let Some((own, noise)) = measured_errors(scores)
+            && !self.curves.is_empty()
+        {
+            let without = without.unwrap_or_default();
+            let found = count_equivalents(&own, &self.curves, &noise, &without);
+            for metric in EquivalentMetric::ALL {
+                if let Equivalent::Subframes(_) = counts.get(metric) {
+                    *counts.get_mut(metric) = found.get(metric).clone();
+                }
+            }
+        }
+        counts
+    }
+
     fn score_equivalents(&self, moving: &Found) -> EquivalentScores {
-        let score = |kind: ErrorKind, error: fn(&Pooled) -> f64| {
-            if self.curves.is_empty() {
-                return Equivalent::not_applicable("no ladder of accumulations was given");
-            }
-            match (moving, self.curves.curve(kind)) {
-                (Ok((own, noise)), Some(curve)) => {
-                    Equivalent::Subframes(curve.convert(error(own), error(noise)))
-                }
-                (Ok(_), None) => {
-                    Equivalent::not_applicable("no accumulation can be told from the truth")
-                }
-                (Err(reason), _) => Equivalent::not_applicable(reason),
-            }
+        let missing = |reason: &str| EquivalentScores {
+            mse: Equivalent::not_applicable(reason),
+            flip: Equivalent::not_applicable(reason),
+            label_total_variation: Equivalent::not_applicable(reason),
         };
-        EquivalentScores {
-            mse: score(ErrorKind::Mse, |pooled| pooled.mse),
-            flip: score(ErrorKind::Flip, |pooled| pooled.flip),
-            label_total_variation: score(ErrorKind::Label, |pooled| pooled.label),
+        if self.curves.is_empty() {
+            return missing("no ladder of accumulations was given");
+        }
+        match moving {
+            Ok((own, noise)) => {
+                let [own, noise] = [*own, *noise].each_ref().map(Errors::from);
+                count_equivalents(&own, &self.curves, &noise, &[])
+            }
+            Err(reason) => missing(reason),
         }
     }
+}
+
+/// Returns a picture's errors over the moving region, without those of a label if it has none, and those of the truth's noise; none
+/// if nothing moves.
+fn measured_errors(scores: &Scores) -> Option<(Errors, Errors)> {
+    let score = |measured: &Measured| match measured {
+        Measured::Score(score) => Some((score.value, score.floor)),
+        Measured::NotApplicable { .. } => None,
+    };
+    let (mse, flip) = (score(&scores.moving.mse)?, score(&scores.moving.flip)?);
+    // A picture without mattes has no count by labels.
+    let label = score(&scores.label_total_variation.mean).unwrap_or_default();
+    let errors = |part: fn((f64, f64)) -> f64| Errors {
+        mse: part(mse),
+        flip: part(flip),
+        label: part(label),
+    };
+    Some((errors(|score| score.0), errors(|score| score.1)))
+}
+
+impl From<&Pooled> for Errors {
+    fn from(pooled: &Pooled) -> Self {
+        Self {
+            mse: pooled.mse,
+            flip: pooled.flip,
+            label: pooled.label,
+        }
+    }
+}
+
+/// Subtracts an image from another.
+fn subtract(a: &Image, b: &Image) -> Image {
+    zip_pixels(a, b, |a, b| std::array::from_fn(|c| a[c] - b[c]))
 }
 
 /// Marks the pixels with their SSIM window in the picture.
