@@ -17,25 +17,17 @@ pub struct Accumulation {
     /// Number of instants that were averaged.
     pub subframes: u32,
     /// Differences from the whole shutter's picture: radiance and shares that may be negative. Each is the mean of an independent
-    /// group of samples; one alone has no noise.
+    /// group of samples; there are at least two.
     pub groups: Vec<Picture>,
 }
 
 impl Accumulation {
-    /// Makes the accumulation of a picture without noise, which is compared with the truth of this mean.
-    pub fn exact(subframes: u32, picture: &Picture, mean: &Picture) -> Self {
-        Self {
-            subframes,
-            groups: vec![picture.minus(mean)],
-        }
-    }
-
     /// Averages the differences over all groups.
     pub fn difference(&self) -> Picture {
         Picture::mean(&self.groups)
     }
 
-    /// Averages the even and the odd groups; both are the only group if there is one.
+    /// Averages the even and the odd groups. Of one group alone, both halves are that group, and its noise counts as error.
     pub fn halves(&self) -> [Picture; 2] {
         let odd = usize::from(self.groups.len() > 1);
         [0, odd].map(|first| Picture::mean(self.groups.iter().skip(first).step_by(2)))

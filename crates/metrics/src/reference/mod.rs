@@ -12,8 +12,10 @@ use frame::{Accumulation, Frame, Image, Ladder, Picture, Plane, Raster, Truth, r
 use rayon::prelude::*;
 
 use crate::color::absolute_error::absolute_error;
+use crate::color::cross_error::squared_error;
 use crate::color::flip::Displayed;
 use crate::color::ssim::SSIM_BORDER;
+use crate::label::label_variation;
 use crate::math::pooling::mean_over;
 use crate::math::raster::zip_pixels;
 use crate::object::reference::ObjectReference;
@@ -339,21 +341,36 @@ impl<'a> Reference<'a> {
         })
     }
 
+    /// Measures the errors alone that equivalent sub-frames are counted by; none if nothing moves.
+    pub fn measure_errors(&self, output: &Picture) -> Result<Option<Errors>, MeasureError> {
+        check_picture(output, self.truth, "the output")?;
+        check_brightness(output, &self.viewing, "the output")?;
+        let squared = squared_error(&output.color, self.half_colors(), self.viewing.scale());
+        let flip = (self.seen.display).map_errors(&self.display(output).linear);
+        let label = label_variation(&output.coverage, &self.mean.coverage);
+        let mse = mean_over(&squared, &self.regions, Region::Moving);
+        let flip = mean_over(&flip, &self.regions, Region::Moving);
+        let label = mean_over(&label, &self.regions, Region::Moving);
+        let found = mse.zip(flip).zip(label);
+        Ok(found.map(|((mse, flip), label)| Errors { mse, flip, label }))
+    }
+
     /// Counts the equivalent sub-frames of a measured picture again, with intervals. `without` holds the reference without each
-    /// group of samples, and the scores of the picture without it. Counts that do not apply stay so.
+    /// group of samples (truth and ladder), and the errors against it of the picture without that group, by
+    /// [`Reference::measure_errors`]. Counts that do not apply stay so.
     pub fn count_subframes(
         &self,
         scores: &Scores,
-        without: &[(&Reference, &Scores)],
+        without: &[(&Reference, Errors)],
     ) -> EquivalentScores {
         let mut counts = scores.equivalent_subframes.clone();
-        let without: Option<Vec<(Errors, &Curves)>> = (without.iter())
-            .map(|(reference, scores)| Some((measured_errors(scores)?.0, &reference.curves)))
+        let without = without.iter();
+        let without: Vec<(Errors, &Curves)> = without
+            .map(|(reference, errors)| (*errors, &reference.curves))
             .collect();
         if let Some((own, noise)) = measured_errors(scores)
             && !self.curves.is_empty()
         {
-            let without = without.unwrap_or_default();
             let found = count_equivalents(&own, &self.curves, &noise, &without);
             for metric in EquivalentMetric::ALL {
                 if let Equivalent::Subframes(_) = counts.get(metric) {

@@ -105,7 +105,7 @@ impl Curves {
 }
 
 /// Estimates the mean square of a difference without the noise of its groups, mean over the channels: the mean of the products
-/// of all pairs of different groups. One group has no noise.
+/// of all pairs of different groups. The noise of one group alone counts.
 fn mean_square(rung: &Accumulation, mean: &Image, regions: &Regions, scale: f64) -> f64 {
     let square = |image: &Image| {
         let squares = image.map(|pixel| {

@@ -1,6 +1,7 @@
 //! Equivalent sub-frames: the number of accumulated sub-frames with the same error.
 
 mod count;
+mod curve;
 pub(crate) mod ladder;
 
 use std::fmt;

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use filters::{Convention, FilterError};
-use frame::{Frame, Ladder, Picture, Vectors};
+use frame::{Accumulation, Frame, Ladder, Picture, Vectors};
 use metrics::{
     ColorReference, ImageScores, Jitter, MeasureError, Measurement, Metric, ProbeScores, Reference,
 };
@@ -94,8 +94,7 @@ impl CaseContext<'_> {
                 self.measure_reference(self.references.oracle.clone())?
             }
             PictureSource::Accumulation(subframes) => {
-                let ladder = (self.read_rung)(*subframes)?;
-                self.measure_reference(Picture::mean(&ladder.rungs[0].halves))?
+                self.measure_accumulation(&(self.read_rung)(*subframes)?.rungs[0])?
             }
             PictureSource::Filter(choice, input) => self.measure_filter(choice, *input)?,
             PictureSource::Engine(scene) => self.measure_engine(scene)?,
@@ -108,10 +107,16 @@ impl CaseContext<'_> {
         Ok(MeasuredPicture::new(picture, measurement))
     }
 
+    fn measure_accumulation(&self, rung: &Accumulation) -> Result<MeasuredPicture, Error> {
+        let picture = rung.picture(&self.references.truth.mean());
+        let measurement = self.references.reference.measure_accumulation(rung)?;
+        Ok(MeasuredPicture::new(picture, measurement))
+    }
+
     /// Measures the engine's own picture, with intervals as for filters.
     fn measure_engine(&self, scene: &EngineScene) -> Result<MeasuredPicture, Error> {
         let picture = scene.read_picture(self.frame)?;
-        let (measurement, intervals) = self.measure_with_intervals(|reference| {
+        let (measurement, intervals) = self.measure_with_intervals(&picture, |reference| {
             let mut measurement = reference.measure(&picture)?;
             measurement.scores.take_out_mattes(NO_MATTES);
             Ok(measurement)
@@ -154,8 +159,10 @@ impl CaseContext<'_> {
             false => None,
         };
         let jitter = self.measure_jitter(&mut runner, frame, pass)?;
-        let (measurement, intervals) =
-            self.measure_with_intervals(|reference| measure_output(reference, &output))?;
+        let (measurement, intervals) = self
+            .measure_with_intervals(&output.picture, |reference| {
+                measure_output(reference, &output)
+            })?;
         Ok(MeasuredPicture {
             intervals,
             nonlinearity: Some(output.nonlinearity),
@@ -176,20 +183,40 @@ impl CaseContext<'_> {
         self.references.truth.size().into()
     }
 
-    /// Measures a picture, with score intervals if requested.
+    /// Measures a picture, with score intervals if requested. The counts of equivalent sub-frames have theirs wherever the truth was
+    /// also prepared without its pairs.
     fn measure_with_intervals(
         &self,
+        picture: &Picture,
         measure: impl Fn(&Reference) -> Result<Measurement, MeasureError>,
     ) -> Result<(Measurement, Intervals), MeasureError> {
-        let measurement = measure(&self.references.reference)?;
-        let without_pairs = (self.references.without_pairs.iter())
+        let TruthReferences {
+            reference,
+            without_pairs,
+            ..
+        } = self.references;
+        let mut measurement = measure(reference)?;
+        let scores = &mut measurement.scores;
+        if !reference.curves().is_empty() {
+            let errors = without_pairs.iter().map(|reference| {
+                let errors = reference.measure_errors(picture)?;
+                Ok(errors.map(|errors| (reference, errors)))
+            });
+            let errors: Result<Option<Vec<_>>, MeasureError> = errors.collect();
+            let errors = errors?.unwrap_or_default();
+            scores.equivalent_subframes = reference.count_subframes(scores, &errors);
+        }
+        if !self.scene.plan.intervals {
+            return Ok((measurement, Intervals::new()));
+        }
+        let without = (without_pairs.iter())
             .map(|reference| Ok(measure(reference)?.scores))
             .collect::<Result<Vec<_>, MeasureError>>()?;
-        let intervals = match without_pairs.as_slice() {
+        let found = match without.as_slice() {
             [] => Intervals::new(),
-            without_pairs => intervals(&measurement.scores, without_pairs, Metric::all()),
+            without => intervals(scores, without, Metric::all()),
         };
-        Ok((measurement, intervals))
+        Ok((measurement, found))
     }
 
     /// Separates the filter's noise from its other errors; none without noise, or for too few frames.

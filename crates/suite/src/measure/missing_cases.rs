@@ -20,7 +20,7 @@ use crate::inputs::input_format::InputFormat;
 use crate::render::ladders::{SHARP, needed_rungs};
 use crate::run::case::Case;
 use crate::run::failure::Failure;
-use crate::stats::intervals::truths_without_pairs;
+use crate::stats::intervals::{MIN_REPLICATES, truths_without_pairs};
 
 impl SceneContext<'_> {
     /// Measures some cases, and writes each record as soon as it is complete.
@@ -175,7 +175,8 @@ impl SceneContext<'_> {
         }
     }
 
-    /// Makes the truths of an alignment without one pair of replicates each, if cases of filters get intervals. Makes none for an engine's
+    /// Makes the truths of an alignment without one pair of replicates each, if cases of filters get intervals or, with a ladder, counts
+    /// of equivalent sub-frames, which have intervals. Makes none for two replicates, which are one pair, and none for an engine's
     /// scene: sub-frames are no random samples, and a truth without some of them has holes.
     fn truths_without_pairs(
         &self,
@@ -186,7 +187,8 @@ impl SceneContext<'_> {
         let RunScene::Traced(scene) = self.scene else {
             return Ok(Vec::new());
         };
-        if !has_filters || !self.plan.intervals {
+        let is_needed = has_filters && (self.plan.intervals || self.plan.ladders);
+        if !is_needed || self.plan.render.replicates < MIN_REPLICATES {
             return Ok(Vec::new());
         }
         let files = self.plan.rendering(scene).files(alignment);

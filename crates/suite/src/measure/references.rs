@@ -1,7 +1,7 @@
 //! Truths, prepared for measuring many pictures.
 
 use frame::{Accumulation, Frame, Ladder, Picture, Truth};
-use metrics::{Reference, Viewing};
+use metrics::{Reference, Sharp, Viewing};
 
 use crate::Error;
 use crate::render::ladders::sharp_picture;
@@ -15,7 +15,8 @@ pub(crate) struct TruthReferences<'a> {
     pub oracle: Picture,
     /// All that pictures are compared with.
     pub reference: Reference<'a>,
-    /// References to the truths without one pair of replicates each; empty if scores get no intervals.
+    /// References to the truths without one pair of replicates each, and to their ladders without the group of samples of the same
+    /// number; empty if nothing gets intervals.
     pub without_pairs: Vec<Reference<'a>>,
 }
 
@@ -33,17 +34,18 @@ impl<'a> TruthReferences<'a> {
         let oracle = make_oracle(frame, truth);
         let frame = frame.cropped();
         let sharp = sharp_picture(&frame, truth, read_sharp)?;
-        let reference = |truth: &'a Truth| {
-            Reference::new(&frame, truth, None, viewing)?.with_ends(&sharp, &oracle)
+        let reference = |truth: &'a Truth, sharp: &Sharp| {
+            Reference::new(&frame, truth, None, viewing)?.with_ends(sharp, &oracle)
         };
-        let mut own = reference(truth)?;
-        let mut without_pairs: Vec<Reference> = (without_pairs.iter())
-            .map(reference)
+        let mut own = reference(truth, &sharp)?;
+        let mut without_pairs: Vec<Reference> = (without_pairs.iter().enumerate())
+            .map(|(group, truth)| reference(truth, &sharp.without(group)))
             .collect::<Result<_, _>>()?;
         for rung in rungs {
             let rung = rung?;
-            for reference in std::iter::once(&mut own).chain(&mut without_pairs) {
-                reference.add_rungs(&rung)?;
+            own.add_rungs(&rung)?;
+            for (group, reference) in without_pairs.iter_mut().enumerate() {
+                reference.add_rungs(&rung.without(group))?;
             }
         }
         Ok(Self {

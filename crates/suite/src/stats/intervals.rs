@@ -2,11 +2,15 @@
 
 use frame::{Replicate, Truth, TruthError};
 use metrics::{
-    Interval, Measured, Metric, Scores, SequenceMetric, SequenceScores, jackknife,
+    Equivalent, Interval, Measured, Metric, Scores, SequenceMetric, SequenceScores, jackknife,
     jackknife_of_percentile,
 };
+use store::LADDER;
 
 use crate::run::case::Intervals;
+
+/// First and last number of sub-frames of the ladder.
+const LADDER_ENDS: [u32; 2] = [LADDER[0], LADDER[LADDER.len() - 1]];
 
 /// Replicates that are left out together: one of each half, so that the halves stay equally large.
 const GROUP: usize = 2;
@@ -43,7 +47,8 @@ pub(crate) fn truth_without_pair(
 }
 
 /// Computes the interval, by [`jackknife`] or [`jackknife_of_percentile`], of each of `metrics` that has a score against the whole truth
-/// and against the truth without each of its pairs.
+/// and against the truth without each of its pairs. Counts of equivalent sub-frames have an interval of their own, with the ladder's ends
+/// for open ends.
 pub fn intervals(
     whole: &Scores,
     without: &[Scores],
@@ -51,6 +56,12 @@ pub fn intervals(
 ) -> Intervals {
     (metrics.into_iter())
         .filter_map(|metric| {
+            if let Metric::Equivalent(count) = metric {
+                return match whole.equivalent_subframes.get(count) {
+                    Equivalent::Subframes(count) => Some((metric, count.interval(LADDER_ENDS))),
+                    Equivalent::NotApplicable { .. } => None,
+                };
+            }
             let without = without.iter().map(|scores| scores.get(metric));
             let found = interval(&whole.get(metric), without, metric.row().is_percentile)?;
             Some((metric, found))
