@@ -1,13 +1,14 @@
 //! Counts of equivalent sub-frames: their intervals contain the true count, however noisy truth and ladder are.
 
-use frame::{Alignment, Frame, Ladder, Picture, Replicate, Truth};
+use frame::{Alignment, Frame, Image, Ladder, Picture, Region, Replicate, Truth, regions};
 use metrics::{Equivalent, EquivalentMetric, EquivalentScores, Errors, Reference, Subframes};
 use rayon::prelude::*;
 use store::LADDER;
 use suite::truths_without_pairs;
 use tests::unwatched;
 use tracer::{
-    RenderSettings, Scene, TruthTracer, list_scenes, load_scene, trace_frame, trace_ladder,
+    LadderTracer, RenderSettings, Scene, TruthTracer, list_scenes, load_scene, trace_frame,
+    trace_ladder,
 };
 
 /// Number of sub-frames of the independent picture.
@@ -118,6 +119,43 @@ fn check_few(name: &str, samples: [u32; 2]) -> Vec<String> {
         (!is_right).then(|| format!("{name}, {metric:?}: {coarse:?}, and {fine:?}"))
     });
     wrong.collect()
+}
+
+/// Returns the root mean square of the noise of a picture's mean over the moving region, from independent parts of it.
+fn measure_noise(parts: &[&Image], truth: &Truth) -> f64 {
+    let count = parts.len() as f64;
+    let variance = |pixel: usize| {
+        (0..3).map(move |component| {
+            let values = parts.iter();
+            let values = values.map(|part| f64::from(part.pixels[pixel][component]));
+            let mean = values.clone().sum::<f64>() / count;
+            let squares = values.map(|value| (value - mean).powi(2));
+            squares.sum::<f64>() / (count * (count - 1.0))
+        })
+    };
+    let regions = regions(truth);
+    let pixels: Vec<usize> = regions.indices(Region::Moving).collect();
+    let sum: f64 = pixels.iter().flat_map(|pixel| variance(*pixel)).sum();
+    (sum / (3 * pixels.len()) as f64).sqrt()
+}
+
+#[test]
+fn a_rung_of_64_sub_frames_has_less_noise_than_the_truth() {
+    for name in ["sliding_panel", "fan", "railing", "two_spheres"] {
+        let (scene, _) = load(name);
+        let settings = settings([96, 54], 64, 1);
+        let tracer = TruthTracer::new(&scene, &settings, &[Alignment::Trailing]).unwrap();
+        let replicates: Vec<Replicate> = (0..settings.replicates)
+            .flat_map(|index| tracer.trace(index, &unwatched).unwrap())
+            .collect();
+        let truth = Truth::of(&replicates).unwrap();
+        let rung = LadderTracer::new(&scene, &settings, &truth, &LADDER).unwrap();
+        let rung = rung.trace(MANY, &unwatched).unwrap().rungs.remove(0);
+        let of_truth: Vec<&Image> = replicates.iter().map(|own| &own.picture.color).collect();
+        let of_rung: Vec<&Image> = rung.groups.iter().map(|group| &group.color).collect();
+        let [of_rung, of_truth] = [of_rung, of_truth].map(|parts| measure_noise(&parts, &truth));
+        assert!(of_rung < of_truth, "{name}: {of_rung} {of_truth}");
+    }
 }
 
 #[test]

@@ -1,21 +1,21 @@
 //! The truth, ready to measure any number of pictures against.
 
+mod accumulation;
 mod check;
 mod color;
+mod counts;
 mod frozen;
 mod jitter;
 mod lateral_bleed;
 mod measurement;
 mod sharp;
 
-use frame::{Accumulation, Frame, Image, Ladder, Picture, Plane, Raster, Truth, regions};
+use frame::{Frame, Image, Ladder, Picture, Plane, Raster, Truth, regions};
 use rayon::prelude::*;
 
 use crate::color::absolute_error::absolute_error;
-use crate::color::cross_error::squared_error;
 use crate::color::flip::Displayed;
 use crate::color::ssim::SSIM_BORDER;
-use crate::label::label_variation;
 use crate::math::pooling::mean_over;
 use crate::math::raster::zip_pixels;
 use crate::object::reference::ObjectReference;
@@ -25,15 +25,9 @@ use crate::picture::scores::{Found, score_image, score_labels};
 use crate::picture::seen_truth::SeenTruth;
 use crate::probe::{OriginReference, ProbeMeasurement, Probes};
 use crate::skill::{Ends, score_skill};
-use crate::subframes::ladder::{Curves, Errors, RungTruth};
-use crate::subframes::{Equivalent, Subframes, count_equivalents};
-use crate::{
-    EquivalentMetric, EquivalentScores, MeasureError, Measured, ObjectScores, ProbeScores, Region,
-    Regions, Scores, Viewing,
-};
-use check::{
-    check_agreement, check_brightness, check_ladder, check_picture, check_rung, check_viewing,
-};
+use crate::subframes::ladder::Curves;
+use crate::{MeasureError, Measured, ObjectScores, ProbeScores, Region, Regions, Scores, Viewing};
+use check::{check_agreement, check_brightness, check_picture, check_viewing};
 use frozen::FrozenReference;
 
 pub use color::ColorReference;
@@ -121,55 +115,6 @@ impl<'a> Reference<'a> {
         Ok(reference)
     }
 
-    /// Returns the errors of the rungs.
-    pub fn curves(&self) -> &Curves {
-        &self.curves
-    }
-
-    /// Adds rungs of the ladder, each with more sub-frames than those before. Memory then need not hold all of them at once.
-    pub fn add_rungs(&mut self, ladder: &Ladder) -> Result<(), MeasureError> {
-        check_ladder(ladder, self.truth)?;
-        let has_noise = self.truth.provenance.engine.is_none();
-        let truth = RungTruth {
-            mean: &self.mean,
-            half: if has_noise {
-                &self.truth.halves[0]
-            } else {
-                &self.mean
-            },
-            seen: &self.seen.display,
-        };
-        for rung in &ladder.rungs {
-            self.curves.add(rung, &truth, &self.regions, &self.viewing);
-        }
-        Ok(())
-    }
-
-    /// Adds the pictures that skill is measured between. `sharp` shows the instant in the middle of the shutter and has a skill
-    /// of 0; `best` is the one-frame oracle's, the best that one frame can give, and has 1. Without them skill does not apply.
-    pub fn with_ends(mut self, sharp: &Sharp, best: &Picture) -> Result<Self, MeasureError> {
-        let what = "the sharp picture of the shutter's middle";
-        check_picture(best, self.truth, "the one-frame oracle")?;
-        let sharp = match sharp {
-            Sharp::Frame(picture) => {
-                check_picture(picture, self.truth, what)?;
-                self.pool_moving(picture, self.half_colors())
-            }
-            Sharp::Accumulation(rung) => {
-                check_rung(rung, self.truth, what)?;
-                // With the truth's noise, which other pictures are measured with too.
-                let picture = self.truth.halves[0].plus(&rung.difference());
-                let halves = rung
-                    .halves()
-                    .map(|half| subtract(&picture.color, &half.color));
-                self.pool_moving(&picture, halves.each_ref())
-            }
-        };
-        let ends = sharp.zip(self.pool_moving(best, self.half_colors()));
-        self.ends = ends.map(|(sharp, best)| Ends { sharp, best });
-        Ok(self)
-    }
-
     /// Pools a picture's errors over the moving region; none if nothing moves.
     fn pool_moving(&self, picture: &Picture, halves: [&Image; 2]) -> Option<Pooled> {
         let errors = self.map_errors(picture, &self.display(picture), halves);
@@ -179,32 +124,6 @@ impl<'a> Reference<'a> {
     /// Measures one picture.
     pub fn measure(&self, output: &Picture) -> Result<Measurement, MeasureError> {
         self.measure_against(output, self.half_colors(), self.frozen.halves())
-    }
-
-    /// Measures the picture of an accumulation of the same shutter. It has the truth's noise, so that only its difference from
-    /// the truth counts as error; its equivalent sub-frames are its own.
-    pub fn measure_accumulation(&self, rung: &Accumulation) -> Result<Measurement, MeasureError> {
-        let what = format!("the accumulation of {} sub-frames", rung.subframes);
-        check_rung(rung, self.truth, &what)?;
-        let picture = rung.picture(&self.mean);
-        let differences = rung.halves().map(|half| half.color);
-        let halves = [0, 1].map(|half| subtract(&picture.color, &differences[half]));
-        // Each half of the picture is compared with its own half of the truth, whose noise it shares.
-        let colors = self.half_colors();
-        let frozen = [0, 1].map(|half| {
-            let shading = subtract(colors[half], self.frozen.halves()[half]);
-            subtract(&halves[half], &shading)
-        });
-        let mut measurement =
-            self.measure_against(&picture, halves.each_ref(), frozen.each_ref())?;
-        let counts = &mut measurement.scores.equivalent_subframes;
-        for metric in EquivalentMetric::ALL {
-            if let Equivalent::Subframes(count) = counts.get(metric).clone() {
-                let own = Subframes::of_rung(rung.subframes, count.floor);
-                *counts.get_mut(metric) = Equivalent::Subframes(own);
-            }
-        }
-        Ok(measurement)
     }
 
     /// Measures one picture: squared errors against these halves of the truth, and of the one with frozen shading.
@@ -340,97 +259,6 @@ impl<'a> Reference<'a> {
             if *still { *change } else { 0.0 }
         })
     }
-
-    /// Measures the errors alone that equivalent sub-frames are counted by; none if nothing moves.
-    pub fn measure_errors(&self, output: &Picture) -> Result<Option<Errors>, MeasureError> {
-        check_picture(output, self.truth, "the output")?;
-        check_brightness(output, &self.viewing, "the output")?;
-        let squared = squared_error(&output.color, self.half_colors(), self.viewing.scale());
-        let flip = (self.seen.display).map_errors(&self.display(output).linear);
-        let label = label_variation(&output.coverage, &self.mean.coverage);
-        let mse = mean_over(&squared, &self.regions, Region::Moving);
-        let flip = mean_over(&flip, &self.regions, Region::Moving);
-        let label = mean_over(&label, &self.regions, Region::Moving);
-        let found = mse.zip(flip).zip(label);
-        Ok(found.map(|((mse, flip), label)| Errors { mse, flip, label }))
-    }
-
-    /// Counts the equivalent sub-frames of a measured picture again, with intervals. `without` holds the reference without each
-    /// group of samples (truth and ladder), and the errors against it of the picture without that group, by
-    /// [`Reference::measure_errors`]. Counts that do not apply stay so.
-    pub fn count_subframes(
-        &self,
-        scores: &Scores,
-        without: &[(&Reference, Errors)],
-    ) -> EquivalentScores {
-        let mut counts = scores.equivalent_subframes.clone();
-        let without = without.iter();
-        let without: Vec<(Errors, &Curves)> = without
-            .map(|(reference, errors)| (*errors, &reference.curves))
-            .collect();
-        if let Some((own, noise)) = measured_errors(scores)
-            && !self.curves.is_empty()
-        {
-            let found = count_equivalents(&own, &self.curves, &noise, &without);
-            for metric in EquivalentMetric::ALL {
-                if let Equivalent::Subframes(_) = counts.get(metric) {
-                    *counts.get_mut(metric) = found.get(metric).clone();
-                }
-            }
-        }
-        counts
-    }
-
-    fn score_equivalents(&self, moving: &Found) -> EquivalentScores {
-        let missing = |reason: &str| EquivalentScores {
-            mse: Equivalent::not_applicable(reason),
-            flip: Equivalent::not_applicable(reason),
-            label_total_variation: Equivalent::not_applicable(reason),
-        };
-        if self.curves.is_empty() {
-            return missing("no ladder of accumulations was given");
-        }
-        match moving {
-            Ok((own, noise)) => {
-                let [own, noise] = [*own, *noise].each_ref().map(Errors::from);
-                count_equivalents(&own, &self.curves, &noise, &[])
-            }
-            Err(reason) => missing(reason),
-        }
-    }
-}
-
-/// Returns a picture's errors over the moving region, without those of a label if it has none, and those of the truth's noise; none
-/// if nothing moves.
-fn measured_errors(scores: &Scores) -> Option<(Errors, Errors)> {
-    let score = |measured: &Measured| match measured {
-        Measured::Score(score) => Some((score.value, score.floor)),
-        Measured::NotApplicable { .. } => None,
-    };
-    let (mse, flip) = (score(&scores.moving.mse)?, score(&scores.moving.flip)?);
-    // A picture without mattes has no count by labels.
-    let label = score(&scores.label_total_variation.mean).unwrap_or_default();
-    let errors = |part: fn((f64, f64)) -> f64| Errors {
-        mse: part(mse),
-        flip: part(flip),
-        label: part(label),
-    };
-    Some((errors(|score| score.0), errors(|score| score.1)))
-}
-
-impl From<&Pooled> for Errors {
-    fn from(pooled: &Pooled) -> Self {
-        Self {
-            mse: pooled.mse,
-            flip: pooled.flip,
-            label: pooled.label,
-        }
-    }
-}
-
-/// Subtracts an image from another.
-fn subtract(a: &Image, b: &Image) -> Image {
-    zip_pixels(a, b, |a, b| std::array::from_fn(|c| a[c] - b[c]))
 }
 
 /// Marks the pixels with their SSIM window in the picture.

@@ -36,8 +36,8 @@ pub struct RunPlan {
     pub out: PathBuf,
     /// True if filters' scores get intervals, which bounds are judged by. Needs a few more measurements of every picture.
     pub intervals: bool,
-    /// True if the ladder of every truth is rendered, for equivalent sub-frames and for the accumulations among the references. Costs about
-    /// half the time of the truth. Without it, an engine's scene has its ladder, and every trailing or leading truth has the one rung that
+    /// True if the ladder of every truth is rendered, for equivalent sub-frames and for the accumulations among the references. Costs up
+    /// to the time of the truth. Without it, an engine's scene has its ladder, and every trailing or leading truth has the one rung that
     /// is the sharp picture of its shutter's middle.
     pub ladders: bool,
     /// True if frames, truths and cases in `out` are removed and made anew.
