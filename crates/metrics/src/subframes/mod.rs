@@ -132,3 +132,49 @@ impl fmt::Display for Subframes {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn count(value: f64, low: Option<f64>, high: Option<f64>, range: LadderRange) -> Subframes {
+        let floor = 64.0;
+        Subframes {
+            value,
+            floor,
+            low,
+            high,
+            range,
+        }
+    }
+
+    #[test]
+    fn a_count_prints_what_is_certain() {
+        use LadderRange::{Above, Below, Within};
+        for (count, text) in [
+            (count(3.7, Some(3.5), Some(3.94), Within), "3.7"),
+            (count(20.0, Some(8.9), None, Within), ">8"),
+            (count(64.0, Some(64.0), None, Above), ">64"),
+            (count(1.0, None, Some(1.0), Below), "<1"),
+            (count(1.0, None, Some(1.2), Below), "<2"),
+            (count(1.5, None, None, Within), ">0"),
+            (Subframes::of_rung(64, 8.0), "64.0"),
+            (Subframes::of_floor(3.0, 12.5, Within), "3.0"),
+            (Subframes::of_floor(30.0, 12.5, Within), ">12"),
+            (Subframes::of_floor(64.0, 64.0, Above), ">64"),
+            (Subframes::of_floor(1.0, 12.5, Below), "<1"),
+        ] {
+            assert_eq!(count.to_string(), text, "{count:?}");
+        }
+    }
+
+    #[test]
+    fn open_ends_of_an_interval_are_the_ladders() {
+        let interval = |low, high| {
+            let own = count(8.0, low, high, LadderRange::Within).interval([1, 64]);
+            [own.low, own.high]
+        };
+        assert_eq!(interval(Some(6.0), Some(9.0)), [6.0, 9.0]);
+        assert_eq!(interval(None, None), [1.0, 64.0]);
+    }
+}
