@@ -1,6 +1,6 @@
 //! Measurements in addition to the filters' own scores: references, a common shutter, noise, coarser frames.
 
-use frame::{Alignment, Frame, Ladder, Picture, Truth};
+use frame::{Alignment, Frame, Ladder, Truth};
 use metrics::Metric;
 use suite::{Case, DepthFormat, FinishedPicture, Run, VelocityFormat};
 use tests::text::assert_contains;
@@ -75,7 +75,7 @@ fn a_sharp_sub_frame_of_the_middle_has_no_skill_under_any_shutter() {
         let path = |name: &str| sandbox.path(&format!("out/plate/{name}"));
         let truth = Truth::read(&path(&format!("truth_{alignment}.exr"))).unwrap();
         let ladder = Ladder::read_rung(&path(&format!("ladder_{alignment}/n1.exr")), 1).unwrap();
-        let sharp = Picture::mean(&ladder.rungs[0].halves);
+        let sharp = ladder.rungs[0].picture(&truth.mean());
         let finished = FinishedPicture {
             color: sharp.color,
             mattes: Some(sharp.coverage),

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use cli::{Programs, SceneChoice, select_filters, select_scenes};
-use frame::{Alignment, Picture};
+use frame::Alignment;
 use judge::{
     Decision, JudgedScore, Level, Outcome, SceneBounds, check, judge, judge_scores, read_bounds,
     size_for_bounds,
@@ -67,8 +67,11 @@ fn judge_bars(scene: &Scene, bounds: &SceneBounds, out: &Path) -> [Vec<JudgedSco
     let reference = Reference::new(&frame, &truth, None, &scene.display.into()).unwrap();
     // Bounds for all filters, required or not.
     let bounds = bounds.of("identity", "default");
-    [frame.picture(), Picture::mean(&rung.rungs[0].halves)]
-        .map(|picture| judge_scores(&reference.measure(&picture).unwrap().scores, None, &bounds))
+    let measured = [
+        reference.measure(&frame.picture()).unwrap(),
+        reference.measure_accumulation(&rung.rungs[0]).unwrap(),
+    ];
+    measured.map(|measured| judge_scores(&measured.scores, None, &bounds))
 }
 
 /// Formats the scores with an outcome.

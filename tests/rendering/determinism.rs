@@ -106,7 +106,7 @@ fn another_seed_gives_other_noise() {
     let [a, b] = [own_settings(), other].map(|settings| everything(&scene, &settings));
     assert_ne!(a.1.halves, b.1.halves);
     assert_ne!(a.1.halves[0], a.1.halves[1]);
-    assert_ne!(a.2.rungs[2].halves, b.2.rungs[2].halves);
+    assert_ne!(a.2.rungs[2].groups, b.2.rungs[2].groups);
 }
 
 /// Returns the settings of a frame of one replicate, as `trace_frame` renders it.

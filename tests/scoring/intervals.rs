@@ -75,7 +75,7 @@ fn trace_intervals(
     let converged = settings(samples_of_converged, 1000);
     let truth = trace_truth(&scene, &converged, Alignment::Trailing, &unwatched).unwrap();
     let ladder = trace_ladder(&scene, &converged, &truth, &[4, 8], &unwatched).unwrap();
-    let [four, eight] = [0, 1].map(|rung| Picture::mean(&ladder.rungs[rung].halves));
+    let [four, eight] = [0, 1].map(|rung| ladder.rungs[rung].picture(&truth.mean()));
     let oracle = scatter_oracle(&frame, truth.shutter, &truth.shutter_profile);
     let pictures = [
         ("the frame", frame.picture()),

@@ -12,6 +12,7 @@ mod ranking;
 mod scatter_oracle;
 mod scores;
 mod sequences;
+mod subframes;
 
 use frame::{Frame, Picture, Truth};
 use metrics::{Measured, Measurement, Score, Scores, measure};

@@ -220,17 +220,18 @@ impl Scene {
             .collect()
     }
 
-    /// Renders accumulations of 1, 2, 4 .. 64 sub-frames; `seeds` gives each half's noise.
+    /// Renders accumulations of 1, 2, 4 .. 64 sub-frames; `seeds` gives each group's noise, which the whole shutter shares.
     pub fn ladder(&self, samples: u32, seeds: [u64; 2]) -> Ladder {
         let rung = |subframes: u32| Accumulation {
             subframes,
-            halves: seeds.map(|seed| {
-                let sampling = Sampling {
-                    samples,
-                    seed: Some(seed + u64::from(subframes)),
-                };
-                self.render(&Blur::accumulation(subframes), sampling)
-            }),
+            groups: (seeds.into_iter())
+                .map(|seed| {
+                    let seed = Some(seed);
+                    let sampling = Sampling { samples, seed };
+                    let parts = self.render(&Blur::accumulation(subframes), sampling);
+                    parts.minus(&self.render(&Blur::TRUE, sampling))
+                })
+                .collect(),
         };
         Ladder {
             provenance: Provenance::default(),

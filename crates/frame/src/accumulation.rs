@@ -9,12 +9,46 @@ use crate::{Alignment, FileError, Picture, Provenance, Shutter, ShutterProfile};
 
 /// Mean of `subframes` instants in the middles of equal parts of the shutter's light. By instant k of N, `(k + 0.5) / N` of the
 /// light has passed; for a shutter that opens at once it is `open + (k + 0.5) / N * (close - open)`.
+///
+/// It is stored as its difference from the picture of the whole shutter. Both were rendered with the same random numbers, so
+/// the difference has little noise, and none of the truth's.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Accumulation {
     /// Number of instants that were averaged.
     pub subframes: u32,
-    /// Means of the even and of the odd replicates.
-    pub halves: [Picture; 2],
+    /// Differences from the whole shutter's picture: radiance and shares that may be negative. Each is the mean of an independent
+    /// group of samples; there are at least two.
+    pub groups: Vec<Picture>,
+}
+
+impl Accumulation {
+    /// Averages the differences over all groups.
+    pub fn difference(&self) -> Picture {
+        Picture::mean(&self.groups)
+    }
+
+    /// Averages the even and the odd groups. Of one group alone, both halves are that group, and its noise counts as error.
+    pub fn halves(&self) -> [Picture; 2] {
+        let odd = usize::from(self.groups.len() > 1);
+        [0, odd].map(|first| Picture::mean(self.groups.iter().skip(first).step_by(2)))
+    }
+
+    /// Makes the picture of the accumulation from the truth's mean. Its noise is the truth's and that of the difference. Nothing is
+    /// clamped, which would bias it: noise can take dark colours and small shares slightly below 0.
+    pub fn picture(&self, mean: &Picture) -> Picture {
+        mean.plus(&self.difference())
+    }
+
+    /// Leaves one group out; panics if no group would be left.
+    pub fn without(&self, group: usize) -> Self {
+        assert!(self.groups.len() > 1, "one group cannot be left out");
+        let others = self.groups.iter().enumerate();
+        let others = others.filter(|(index, _)| *index != group);
+        Self {
+            subframes: self.subframes,
+            groups: others.map(|(_, own)| own.clone()).collect(),
+        }
+    }
 }
 
 /// Accumulations of 1, 2, 4 .. sub-frames over the same shutter. Together they take much memory, so measuring keeps one at a
@@ -36,24 +70,39 @@ pub struct Ladder {
 }
 
 impl Ladder {
-    /// Writes the ladder as OpenEXR: layers `n<N>.A` and `n<N>.B` per rung. Consumes the ladder, because a copy would
-    /// double the memory of measuring.
+    /// Leaves one group of samples out of every rung; panics if no group would be left.
+    pub fn without(&self, group: usize) -> Self {
+        Self {
+            provenance: self.provenance.clone(),
+            shutter_profile: self.shutter_profile.clone(),
+            objects: self.objects.clone(),
+            rungs: (self.rungs.iter())
+                .map(|rung| rung.without(group))
+                .collect(),
+            ..*self
+        }
+    }
+
+    /// Writes the ladder as OpenEXR: layers `n<N>.0`, `n<N>.1` .. per rung, one per group. Consumes the ladder, because a copy
+    /// would double the memory of measuring.
     pub fn write(self, path: &Path) -> Result<(), FileError> {
-        // Away from motion all rungs equal the truth's mean.
+        // Away from motion all differences are 0.
         write_small_exr(path, self.into_exr())
     }
 
     /// Makes the content of the file that [`Ladder::write`] writes.
     pub fn into_exr(self) -> ExrFile {
-        let first = &self.rungs.first().expect("a ladder has rungs").halves[0].color;
+        let first = &self.rungs.first().expect("a ladder has rungs").groups[0].color;
         let mut file = ExrFile::new(first.width, first.height);
         let subframes: Vec<String> = (self.rungs.iter())
             .map(|rung| rung.subframes.to_string())
             .collect();
+        let groups = self.rungs[0].groups.len();
         for rung in self.rungs {
-            for (half, layer) in rung.halves.into_iter().zip(["A", "B"]) {
-                let layer = format!("n{}.{layer}", rung.subframes);
-                half.move_to(&mut file, &layer, &self.objects);
+            assert_eq!(rung.groups.len(), groups, "rungs have as many groups");
+            for (index, group) in rung.groups.into_iter().enumerate() {
+                let layer = layer_name(rung.subframes, index);
+                group.move_to(&mut file, &layer, &self.objects);
             }
         }
         file.set("kind", "ladder");
@@ -61,6 +110,7 @@ impl Ladder {
         self.shutter_profile.set(&mut file);
         file.set("objects", self.objects.join(" "));
         file.set("subframes", subframes.join(" "));
+        file.set("groups", groups);
         self.provenance.set(&mut file);
         file
     }
@@ -122,6 +172,7 @@ impl Ladder {
         file.expect_kind("ladder")?;
         let objects = file.objects()?;
         let (shutter, alignment) = get_shutter(&file)?;
+        let groups = read_groups(&file)?;
         let mut rungs: Vec<Accumulation> = Vec::new();
         for word in file.words("subframes")? {
             let subframes = word.parse().map_err(|_| {
@@ -134,12 +185,13 @@ impl Ladder {
                     "attribute \"subframes\" holds \"{word}\" out of order; allowed: rising whole numbers from 1"
                 )));
             }
-            let mut half = |layer: &str| {
-                Picture::take_from(&mut file, &format!("n{subframes}.{layer}"), &objects)
+            let group = |index| {
+                let layer = layer_name(subframes, index);
+                Picture::take_from(&mut file, &layer, &objects)
             };
             rungs.push(Accumulation {
                 subframes,
-                halves: [half("A")?, half("B")?],
+                groups: (0..groups).map(group).collect::<Result<_, _>>()?,
             });
         }
         if rungs.is_empty() {
@@ -156,6 +208,24 @@ impl Ladder {
             rungs,
         })
     }
+}
+
+/// Reads the number of groups of every rung.
+fn read_groups(file: &ExrFile) -> Result<usize, FileError> {
+    let old = "lacks the attribute \"groups\", which ladders of older versions of shuttertruth have not; make it anew with \
+               `shuttertruth run` or `shuttertruth truths render --ladders`";
+    let count = file
+        .get("groups")
+        .map_err(|_| file.foreign(old.to_owned()))?;
+    match count {
+        0 => Err(file.foreign("attribute \"groups\" holds 0; allowed: from 1".to_owned())),
+        _ => Ok(count),
+    }
+}
+
+/// Names the layer of a group of samples of a rung.
+fn layer_name(subframes: u32, group: usize) -> String {
+    format!("n{subframes}.{group}")
 }
 
 /// Names the file of a rung in a ladder's folder.

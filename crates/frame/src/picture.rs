@@ -61,6 +61,29 @@ impl Picture {
         }
     }
 
+    /// Adds another picture of the same size and objects, pixel by pixel.
+    pub fn plus(&self, other: &Picture) -> Picture {
+        self.combine(other, |a, b| a + b)
+    }
+
+    /// Subtracts another picture of the same size and objects, pixel by pixel.
+    pub fn minus(&self, other: &Picture) -> Picture {
+        self.combine(other, |a, b| a - b)
+    }
+
+    fn combine(&self, other: &Picture, join: impl Fn(f32, f32) -> f32) -> Picture {
+        let color = self.color.zip(&other.color, |a, b| {
+            std::array::from_fn(|component| join(a[component], b[component]))
+        });
+        let coverages = self.coverage.iter().zip(&other.coverage);
+        Picture {
+            color,
+            coverage: coverages
+                .map(|(a, b)| a.zip(b, |a, b| join(*a, *b)))
+                .collect(),
+        }
+    }
+
     /// Averages at least one picture, all of one size; sums in `f64`, in their order.
     pub fn mean<'a>(pictures: impl IntoIterator<Item = &'a Picture>) -> Picture {
         let pictures: Vec<&Picture> = pictures.into_iter().collect();

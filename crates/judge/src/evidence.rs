@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use frame::{Ladder, Picture, read_attribute, read_exr};
+use frame::{Ladder, read_attribute, read_exr};
 use metrics::Reference;
 use store::RenderFile;
 use suite::{Case, Error, ErrorMaps, Run, SHARP};
@@ -45,10 +45,11 @@ fn add_evidence_of_truth(
         true => Some(Ladder::read_rung(&file, FEW_SUBFRAMES)?),
         false => None,
     };
-    let few_subframes = few_subframes.map(|ladder| Picture::mean(&ladder.rungs[0].halves));
+    let mean = truth.mean();
+    let few_subframes = few_subframes.map(|ladder| ladder.rungs[0].picture(&mean));
     let reference = Reference::new(&frame, &truth, None, &frame.display.into())?;
     let decoys = Decoys::new(&frame, &truth, few_subframes, &reference)?;
-    let truth = truth.mean().color;
+    let truth = mean.color;
     for (case, findings) in cases {
         let resembles = decoys.nearest(&case.scores);
         let output = read_exr(&folder.join(&case.folder).join("output.exr"))?.color("")?;

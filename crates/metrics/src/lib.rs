@@ -50,14 +50,15 @@ pub use metric::{
 };
 pub use object::sides::{Side, object_sides};
 pub use probe::{ProbeMeasurement, Probes};
-pub use reference::{ColorReference, Jitter, Measurement, Reference};
+pub use reference::{ColorReference, Jitter, Measurement, Reference, Sharp};
 pub use scatter_oracle::{make_oracle, make_oracles, scatter_oracle};
 pub use score::{Ideal, Measured, Score};
 pub use scores::Scores;
 pub use sequence::{
     Instant, JOD_DISPLAY, NEW_SHARE, SequenceMeasurement, SequenceReference, accumulate, video_jod,
 };
-pub use subframes::{Equivalent, LadderRange, Subframes};
+pub use subframes::ladder::{Curves, Errors, Rung};
+pub use subframes::{Equivalent, LadderRange, Subframes, count_equivalents};
 pub use viewing::Viewing;
 
 use frame::{Frame, Ladder, Picture, Truth};

@@ -17,7 +17,7 @@ pub const INGESTED_FILE: &str = "ingested.json";
 /// Name of the engine's own blurred picture in that folder.
 pub const BLURRED: &str = "blurred.exr";
 /// Version of the layout of the file.
-pub const INGESTED_FORMAT: u32 = 1;
+pub const INGESTED_FORMAT: u32 = 2;
 /// Halves of a truth, each a picture of the whole shutter.
 const HALVES: u32 = 2;
 

@@ -1,8 +1,10 @@
 //! Ladders: accumulations of a few sub-frames, for comparison with the truth of the same shutter.
 
+use std::sync::OnceLock;
+
 use frame::{
-    Accumulation, Alignment, ColorSampling, Ladder, Picture, Plane, Raster, Shutter, Tile, Truth,
-    motion_margin,
+    Accumulation, Alignment, ColorSampling, Image, Ladder, Picture, Plane, Raster, Shutter, Tile,
+    Truth, motion_margin,
 };
 
 use crate::content_hash::{ladder_hash, provenance};
@@ -22,29 +24,41 @@ use crate::scene::Scene;
 use crate::settings::RenderSettings;
 use crate::stage::Stage;
 
-/// One replicate per half; more would only stratify worse.
-const REPLICATES: u32 = 2;
+/// Fewest and most groups of samples: two make an unbiased squared error, and intervals leave out one of four at most.
+const GROUPS: [u32; 2] = [2, 4];
+/// Samples of a pixel in which nothing moves, but only light may change, relative to others.
+const SHARE_OF_MARGIN: f64 = 0.25;
 /// Part of a sample's cost that is saved if it sees the background (measured: about 0.2 against 1.6 microseconds for
 /// lit surfaces).
 const SAVED_BY_A_MISS: f64 = 0.875;
 
 /// A scene prepared to render the rungs of a ladder, one at a time: all together take more memory than the truth.
 ///
-/// Only pixels near motion are rendered, because an accumulation can differ from the truth only there. Elsewhere both halves
-/// have the truth's mean, even in a moving shadow on a still floor that is far from anything that moves.
+/// A rung is the difference of two pictures with the same random numbers: the sub-frames' and the whole shutter's. Each sample
+/// of the whole shutter has a partner at the middle of the sub-frame that it falls into, so that the two see nearly the same if
+/// sub-frames are many. All rungs share these random numbers, which are independent of the truth's.
 ///
-/// All rungs have the same number of samples, the most with which they together cost no more than the truth, in samples and
-/// in work. Their random numbers are their own, so that their noise is independent of the truth's.
+/// Only pixels near motion are rendered, because an accumulation can differ from the truth only there. Elsewhere differences
+/// are 0, even in a moving shadow on a still floor that is far from anything that moves.
+///
+/// A pixel's samples are in proportion to the truth's, and as many in all rungs: the most with which all rungs together cost
+/// no more than the truth, but no more than the truth's own.
 pub struct LadderTracer<'a> {
     stage: Stage<'a>,
     seed: u64,
-    shutter: Shutter,
     alignment: Alignment,
-    /// Mean of the truth.
-    mean: Picture,
+    shutter: Shutter,
+    sampler: ShutterSampler,
+    /// Columns and rows.
+    size: (u32, u32),
     /// Indices of the pixels that are rendered.
     pixels: Vec<u32>,
-    samples_per_replicate: u32,
+    /// Independent groups of samples: one per pair of the truth's replicates.
+    groups: u32,
+    /// Samples per pixel of a group.
+    samples: SampleCounts,
+    /// Means of the whole shutter over all rendered pixels, per group: traced for the first rung.
+    whole: OnceLock<Vec<Means>>,
     hash: String,
 }
 
@@ -65,28 +79,42 @@ impl<'a> LadderTracer<'a> {
         );
         let whole = scene.shutter_profile.whole(shutter);
         let pixels = pixels_near_motion(&truth.support.moving, motion_margin(settings.height));
-        let mean = truth.mean();
+        let groups = (settings.replicates / 2).clamp(GROUPS[0], GROUPS[1]);
         Ok(Self {
             stage: Stage::try_new(scene, whole.open, whole.close)?,
             seed: settings.seed,
-            shutter,
             alignment: truth.alignment,
-            samples_per_replicate: affordable_samples(
-                settings,
-                &mean.coverage[0],
-                &pixels,
-                subframes.len(),
-            ),
-            mean,
+            shutter,
+            sampler: ShutterSampler::new(shutter, &scene.shutter_profile),
+            size: truth.size(),
+            samples: share_samples(truth, &pixels, groups, subframes.len()),
+            groups,
             pixels,
+            whole: OnceLock::new(),
             hash: ladder_hash(scene, settings, truth.alignment, subframes),
         })
     }
 
-    /// Renders the rung of a number of sub-frames, as a ladder of it alone. It does not depend on the other rungs.
+    /// Renders the rung of a number of sub-frames, as a ladder of it alone. It does not depend on the other rungs. The first
+    /// rung also renders the whole shutter, which takes as long as a rung.
     pub fn trace(&self, subframes: u32, watch: Watch) -> Result<Ladder, TraceError> {
-        let whole = Tile::whole(self.mean.color.width, self.mean.color.height);
-        self.trace_tile(subframes, whole, watch)
+        let (width, height) = self.size;
+        let pixels = &self.pixels;
+        let whole = match self.whole.get() {
+            Some(whole) => whole,
+            None => {
+                let made = self.render(pixels, Times::Shutter(&self.sampler), watch)?;
+                self.whole.get_or_init(|| made)
+            }
+        };
+        let parts = self.render(pixels, Times::Midpoints(&self.sampler, subframes), watch)?;
+        let places: Vec<usize> = pixels.iter().map(|&pixel| pixel as usize).collect();
+        self.rung(
+            subframes,
+            Tile::whole(width, height),
+            &places,
+            [whole, &parts],
+        )
     }
 
     /// Renders a tile of that rung. The rasters have the tile's size, and the content of [`LadderTracer::trace`] there.
@@ -96,48 +124,64 @@ impl<'a> LadderTracer<'a> {
         tile: Tile,
         watch: Watch,
     ) -> Result<Ladder, TraceError> {
-        let (width, height) = (self.mean.color.width, self.mean.color.height);
         // Each pixel that is rendered, and its place in the tile.
         let (pixels, places): (Vec<u32>, Vec<usize>) = (self.pixels.iter())
-            .filter_map(|&pixel| Some((pixel, tile.index_of(pixel, width)?)))
+            .filter_map(|&pixel| Some((pixel, tile.index_of(pixel, self.size.0)?)))
             .unzip();
-        let samples_per_pixel = REPLICATES * self.samples_per_replicate;
-        let work = pixels.len() as u64 * u64::from(samples_per_pixel);
-        let shutter_sampler = ShutterSampler::new(self.shutter, &self.stage.scene.shutter_profile);
+        let whole = self.render(&pixels, Times::Shutter(&self.sampler), watch)?;
+        let parts = self.render(&pixels, Times::Midpoints(&self.sampler, subframes), watch)?;
+        self.rung(subframes, tile, &places, [&whole, &parts])
+    }
+
+    /// Renders some pixels at some times: their means in each group.
+    fn render(&self, pixels: &[u32], times: Times, watch: Watch) -> Result<Vec<Means>, TraceError> {
         let film = Film {
             integrator: Integrator::new(&self.stage, 0.0),
-            canvas: Canvas::bare(width, height),
+            canvas: Canvas::bare(self.size.0, self.size.1),
             color: ColorSampling::Antialiased,
-            times: &[Times::Midpoints(&shutter_sampler, subframes)],
+            times: &[times],
             instant: None,
             recalled: &[],
-            replicates: 0..REPLICATES,
-            samples: &SampleCounts::Uniform(self.samples_per_replicate),
+            replicates: 0..self.groups,
+            samples: &self.samples,
             seed: self.seed,
-            stream: Stream::Accumulation(subframes),
+            stream: Stream::Ladder,
         };
-        let rendered = film.render(&pixels, &Meter::new(watch, work))?;
-        let halves = [0, 1].map(|half| {
-            let mut picture = self.mean.part(tile);
-            set_pixels(&mut picture, &places, &rendered[half][0]);
-            picture
-        });
-        for half in &halves {
-            check_picture(self.stage.scene, half)?;
+        let rendered = film.render(pixels, &Meter::new(watch, film.work(pixels)))?;
+        Ok(rendered.into_iter().flatten().collect())
+    }
+
+    /// Assembles a tile of a rung from the means at some places of it.
+    fn rung(
+        &self,
+        subframes: u32,
+        tile: Tile,
+        places: &[usize],
+        [whole, parts]: [&[Means]; 2],
+    ) -> Result<Ladder, TraceError> {
+        let scene = self.stage.scene;
+        let groups = whole.iter().zip(parts);
+        let groups: Vec<Picture> = groups
+            .map(|(whole, parts)| subtract(tile, places, [parts, whole]))
+            .collect();
+        for group in &groups {
+            check_picture(scene, group)?;
         }
+        let samples = u64::from(self.groups) * self.samples.sum(&self.pixels);
+        let mean_samples = samples / (self.pixels.len() as u64).max(1);
         Ok(Ladder {
             provenance: provenance(
                 &self.stage,
                 self.seed,
-                samples_per_pixel,
-                REPLICATES,
+                mean_samples as u32,
+                self.groups,
                 self.hash.clone(),
             ),
             shutter: self.shutter,
-            shutter_profile: self.stage.scene.shutter_profile.clone(),
+            shutter_profile: scene.shutter_profile.clone(),
             alignment: self.alignment,
-            objects: self.stage.scene.object_names(),
-            rungs: vec![Accumulation { subframes, halves }],
+            objects: scene.object_names(),
+            rungs: vec![Accumulation { subframes, groups }],
         })
     }
 }
@@ -176,38 +220,56 @@ fn check_subframes(subframes: &[u32]) -> Result<(), TraceError> {
     }
 }
 
-/// Replaces the pixels at some places.
-fn set_pixels(picture: &mut Picture, places: &[usize], means: &Means) {
-    for (&place, color) in places.iter().zip(&means.color) {
-        picture.color.pixels[place] = *color;
-    }
-    for (plane, coverage) in picture.coverage.iter_mut().zip(&means.coverage) {
-        for (&place, coverage) in places.iter().zip(coverage) {
-            plane.pixels[place] = *coverage;
-        }
-    }
+/// Shares out the samples of each group as [`LadderTracer`] says: powers of two, at least one.
+fn share_samples(truth: &Truth, pixels: &[u32], groups: u32, rungs: usize) -> SampleCounts {
+    let background = &truth.mean().coverage[0];
+    let work = |pixel: usize, samples: f64| {
+        samples * (1.0 - SAVED_BY_A_MISS * f64::from(background.pixels[pixel]))
+    };
+    let of_truth = |pixel: usize| f64::from(truth.samples.pixels[pixel]);
+    // Samples of a rung with as many as the truth where anything moves.
+    let of_rung = |pixel: usize| {
+        let share = if truth.support.moving.pixels[pixel] {
+            1.0
+        } else {
+            SHARE_OF_MARGIN
+        };
+        share * of_truth(pixel)
+    };
+    let all = 0..truth.samples.pixels.len();
+    let work_of_truth: f64 = all.clone().map(|pixel| work(pixel, of_truth(pixel))).sum();
+    let rendered = pixels.iter().map(|&pixel| pixel as usize);
+    let work_of_rung: f64 = rendered.map(|pixel| work(pixel, of_rung(pixel))).sum();
+    // The whole shutter costs as much as a rung.
+    let work_of_ladder = (rungs + 1) as f64 * work_of_rung.max(f64::MIN_POSITIVE);
+    let part = (work_of_truth / work_of_ladder).min(1.0) / f64::from(groups);
+    let counts = all.map(|pixel| {
+        let samples = (part * of_rung(pixel)).clamp(1.0, f64::from(MAX_SAMPLES));
+        1 << (samples.log2().round() as u32)
+    });
+    SampleCounts::PerPixel(counts.collect())
 }
 
-/// The samples per replicate: the largest power of two with which all rungs together take no more samples and no more work
-/// than the truth, and no rung has more samples per pixel than it; at least one.
-fn affordable_samples(
-    settings: &RenderSettings,
-    background: &Plane,
-    pixels: &[u32],
-    rungs: usize,
-) -> u32 {
-    let work = |pixel: &f32| 1.0 - SAVED_BY_A_MISS * f64::from(*pixel);
-    let work_of_truth: f64 = background.pixels.iter().map(work).sum();
-    let work_of_rung: f64 = pixels
-        .iter()
-        .map(|&pixel| work(&background.pixels[pixel as usize]))
-        .sum();
-    let pixel_ratio = background.pixels.len() as f64 / pixels.len().max(1) as f64;
-    let work_ratio = work_of_truth / work_of_rung.max(f64::MIN_POSITIVE);
-    let per_rung = pixel_ratio.min(work_ratio) / rungs as f64;
-    let most = f64::from(settings.samples_per_pixel / REPLICATES) * per_rung.min(1.0);
-    let most = (most as u32).clamp(1, MAX_SAMPLES);
-    1 << most.ilog2()
+/// Subtracts the whole shutter's means from those of sub-frames; other places of the tile hold 0.
+fn subtract(tile: Tile, places: &[usize], [parts, whole]: [&Means; 2]) -> Picture {
+    let Tile { width, height, .. } = tile;
+    let mut color: Image = Raster::filled(width, height, [0.0; 3]);
+    let colors = parts.color.iter().zip(&whole.color);
+    for (&place, (parts, whole)) in places.iter().zip(colors) {
+        color.pixels[place] = std::array::from_fn(|c| parts[c] - whole[c]);
+    }
+    let coverages = parts.coverage.iter().zip(&whole.coverage);
+    let coverage = coverages.map(|(parts, whole)| {
+        let mut plane: Plane = Raster::filled(width, height, 0.0);
+        for (&place, (parts, whole)) in places.iter().zip(parts.iter().zip(whole)) {
+            plane.pixels[place] = parts - whole;
+        }
+        plane
+    });
+    Picture {
+        coverage: coverage.collect(),
+        color,
+    }
 }
 
 /// Indices of the pixels within the margin of any pixel that shows motion, rising.

@@ -14,8 +14,8 @@ const LENS_SET: u32 = u32::MAX;
 pub(crate) enum Stream {
     /// Truths, and the frame that goes with them: they differ by nothing where nothing changes.
     Picture,
-    /// An accumulation of this many sub-frames.
-    Accumulation(u32),
+    /// Accumulations of sub-frames, and the whole shutter that they are compared with.
+    Ladder,
     Support,
     /// The pilot of a picture.
     Pilot,
@@ -34,8 +34,7 @@ pub(crate) struct Sampler {
 pub(crate) fn pixel_seed(seed: u64, stream: Stream, pixel: u32, replicate: u32) -> u32 {
     let stream = match stream {
         Stream::Picture => 1,
-        Stream::Accumulation(subframes) => 1 + u64::from(subframes),
-        // Greater than any number of sub-frames.
+        Stream::Ladder => 2,
         Stream::Support => u64::MAX,
         Stream::Pilot => u64::MAX - 1,
         Stream::Defocus => u64::MAX - 3,

@@ -364,7 +364,7 @@ fn a_frame_and_a_rung_are_verified_too() {
     let (file, [x, y]) = find_tile(&honest, "ladder_trailing");
     let path = sandbox.path(&file);
     let mut rung = Ladder::read(&path).unwrap();
-    rung.rungs[0].halves[1].color.pixels[(y * 64 + x) as usize][2] += 1.0;
+    rung.rungs[0].groups[1].color.pixels[(y * 64 + x) as usize][2] += 1.0;
     rung.write(&path).unwrap();
     let place = format!("{file}: pixel ({x}, {y}) of its channel n");
     find(&sandbox, "--seed 3", &[&place]);

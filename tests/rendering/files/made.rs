@@ -150,7 +150,7 @@ pub fn a_ladder() -> Ladder {
     let truth = a_truth();
     let rungs = [1, 2, 64].map(|subframes| Accumulation {
         subframes,
-        halves: [picture(subframes), picture(subframes + 100)],
+        groups: vec![picture(subframes), picture(subframes + 100)],
     });
     Ladder {
         provenance: truth.provenance,

@@ -81,7 +81,7 @@ fn sub_frames_have_the_lens() {
     let sharp = render_ladder(&scene.clone().pinhole(), &settings, &truth, &[64]);
     let mean = truth.mean().color;
     let [with, without] = [&ladder, &sharp]
-        .map(|ladder| rms_difference(&Picture::mean(&ladder.rungs[0].halves).color, &mean));
+        .map(|ladder| rms_difference(&ladder.rungs[0].picture(&truth.mean()).color, &mean));
     assert!(with < 0.02 && without > 2.0 * with, "{with} {without}");
     let own = LadderTracer::new(&scene, &settings, &truth, &[64]).unwrap();
     assert_eq!(own.trace(64, &unwatched).unwrap(), ladder);

@@ -46,7 +46,17 @@ pub fn average_subframes(
     }
     check_count(capture)?;
     let (mut means, range) = read_subframes(capture, objects.len(), watch)?;
-    let halves = means.remove(0).halves;
+    let halves = means.remove(0).1;
+    let rungs = means.iter().map(|(subframes, own)| Accumulation {
+        subframes: *subframes,
+        // Each half of the sub-frames against its own half of the truth.
+        groups: own
+            .iter()
+            .zip(&halves)
+            .map(|(own, half)| own.minus(half))
+            .collect(),
+    });
+    let rungs = rungs.collect();
     let changed = range.mark_changed();
     let reached = mark_reached(&capture.velocity, shutter);
     let restless = changed.zip(&reached, |changed, reached| *changed && !reached);
@@ -89,7 +99,7 @@ pub fn average_subframes(
             shutter_profile: ShutterProfile::default(),
             alignment,
             objects: objects.to_owned(),
-            rungs: means,
+            rungs,
         },
     }))
 }
@@ -151,12 +161,13 @@ struct Mean {
     halves: [Sum; HALVES],
 }
 
-/// Reads every sub-frame once, with the shares of the objects. Returns the mean of all, the means of fewer, and the range of colours.
+/// Reads every sub-frame once, with the shares of the objects. Returns the halves of the mean of all, those of the means of fewer, with
+/// their numbers of sub-frames, and the range of colours.
 fn read_subframes(
     capture: &Capture,
     objects: usize,
     watch: Watch,
-) -> Result<(Vec<Accumulation>, ColorRange), Error> {
+) -> Result<(Vec<(u32, [Picture; HALVES])>, ColorRange), Error> {
     let count = capture.subframes.len();
     let size = (capture.color.width, capture.color.height);
     let mean = |subframes: u32, pick: &dyn Fn(usize) -> Vec<usize>| Mean {
@@ -187,10 +198,8 @@ fn read_subframes(
             }
         }
     }
-    let means = means.iter().map(|mean| Accumulation {
-        subframes: mean.subframes,
-        halves: mean.halves.each_ref().map(Sum::mean),
-    });
+    let means = means.iter();
+    let means = means.map(|mean| (mean.subframes, mean.halves.each_ref().map(Sum::mean)));
     Ok((means.collect(), range))
 }
 

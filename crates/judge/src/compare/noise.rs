@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use frame::{FileError, Frame, Ladder, Picture, Replicate, Truth, read_exr};
 use metrics::{
-    ImageMetric, LabelMetric, Metric, ObjectMetric, Reference, Region, Scores, SkillMetric,
+    ImageMetric, LabelMetric, Metric, ObjectMetric, Reference, Region, Scores, Sharp, SkillMetric,
     jackknife, make_oracle,
 };
 use store::RenderFile;
@@ -62,7 +62,7 @@ pub fn measure_changes(
 struct TruthParts {
     frame: Frame,
     /// Sharp picture of the shutter's middle; none if its file is missing.
-    sharp: Option<Picture>,
+    sharp: Option<Sharp>,
     /// The one-frame oracle's picture of the frame.
     oracle: Picture,
     /// The whole truth, then the truth without each pair.
@@ -127,15 +127,20 @@ impl TruthParts {
         let [first, second] = files.map(|file| read_picture(&file, &self.truths[0].objects));
         let (first, second) = (first?, second?);
         let viewing = self.frame.display.into();
-        let scores = |truth| {
+        // The first truth is the whole one.
+        let scores = |(index, truth): (usize, &Truth)| {
             let mut reference = Reference::new(&self.frame, truth, None, &viewing)?;
-            if let Some(sharp) = &self.sharp {
+            let sharp = self.sharp.as_ref().map(|sharp| match index.checked_sub(1) {
+                None => sharp.clone(),
+                Some(group) => sharp.without(group),
+            });
+            if let Some(sharp) = &sharp {
                 reference = reference.with_ends(sharp, &self.oracle)?;
             }
             let [first, second] = [&first, &second].map(|own| reference.measure(own));
             Ok([first?.scores, second?.scores])
         };
-        self.truths.iter().map(scores).collect()
+        self.truths.iter().enumerate().map(scores).collect()
     }
 }
 

@@ -1,6 +1,6 @@
 //! Checks that inputs can be compared, before anything is computed.
 
-use frame::{Frame, Ladder, MAX_STOPS, Picture, Raster, Truth};
+use frame::{Accumulation, Frame, Ladder, MAX_STOPS, Picture, Raster, Truth};
 
 use crate::color::flip::MAX_EXPOSURES;
 use crate::{MeasureError, Viewing};
@@ -60,11 +60,15 @@ pub fn check_ladder(ladder: &Ladder, truth: &Truth) -> Result<(), MeasureError> 
     agree("the ladder's shutter", &ladder.shutter, &truth.shutter)?;
     for rung in &ladder.rungs {
         let what = format!("rung {} of the ladder", rung.subframes);
-        for half in &rung.halves {
-            check_picture(half, truth, &what)?;
-        }
+        check_rung(rung, truth, &what)?;
     }
     Ok(())
+}
+
+/// Refuses an accumulation as [`check_picture`] refuses a picture.
+pub fn check_rung(rung: &Accumulation, truth: &Truth, what: &str) -> Result<(), MeasureError> {
+    let mut groups = rung.groups.iter();
+    groups.try_for_each(|group| check_picture(group, truth, what))
 }
 
 /// Refuses a truth that is too large, and a frame of another scene or shutter than the truth's.

@@ -36,14 +36,19 @@ impl FrozenReference {
         }
     }
 
-    /// Scores a picture, also given as displayed; returns the squared error that its score was pooled from as well.
+    /// Returns the halves of the truth with frozen shading.
+    pub fn halves(&self) -> [&Image; 2] {
+        self.halves.each_ref()
+    }
+
+    /// Scores a picture, also given as displayed, by its squared error against `halves`; returns that error, too.
     pub fn measure(
         &self,
         (output, displayed): (&Image, &Displayed),
+        halves: [&Image; 2],
         regions: &Regions,
         viewing: &Viewing,
     ) -> (FrozenScores, Raster<f64>) {
-        let halves = self.halves.each_ref();
         let squared = squared_error(output, halves, viewing.scale());
         let flip = self.seen.map_errors(&displayed.linear);
         let found = [pool(&squared, regions), pool(&flip, regions)];

@@ -1,11 +1,14 @@
 //! The truth, ready to measure any number of pictures against.
 
+mod accumulation;
 mod check;
 mod color;
+mod counts;
 mod frozen;
 mod jitter;
 mod lateral_bleed;
 mod measurement;
+mod sharp;
 
 use frame::{Frame, Image, Ladder, Picture, Plane, Raster, Truth, regions};
 use rayon::prelude::*;
@@ -22,18 +25,15 @@ use crate::picture::scores::{Found, score_image, score_labels};
 use crate::picture::seen_truth::SeenTruth;
 use crate::probe::{OriginReference, ProbeMeasurement, Probes};
 use crate::skill::{Ends, score_skill};
-use crate::subframes::Equivalent;
-use crate::subframes::ladder::{Curves, ErrorKind};
-use crate::{
-    EquivalentScores, MeasureError, Measured, ObjectScores, ProbeScores, Region, Regions, Scores,
-    Viewing,
-};
-use check::{check_agreement, check_brightness, check_ladder, check_picture, check_viewing};
+use crate::subframes::ladder::Curves;
+use crate::{MeasureError, Measured, ObjectScores, ProbeScores, Region, Regions, Scores, Viewing};
+use check::{check_agreement, check_brightness, check_picture, check_viewing};
 use frozen::FrozenReference;
 
 pub use color::ColorReference;
 pub use jitter::Jitter;
 pub use measurement::Measurement;
+pub use sharp::Sharp;
 
 const NO_INSTANT: &str =
     "an engine's sub-frames do not say where their surfaces were at the instant";
@@ -115,53 +115,35 @@ impl<'a> Reference<'a> {
         Ok(reference)
     }
 
-    /// Adds rungs of the ladder, each with more sub-frames than those before. Memory then need not hold all of them at once.
-    pub fn add_rungs(&mut self, ladder: &Ladder) -> Result<(), MeasureError> {
-        check_ladder(ladder, self.truth)?;
-        let truth = (
-            &self.mean,
-            self.truth.halves.each_ref().map(|half| &half.color),
-        );
-        for rung in &ladder.rungs {
-            self.curves.add(
-                rung,
-                truth,
-                &self.seen.display,
-                &self.regions,
-                &self.viewing,
-            );
-        }
-        Ok(())
-    }
-
-    /// Adds the pictures that skill is measured between. `sharp` shows the instant in the middle of the shutter and has a skill
-    /// of 0; `best` is the one-frame oracle's, the best that one frame can give, and has 1. Without them skill does not apply.
-    pub fn with_ends(mut self, sharp: &Picture, best: &Picture) -> Result<Self, MeasureError> {
-        check_picture(
-            sharp,
-            self.truth,
-            "the sharp picture of the shutter's middle",
-        )?;
-        check_picture(best, self.truth, "the one-frame oracle")?;
-        let pool = |picture: &Picture| {
-            let errors = self.map_errors(picture, &self.display(picture));
-            Pooled::new(&errors, &self.regions, Region::Moving, &self.windows)
-        };
-        let ends = pool(sharp).zip(pool(best));
-        self.ends = ends.map(|(sharp, best)| Ends { sharp, best });
-        Ok(self)
+    /// Pools a picture's errors over the moving region; none if nothing moves.
+    fn pool_moving(&self, picture: &Picture, halves: [&Image; 2]) -> Option<Pooled> {
+        let errors = self.map_errors(picture, &self.display(picture), halves);
+        Pooled::new(&errors, &self.regions, Region::Moving, &self.windows)
     }
 
     /// Measures one picture.
     pub fn measure(&self, output: &Picture) -> Result<Measurement, MeasureError> {
+        self.measure_against(output, self.half_colors(), self.frozen.halves())
+    }
+
+    /// Measures one picture: squared errors against these halves of the truth, and of the one with frozen shading.
+    fn measure_against(
+        &self,
+        output: &Picture,
+        halves: [&Image; 2],
+        frozen_halves: [&Image; 2],
+    ) -> Result<Measurement, MeasureError> {
         check_picture(output, self.truth, "the output")?;
         check_brightness(output, &self.viewing, "the output")?;
         let displayed = self.display(output);
-        let errors = self.map_errors(output, &displayed);
+        let errors = self.map_errors(output, &displayed, halves);
         let (objects, [bleed, gradient_error]) = self.measure_objects(output, &errors);
-        let (frozen, frozen_squared) =
-            self.frozen
-                .measure((&output.color, &displayed), &self.regions, &self.viewing);
+        let (frozen, frozen_squared) = self.frozen.measure(
+            (&output.color, &displayed),
+            frozen_halves,
+            &self.regions,
+            &self.viewing,
+        );
         let static_change = self.map_static_change(&output.color);
         let pooled = Pooled::over_all(&errors, &self.regions, &self.windows);
         let pooled = Region::ALL.map(|region| -> Found {
@@ -261,8 +243,12 @@ impl<'a> Reference<'a> {
         Displayed::new(&picture.color, &self.viewing)
     }
 
-    fn map_errors(&self, picture: &Picture, displayed: &Displayed) -> ErrorMaps {
-        let halves = self.half_colors();
+    fn map_errors(
+        &self,
+        picture: &Picture,
+        displayed: &Displayed,
+        halves: [&Image; 2],
+    ) -> ErrorMaps {
         ErrorMaps::new((picture, displayed), halves, &self.mean, &self.seen)
     }
 
@@ -272,28 +258,6 @@ impl<'a> Reference<'a> {
         zip_pixels(&changes, &self.regions.still, |change, still| {
             if *still { *change } else { 0.0 }
         })
-    }
-
-    fn score_equivalents(&self, moving: &Found) -> EquivalentScores {
-        let score = |kind: ErrorKind, error: fn(&Pooled) -> f64| {
-            if self.curves.is_empty() {
-                return Equivalent::not_applicable("no ladder of accumulations was given");
-            }
-            match (moving, self.curves.curve(kind)) {
-                (Ok((own, noise)), Some(curve)) => {
-                    Equivalent::Subframes(curve.convert(error(own), error(noise)))
-                }
-                (Ok(_), None) => {
-                    Equivalent::not_applicable("no accumulation can be told from the truth")
-                }
-                (Err(reason), _) => Equivalent::not_applicable(reason),
-            }
-        };
-        EquivalentScores {
-            mse: score(ErrorKind::Mse, |pooled| pooled.mse),
-            flip: score(ErrorKind::Flip, |pooled| pooled.flip),
-            label_total_variation: score(ErrorKind::Label, |pooled| pooled.label),
-        }
     }
 }
 

@@ -2,68 +2,127 @@
 
 use frame::{Accumulation, Image, Picture, Raster};
 
-use super::curve::Curve;
-use crate::color::cross_error::cross;
+use crate::color::cross_error::multiply;
 use crate::color::flip::{Displayed, SeenExposures};
 use crate::label::label_variation;
 use crate::math::pooling::mean_over;
-use crate::{Region, Regions, Viewing};
+use crate::{EquivalentMetric, Region, Regions, Viewing};
 
-/// Kind of a rung's error, over the moving region.
-#[derive(Clone, Copy)]
-pub enum ErrorKind {
-    /// Unbiased squared error of colour: neither the rungs' noise nor the truth's counts.
-    Mse,
-    /// Mean LDR-FLIP, noise of rung and truth included.
-    Flip,
-    /// Mean label total variation, noise included.
-    Label,
+/// Errors over the moving region that sub-frames are counted by.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Errors {
+    /// Unbiased squared error of colour.
+    pub mse: f64,
+    /// Mean LDR-FLIP.
+    pub flip: f64,
+    /// Mean label total variation.
+    pub label: f64,
 }
 
-/// Errors of the rungs that were added, by number of sub-frames.
-#[derive(Default)]
+impl Errors {
+    /// Returns the error that a count is by, squared: noise adds to squares by its variance, which the jackknife takes out.
+    pub fn square(&self, metric: EquivalentMetric) -> f64 {
+        match metric {
+            EquivalentMetric::Mse => self.mse,
+            EquivalentMetric::Flip => self.flip.powi(2),
+            EquivalentMetric::LabelTotalVariation => self.label.powi(2),
+        }
+    }
+}
+
+/// Errors of a rung.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rung {
+    /// Number of sub-frames.
+    pub subframes: u32,
+    /// Errors with as much of the truth's noise as a picture without noise of its own has: comparable with those.
+    pub noisy: Errors,
+    /// Errors without the truth's noise: those of the rung's picture on the truth's mean.
+    pub plain: Errors,
+}
+
+/// Errors of the rungs that were added, in rising order of sub-frames.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Curves {
-    /// Sub-frames, and the error of each [`ErrorKind`] in their order.
-    rungs: Vec<(u32, [f64; 3])>,
+    /// The rungs.
+    pub rungs: Vec<Rung>,
+}
+
+/// A truth that rungs are scored against.
+pub struct RungTruth<'a> {
+    /// Its mean.
+    pub mean: &'a Picture,
+    /// Half of it whose difference from the mean is as large as the mean's noise; the mean itself if the truth has no noise.
+    pub half: &'a Picture,
+    /// The mean as FLIP sees it.
+    pub seen: &'a SeenExposures,
 }
 
 impl Curves {
-    /// Scores a rung against the truth, which is given by its mean and the colours of its halves; `seen` is the mean as FLIP sees
-    /// it. Rungs are added in rising order of sub-frames.
+    /// Scores a rung against the truth.
+    ///
+    /// A picture F differs from the truth's mean T by its error and the noise of T. A rung on T differs by its error alone, and
+    /// would win by the noise. So it is also scored on the truth's half A, against T: A - T is as large as the noise of T.
     pub fn add(
         &mut self,
         rung: &Accumulation,
-        (mean, truths): (&Picture, [&Image; 2]),
-        seen: &SeenExposures,
+        truth: &RungTruth,
         regions: &Regions,
         viewing: &Viewing,
     ) {
         assert!(
-            (self.rungs.last()).is_none_or(|(last, _)| *last < rung.subframes),
+            (self.rungs.last()).is_none_or(|last| last.subframes < rung.subframes),
             "rungs rise"
         );
-        let pool = |map: &Raster<f64>| mean_over(map, regions, Region::Moving).unwrap_or(0.0);
-        let picture = Picture::mean(&rung.halves);
-        let halves = rung.halves.each_ref().map(|half| &half.color);
-        let flip = seen.map_errors(&Displayed::new(&picture.color, viewing).linear);
-        let errors = [
-            pool(&cross(halves, truths, viewing.scale())),
-            mean_over(&flip, regions, Region::Moving).unwrap_or(0.0),
-            pool(&label_variation(&picture.coverage, &mean.coverage)),
-        ];
-        self.rungs.push((rung.subframes, errors));
+        let difference = rung.difference();
+        let mse = mean_square(rung, &difference.color, regions, viewing.scale());
+        let score = |base: &Picture| {
+            let picture = base.plus(&difference);
+            let flip = (truth.seen).map_errors(&Displayed::new(&picture.color, viewing).linear);
+            let label = label_variation(&picture.coverage, &truth.mean.coverage);
+            Errors {
+                mse,
+                flip: pool(&flip, regions),
+                label: pool(&label, regions),
+            }
+        };
+        let plain = score(truth.mean);
+        self.rungs.push(Rung {
+            subframes: rung.subframes,
+            noisy: if std::ptr::eq(truth.half, truth.mean) {
+                plain
+            } else {
+                score(truth.half)
+            },
+            plain,
+        });
     }
 
     /// Returns whether no rung was added.
     pub fn is_empty(&self) -> bool {
         self.rungs.is_empty()
     }
+}
 
-    /// Makes the curve of one kind of error; none if no rung can be distinguished from the truth.
-    pub fn curve(&self, kind: ErrorKind) -> Option<Curve> {
-        let points: Vec<(u32, f64)> = (self.rungs.iter())
-            .map(|(subframes, errors)| (*subframes, errors[kind as usize]))
-            .collect();
-        Curve::new(&points)
+/// Estimates the mean square of a difference without the noise of its groups, mean over the channels: the mean of the products
+/// of all pairs of different groups. The noise of one group alone counts.
+fn mean_square(rung: &Accumulation, mean: &Image, regions: &Regions, scale: f64) -> f64 {
+    let square = |image: &Image| {
+        let squares = image.map(|pixel| {
+            let pixel = pixel.map(f64::from);
+            multiply(pixel, pixel, scale)
+        });
+        pool(&squares, regions)
+    };
+    let whole = square(mean);
+    let count = rung.groups.len() as f64;
+    if rung.groups.len() == 1 {
+        return whole;
     }
+    let each = rung.groups.iter().map(|group| square(&group.color));
+    (count * whole - each.sum::<f64>() / count) / (count - 1.0)
+}
+
+fn pool<T: Copy + Into<f64>>(map: &Raster<T>, regions: &Regions) -> f64 {
+    mean_over(map, regions, Region::Moving).unwrap_or(0.0)
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use filters::{Convention, FilterError};
-use frame::{Frame, Ladder, Picture, Vectors};
+use frame::{Accumulation, Frame, Ladder, Picture, Vectors};
 use metrics::{
     ColorReference, ImageScores, Jitter, MeasureError, Measurement, Metric, ProbeScores, Reference,
 };
@@ -97,8 +97,7 @@ impl CaseContext<'_> {
                 self.measure_reference(self.references.oracle.clone())?
             }
             PictureSource::Accumulation(subframes) => {
-                let ladder = (self.read_rung)(*subframes)?;
-                self.measure_reference(Picture::mean(&ladder.rungs[0].halves))?
+                self.measure_accumulation(&(self.read_rung)(*subframes)?.rungs[0])?
             }
             PictureSource::Filter(choice, input) => self.measure_filter(choice, *input)?,
             PictureSource::Engine(scene) => self.measure_engine(scene)?,
@@ -108,6 +107,12 @@ impl CaseContext<'_> {
 
     fn measure_reference(&self, picture: Picture) -> Result<MeasuredPicture, Error> {
         let measurement = self.references.reference.measure(&picture)?;
+        Ok(MeasuredPicture::new(picture, measurement))
+    }
+
+    fn measure_accumulation(&self, rung: &Accumulation) -> Result<MeasuredPicture, Error> {
+        let picture = rung.picture(&self.references.truth.mean());
+        let measurement = self.references.reference.measure_accumulation(rung)?;
         Ok(MeasuredPicture::new(picture, measurement))
     }
 
@@ -197,22 +202,38 @@ impl CaseContext<'_> {
         self.references.truth.size().into()
     }
 
-    /// Measures a picture, with score intervals from the pictures of `parts` of the frame's replicates if requested.
+    /// Measures a picture, with score intervals from the pictures of `parts` of the frame's replicates if requested. The counts of
+    /// equivalent sub-frames have theirs wherever there are parts.
     fn measure_with_intervals(
         &self,
         parts: &[Picture],
         whole: &Picture,
         measure: impl Fn(&Reference, &Picture) -> Result<Measurement, MeasureError>,
     ) -> Result<(Measurement, Intervals), MeasureError> {
-        let measurement = measure(&self.references.reference, whole)?;
-        let scores = (self.references.parts.iter().zip(parts))
+        let reference = &self.references.reference;
+        let parts = || self.references.parts.iter().zip(parts);
+        let mut measurement = measure(reference, whole)?;
+        let scores = &mut measurement.scores;
+        if !reference.curves().is_empty() {
+            let errors = parts().map(|(reference, part)| {
+                let errors = reference.measure_errors(part)?;
+                Ok(errors.map(|errors| (reference, errors)))
+            });
+            let errors: Result<Option<Vec<_>>, MeasureError> = errors.collect();
+            let errors = errors?.unwrap_or_default();
+            scores.equivalent_subframes = reference.count_subframes(scores, &errors);
+        }
+        if !self.scene.plan.intervals {
+            return Ok((measurement, Intervals::new()));
+        }
+        let of_parts = parts()
             .map(|(reference, part)| Ok(measure(reference, part)?.scores))
             .collect::<Result<Vec<_>, MeasureError>>()?;
-        let intervals = match scores.as_slice() {
+        let found = match of_parts.as_slice() {
             [] => Intervals::new(),
-            parts => intervals(&measurement.scores, parts, Metric::all()),
+            parts => intervals(scores, parts, Metric::all()),
         };
-        Ok((measurement, intervals))
+        Ok((measurement, found))
     }
 
     /// Separates the filter's noise from its other errors; none without noise, or for too few frames.
@@ -264,7 +285,8 @@ impl CaseContext<'_> {
             (picture, measured.dilated_velocity.as_ref()),
             measurement,
         )?;
-        if !self.scene.plan.frames.is_one() && !measured.parts.is_empty() {
+        let plan = self.scene.plan;
+        if plan.intervals && !plan.frames.is_one() && !measured.parts.is_empty() {
             write_parts(&path, &measured.parts)?;
             files.push(PARTS_FILE.to_owned());
         }

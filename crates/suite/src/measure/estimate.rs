@@ -20,12 +20,12 @@ const CORES: f64 = 2.0;
 const SCENE: f64 = 0.2;
 const SAMPLE: f64 = 0.9e-6;
 /// Samples of a whole ladder, relative to its truth: only pixels near motion need it.
-const WHOLE_LADDER: f64 = 0.4;
+const WHOLE_LADDER: f64 = 0.8;
 /// Time in seconds to run a filter and measure its picture: at any size, and per pixel; and per pixel to write its part of the report.
 const CASE: f64 = 0.035;
 const CASE_PIXEL: f64 = 6e-6;
 const REPORT_PIXEL: f64 = 0.45e-6;
-/// Time of a case with intervals, relative to one without.
+/// Time of a case with intervals, relative to one without; with a ladder, counts of sub-frames have intervals.
 const INTERVALS: f64 = 2.0;
 /// Cases that need as much time as the start of a process and its truth.
 const START_CASES: f64 = 2.0;
@@ -164,7 +164,8 @@ pub fn estimate_case_seconds(render: &RenderSettings) -> f64 {
 
 /// Estimates the time of one case of a plan with its intervals, in seconds.
 fn case_seconds(plan: &RunPlan) -> f64 {
-    let intervals = if plan.intervals { INTERVALS } else { 1.0 };
+    let has_intervals = plan.intervals || plan.ladders;
+    let intervals = if has_intervals { INTERVALS } else { 1.0 };
     intervals * estimate_case_seconds(&plan.render)
 }
 

@@ -175,8 +175,9 @@ impl SceneContext<'_> {
         }
     }
 
-    /// Makes the parts of the frame and of an alignment's truth, if cases of filters get intervals. Makes none for an engine's scene:
-    /// sub-frames are no random samples, and a truth without some of them has holes.
+    /// Makes the parts of the frame and of an alignment's truth, if cases of filters get intervals or, with a ladder, counts of equivalent
+    /// sub-frames, which have intervals. Makes none for an engine's scene: sub-frames are no random samples, and a truth without some of
+    /// them has holes.
     fn truth_parts(
         &self,
         alignment: Alignment,
@@ -186,7 +187,7 @@ impl SceneContext<'_> {
         let RunScene::Traced(scene) = self.scene else {
             return Ok(Vec::new());
         };
-        if !has_filters || !self.plan.intervals {
+        if !has_filters || !self.plan.measures_parts() {
             return Ok(Vec::new());
         }
         let rendering = self.plan.rendering(scene);

@@ -36,8 +36,8 @@ pub struct RunPlan {
     pub out: PathBuf,
     /// True if filters' scores get intervals, which bounds are judged by. Needs a few more measurements of every picture.
     pub intervals: bool,
-    /// True if the ladder of every truth is rendered, for equivalent sub-frames and for the accumulations among the references. Costs about
-    /// half the time of the truth. Without it, an engine's scene has its ladder, and every trailing or leading truth has the one rung that
+    /// True if the ladder of every truth is rendered, for equivalent sub-frames and for the accumulations among the references. Costs up
+    /// to the time of the truth. Without it, an engine's scene has its ladder, and every trailing or leading truth has the one rung that
     /// is the sharp picture of its shutter's middle.
     pub ladders: bool,
     /// True if frames, truths and cases in `out` are removed and made anew.
@@ -102,6 +102,11 @@ impl RunPlan {
             out: &self.out,
             monitor: self.monitor,
         }
+    }
+
+    /// Tells whether filters are measured on parts of the frame's replicates, for intervals of scores or of counts of sub-frames.
+    pub(crate) fn measures_parts(&self) -> bool {
+        self.intervals || self.ladders
     }
 
     /// Tells whether a filter reads velocities that few filters read.

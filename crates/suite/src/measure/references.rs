@@ -1,7 +1,7 @@
 //! Truths, prepared for measuring many pictures.
 
-use frame::{Accumulation, Alignment, Frame, Ladder, Picture, Truth};
-use metrics::{Reference, Viewing, make_oracles};
+use frame::{Accumulation, Frame, Ladder, Picture, Truth};
+use metrics::{Reference, Sharp, Viewing, make_oracles};
 
 use crate::Error;
 use crate::render::ladders::sharp_picture;
@@ -14,7 +14,7 @@ pub(crate) struct TruthReferences<'a> {
     pub oracle: Picture,
     /// All that pictures are compared with.
     pub reference: Reference<'a>,
-    /// References to parts of the replicates of frame and truth; empty if scores get no intervals.
+    /// References without one group of replicates of frame, truth and ladder each; empty if nothing gets intervals.
     pub parts: Vec<Reference<'a>>,
 }
 
@@ -43,27 +43,23 @@ impl<'a> TruthReferences<'a> {
         let frame = frame.cropped();
         let sharp = sharp_picture(&frame, truth, read_sharp)?;
         let mut own = Reference::new(&frame, truth, None, viewing)?.with_ends(&sharp, &oracle)?;
-        let of_part = |(part, oracle): (&'a TruthPart, Picture)| {
-            let Picture { color, coverage } = part.picture.cropped(band);
-            let frame = Frame {
-                color,
-                coverage,
-                ..frame.clone()
-            };
+        let of_part = |((group, part), oracle): ((usize, &'a TruthPart), Picture)| {
+            let frame = frame.showing(&part.picture.cropped(band));
             // The sharp picture of a centred shutter is the frame.
-            let sharp = match truth.alignment {
-                Alignment::Centred => &frame.picture(),
-                _ => &sharp,
+            let sharp = match &sharp {
+                Sharp::Frame(_) => Sharp::Frame(frame.picture()),
+                Sharp::Accumulation(rung) => Sharp::Accumulation(rung.without(group)),
             };
-            Reference::new(&frame, &part.truth, None, viewing)?.with_ends(sharp, &oracle)
+            Reference::new(&frame, &part.truth, None, viewing)?.with_ends(&sharp, &oracle)
         };
-        let mut references: Vec<Reference> = (parts.iter().zip(oracles))
+        let mut references: Vec<Reference> = (parts.iter().enumerate().zip(oracles))
             .map(of_part)
             .collect::<Result<_, _>>()?;
         for rung in rungs {
             let rung = rung?;
-            for reference in std::iter::once(&mut own).chain(&mut references) {
-                reference.add_rungs(&rung)?;
+            own.add_rungs(&rung)?;
+            for (group, reference) in references.iter_mut().enumerate() {
+                reference.add_rungs(&rung.without(group))?;
             }
         }
         Ok(Self {

@@ -79,9 +79,9 @@ pub(super) fn store_frames(
     Ok(stored)
 }
 
-/// Reads the replicates of a scene's frame if scores get intervals; none of an engine's.
+/// Reads the replicates of a scene's frame if filters are measured on parts of them; none of an engine's.
 fn read_replicates(plan: &RunPlan, scene: RunScene) -> Result<Vec<Picture>, Error> {
-    let scene = scene.traced().filter(|_| plan.intervals);
+    let scene = scene.traced().filter(|_| plan.measures_parts());
     scene.map_or(Ok(Vec::new()), |scene| {
         plan.rendering(scene).frame_replicates()
     })

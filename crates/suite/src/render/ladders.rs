@@ -3,7 +3,8 @@
 use std::cell::OnceCell;
 use std::path::PathBuf;
 
-use frame::{Accumulation, Alignment, Frame, Ladder, Picture, Truth, read_attribute};
+use frame::{Accumulation, Alignment, Frame, Ladder, Truth, read_attribute};
+use metrics::Sharp;
 use store::{LADDER, RenderFile};
 use tracer::{LadderTracer, RenderSettings, Scene};
 
@@ -29,10 +30,10 @@ pub fn sharp_picture<E>(
     frame: &Frame,
     truth: &Truth,
     read: impl FnOnce() -> Result<Accumulation, E>,
-) -> Result<Picture, E> {
+) -> Result<Sharp, E> {
     match truth.alignment {
-        Alignment::Centred => Ok(frame.picture()),
-        _ => Ok(Picture::mean(&read()?.halves)),
+        Alignment::Centred => Ok(Sharp::Frame(frame.picture())),
+        _ => Ok(Sharp::Accumulation(read()?)),
     }
 }
 

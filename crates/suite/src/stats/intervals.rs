@@ -1,14 +1,19 @@
 //! Jackknife intervals of scores, from parts of the replicates of frame and truth.
 
 use metrics::{
-    FrozenMetric, Ideal, ImageMetric, Interval, Measured, Metric, ObjectMetric, ProbeMetric,
-    Region, Rise, Scores, SequenceMetric, SequenceScores, jackknife_of, psnr,
+    Equivalent, FrozenMetric, Ideal, ImageMetric, Interval, Measured, Metric, ObjectMetric,
+    ProbeMetric, Region, Rise, Scores, SequenceMetric, SequenceScores, jackknife_of, psnr,
 };
+use store::LADDER;
 
 use crate::run::case::Intervals;
 
+/// First and last number of sub-frames of the ladder.
+const LADDER_ENDS: [u32; 2] = [LADDER[0], LADDER[LADDER.len() - 1]];
+
 /// Computes the interval of each of `metrics` that has a score of the whole and of all `parts`, each without one of the
-/// [`Groups`](crate::Groups) of replicates.
+/// [`Groups`](crate::Groups) of replicates. Counts of equivalent sub-frames have an interval of their own, with the ladder's ends
+/// for open ends.
 pub fn intervals(
     whole: &Scores,
     parts: &[Scores],
@@ -27,6 +32,10 @@ pub fn intervals(
                     let object = ObjectMetric::LabelTotalVariation;
                     worst_interval(whole, parts, (metric, object), false)
                 }
+                Metric::Equivalent(count) => match whole.equivalent_subframes.get(count) {
+                    Equivalent::Subframes(count) => Some(count.interval(LADDER_ENDS)),
+                    Equivalent::NotApplicable { .. } => None,
+                },
                 _ => {
                     let parts = parts.iter().map(|scores| scores.get(metric).value());
                     interval(&whole.get(metric), parts, metric)

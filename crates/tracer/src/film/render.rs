@@ -62,10 +62,7 @@ impl Times<'_> {
         match self {
             Times::Instant => 0.0,
             Times::Shutter(shutter) => shutter.sample_time(part, row, height),
-            Times::Midpoints(shutter, parts) => {
-                let parts = f64::from(parts);
-                shutter.time(((part * parts).floor() + 0.5) / parts, row, height)
-            }
+            Times::Midpoints(shutter, parts) => shutter.subframe_time(part, parts, row, height),
         }
     }
 }

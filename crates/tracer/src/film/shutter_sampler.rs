@@ -62,17 +62,29 @@ impl ShutterSampler {
     /// alignments of one exposure without ramps have equal times wherever they overlap, bit for bit, and share their
     /// samples there. Every alignment has each part of its interval once, and is stratified as well as any other.
     pub fn sample_time(&self, number: f64, row: u32, height: u32) -> f64 {
+        self.time(self.sample_part(number), row, height)
+    }
+
+    /// The time of that sample's sub-frame: the middle of the one of `subframes` equal parts of the light that has
+    /// [`ShutterSampler::sample_time`].
+    pub fn subframe_time(&self, number: f64, subframes: u32, row: u32, height: u32) -> f64 {
+        let subframes = f64::from(subframes);
+        let index = (self.sample_part(number) * subframes).floor();
+        self.time((index + 0.5) / subframes, row, height)
+    }
+
+    /// The part of all light that has passed by the time of a sample.
+    fn sample_part(&self, number: f64) -> f64 {
         let opening = (1.0 - self.before).clamp(0.0, 1.0);
-        let part = if number < opening {
+        if number < opening {
             number + (1.0 - opening)
         } else {
             number - opening
-        };
-        self.time(part, row, height)
+        }
     }
 
     /// The time, in frames, by which `part` of all light of a row has passed; `part` is in [0, 1).
-    pub fn time(&self, part: f64, row: u32, height: u32) -> f64 {
+    fn time(&self, part: f64, row: u32, height: u32) -> f64 {
         let since_opening = self.place(part * self.total);
         self.exposure * (since_opening - self.before) + self.profile.row_offset(row, height)
     }
