@@ -150,25 +150,6 @@ fn a_trailing_filter_of_more_skill_ranks_above_a_centred_one_of_less_flip() {
 }
 
 #[test]
-fn a_mean_of_skills_weighs_scenes_by_what_there_is_to_gain() {
-    let mut run = make_run();
-    let scene = SceneId::new("scene_0".to_owned(), None);
-    let jump_flood = |case: &&mut Case| case.name() == "jump_flood:paper" && case.scene == scene;
-    let case = run.cases.iter_mut().find(jump_flood).unwrap();
-    case.scores.skill.flip = Measured::score(1.0, 1.0);
-    run.overall = overall(&run.cases);
-    // The first scene counts 0.6 of 5, and not a fifth.
-    let due = 0.12 + 0.88 * (0.156 - 0.100) / (0.156 - 0.050);
-    let found = mean(&run, "jump_flood:paper", "skill_flip").mean;
-    assert!((found - due).abs() < 1e-9, "{found}");
-    let scene_1 = run.cases.iter().find(|case| case.scene != scene).unwrap();
-    for (metric, due) in [("skill_flip", 0.8 * 0.106), ("flip_moving", 1.0)] {
-        let weight = scene_1.weight(metric.parse().unwrap(), &run.cases).unwrap();
-        assert!((weight - due).abs() < 1e-9, "{metric}: {weight}");
-    }
-}
-
-#[test]
 fn a_filter_worse_than_doing_nothing_ranks_below_it() {
     let run = make_run();
     let skill = mean(&run, "jimenez:wicked", "skill_flip");
