@@ -123,31 +123,6 @@ fn terminal_and_page_show_the_same_numbers() {
 }
 
 #[test]
-fn means_are_those_of_the_runs() {
-    let sandbox = two_runs();
-    let compared = compare(&sandbox, "other");
-    for (side, out) in [("first", "out"), ("second", "other")] {
-        let run: suite::Run = sandbox.read_json(&format!("{out}/run.json"));
-        // The plates move at different speeds: the mean of skills is a ratio of means, and not their plain mean.
-        for metric in ["flip_moving", "skill_flip"] {
-            let of_gather = |own: &&suite::Overall| {
-                own.name == "velocity_gather:fine" && own.metric.name() == metric
-            };
-            let due = run.overall.iter().find(of_gather).unwrap().mean;
-            let means = compared["means"].as_array().unwrap();
-            let found = means
-                .iter()
-                .find(|mean| mean["metric"] == metric && mean["filter"] == "velocity_gather:fine");
-            let found = found.unwrap()[side].as_f64().unwrap();
-            assert!(
-                (found - due).abs() < 1e-12,
-                "{metric}, {side}: {found}, not {due}"
-            );
-        }
-    }
-}
-
-#[test]
 fn floors_decide_if_replicates_are_missing_and_the_output_says_so() {
     let sandbox = two_runs();
     for out in ["out", "other"] {
