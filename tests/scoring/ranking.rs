@@ -4,10 +4,12 @@ use std::collections::BTreeMap;
 
 use cli::{run_table, terminal_text};
 use frame::Alignment;
+use judge::compare_runs;
 use metrics::{Measured, Metric, Scores};
-use suite::{Case, CaseId, FORMAT, InputFormat, Overall, Run, overall};
+use suite::{Case, CaseId, FORMAT, InputFormat, Overall, Run, StoredRun, overall};
 use tests::synthetic::{Blur, Object, Shape};
 use tests::text::assert_contains;
+use tests::unwatched;
 use tracer::{Family, SceneId};
 
 use crate::{measure_blur, scene};
@@ -150,25 +152,6 @@ fn a_trailing_filter_of_more_skill_ranks_above_a_centred_one_of_less_flip() {
 }
 
 #[test]
-fn a_mean_of_skills_weighs_scenes_by_what_there_is_to_gain() {
-    let mut run = make_run();
-    let scene = SceneId::new("scene_0".to_owned(), None);
-    let jump_flood = |case: &&mut Case| case.name() == "jump_flood:paper" && case.scene == scene;
-    let case = run.cases.iter_mut().find(jump_flood).unwrap();
-    case.scores.skill.flip = Measured::score(1.0, 1.0);
-    run.overall = overall(&run.cases);
-    // The first scene counts 0.6 of 5, and not a fifth.
-    let due = 0.12 + 0.88 * (0.156 - 0.100) / (0.156 - 0.050);
-    let found = mean(&run, "jump_flood:paper", "skill_flip").mean;
-    assert!((found - due).abs() < 1e-9, "{found}");
-    let scene_1 = run.cases.iter().find(|case| case.scene != scene).unwrap();
-    for (metric, due) in [("skill_flip", 0.8 * 0.106), ("flip_moving", 1.0)] {
-        let weight = scene_1.weight(metric.parse().unwrap(), &run.cases).unwrap();
-        assert!((weight - due).abs() < 1e-9, "{metric}: {weight}");
-    }
-}
-
-#[test]
 fn a_filter_worse_than_doing_nothing_ranks_below_it() {
     let run = make_run();
     let skill = mean(&run, "jimenez:wicked", "skill_flip");
@@ -230,6 +213,47 @@ fn skill_over_scenes_is_a_ratio_of_means() {
     let [way, gained] = [0.6 * (0.154 - 0.024), 0.6 * (0.154 - 0.087)];
     let due = (gained + 0.010) / (way + 0.001);
     assert!((found.mean - due).abs() < 1e-9, "{found:?} {due}");
+}
+
+#[test]
+fn compared_runs_have_the_means_of_skill_of_each_run() {
+    let [first, mut second] = [make_run(), make_run()];
+    let is_own =
+        |case: &&mut Case| case.name() == "jump_flood:paper" && case.scene.to_string() == "scene_0";
+    let case = second.cases.iter_mut().find(is_own).unwrap();
+    case.scores.skill.flip = Measured::score(1.0, 1.0);
+    second.overall = overall(&second.cases);
+    // The first scene has 0.6 of 5 parts of what there is to gain, and not a fifth.
+    let old = (0.156 - 0.100) / (0.156 - 0.050);
+    let due = [old, 0.12 + 0.88 * old];
+    let runs = [first, second].map(|run| StoredRun {
+        path: "no_such_folder/run.json".into(),
+        run,
+    });
+    let [first, second] = &runs;
+    let compared = compare_runs(first, second, &BTreeMap::new(), &unwatched).unwrap();
+    let mut means = compared.means.iter();
+    let is_own = |mean: &&judge::MeanChange| {
+        mean.filter == "jump_flood:paper" && mean.metric == Metric::SKILL
+    };
+    let found = means.find(is_own).unwrap();
+    for (found, due) in [found.first, found.second].into_iter().zip(due) {
+        assert!((found - due).abs() < 1e-9, "{found}, not {due}");
+    }
+    for (run, due) in runs.iter().zip(due) {
+        let found = mean(&run.run, "jump_flood:paper", "skill_flip").mean;
+        assert!((found - due).abs() < 1e-9, "{found}, not {due}");
+    }
+}
+
+#[test]
+fn one_scene_has_no_mean() {
+    let scores = any_scores();
+    let cases: Vec<Case> = (0..2)
+        .flat_map(|scene| ENTRIES.map(|entry| make_case(scene, &scores, entry)))
+        .collect();
+    assert!(overall(&cases[..ENTRIES.len()]).is_empty());
+    assert!(overall(&cases).iter().all(|mean| mean.scenes == 2));
 }
 
 #[test]

@@ -89,3 +89,67 @@ pub fn touches_border(matte: &Plane) -> bool {
     let rows = (0..matte.height).flat_map(|y| [(0, y), (right, y)]);
     columns.chain(rows).any(|(x, y)| *matte.at(x, y) > 0.0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Makes a picture with ten rows of `length` pixels.
+    fn bar(length: f32) -> Plane {
+        Plane::from_fn(40, 20, |x, y| {
+            let covered = (length - (x as f32 - 15.0)).clamp(0.0, 1.0);
+            if (5..15).contains(&y) && x >= 15 {
+                covered
+            } else {
+                0.0
+            }
+        })
+    }
+
+    /// Compares an object of 4 pixels with a truth that has other rows; both lateral sides have 20 pixels.
+    fn floor(truth: f32) -> Result<RowMass, String> {
+        let silhouette = crate::object::mover::Silhouette {
+            lateral: 20.0,
+            across: 10.0,
+        };
+        let mover = Mover {
+            displacement: [10.0, 0.0],
+            deviation: 0.0,
+            silhouette,
+        };
+        let truth = bar(truth);
+        AlongMotion::new(&mover, false, &bar(4.0), &truth, &truth)?.mass_floor
+    }
+
+    #[test]
+    fn rows_keep_their_mass_up_to_a_quarter_of_a_pixel_which_is_then_the_floor() {
+        let near = |found: f64, expected: f64| (found - expected).abs() < 1e-3;
+        // Ten rows that lack 0.4 px are 0.2 px of 20.
+        let found = floor(4.4).unwrap();
+        assert!(near(found.loss, 0.2) && near(found.gain, 0.0), "{found:?}");
+        let found = floor(3.6).unwrap();
+        assert!(
+            near(found.loss, 0.0) && near(found.gain + found.growth, 0.2),
+            "{found:?}"
+        );
+        assert!(found.gain > 0.19, "{found:?}");
+        let reason = floor(4.6).unwrap_err();
+        assert!(
+            reason.contains("alters the silhouette by 0.30 px"),
+            "{reason}"
+        );
+    }
+
+    #[test]
+    fn a_trace_at_the_border_touches_it() {
+        let touches = |x: u32, y: u32| {
+            touches_border(&Plane::from_fn(5, 4, |column, row| {
+                if (column, row) == (x, y) { 0.01 } else { 0.0 }
+            }))
+        };
+        for (x, y) in [(0, 2), (4, 1), (2, 0), (3, 3)] {
+            assert!(touches(x, y), "{x}, {y}");
+        }
+        assert!(!touches(1, 1) && !touches(3, 2));
+    }
+}

@@ -23,3 +23,29 @@ pub fn measure_bleed(
     } = *silhouette;
     (length > 0.0 && across > 0.0).then(|| [lateral / length, leading / across, trailing / across])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bleed_is_mass_per_length_of_its_side() {
+        let output = Plane {
+            width: 4,
+            height: 1,
+            pixels: vec![1.0, 0.5, 0.25, 0.125],
+        };
+        let sides = Raster {
+            width: 4,
+            height: 1,
+            pixels: vec![Side::Inside, Side::Lateral, Side::Leading, Side::Trailing],
+        };
+        let measure = |lateral, across| {
+            let silhouette = Silhouette { lateral, across };
+            measure_bleed(&output, &sides, &silhouette)
+        };
+        assert_eq!(measure(2.0, 4.0), Some([0.25, 0.0625, 0.03125]));
+        assert_eq!(measure(0.0, 4.0), None);
+        assert_eq!(measure(2.0, 0.0), None);
+    }
+}

@@ -35,3 +35,30 @@ pub fn measure_mass(output: &Plane, truth: &Plane, core: &Raster<bool>) -> Optio
         energy: energy / total,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn mass_that_is_missing_is_not_made_up_by_mass_elsewhere() {
+        let matte = |values: [f32; 4]| Plane {
+            width: 4,
+            height: 1,
+            pixels: values.to_vec(),
+        };
+        let truth = matte([1.0, 0.5, 0.0, 0.0]);
+        let output = matte([0.75, 0.75, 0.25, 0.0]);
+        let mut core = truth.map(|_| false);
+        let measure = |core: &Raster<bool>| measure_mass(&output, &truth, core).unwrap();
+        assert_eq!(measure(&core).hole, None);
+        (core.pixels[0], core.pixels[1]) = (true, true);
+        let found = measure(&core);
+        // Both core pixels lack a quarter of an opaque object, even where the truth lacks more.
+        assert_eq!(found.hole, Some(0.25));
+        assert_eq!(found.deficit, 0.25 / 1.5);
+        assert_eq!(found.energy, 1.75 / 1.5);
+        let empty = matte([0.0; 4]);
+        assert_eq!(measure_mass(&output, &empty, &core), None);
+    }
+}

@@ -126,4 +126,21 @@ mod tests {
         assert_eq!(found.extent, None);
         assert!(found.distance > 0.0 && found.centroid == 0.0, "{found:?}");
     }
+
+    #[test]
+    fn the_extent_is_a_ratio_of_standard_deviations() {
+        let rows = Rows::new([1.0, 0.0], 20, 1);
+        let [truth, output] = [4, 8].map(|length| {
+            rows.spread(&Raster::from_fn(20, 1, |x, _| match x {
+                4.. if x < 4 + length => 0.5,
+                _ => 0.0,
+            }))
+        });
+        let extent = measure_misplacement(&output, &truth)
+            .unwrap()
+            .extent
+            .unwrap();
+        // A box of n cells has a variance of (n^2 - 1) / 12.
+        assert!((extent - (63f64 / 15.0).sqrt()).abs() < 1e-12, "{extent}");
+    }
 }

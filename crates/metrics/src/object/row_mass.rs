@@ -133,4 +133,20 @@ mod tests {
         assert_near(found.growth, (rim + 22.0 + 22.0 / 3.0) / 40.0);
         assert_near(found.gain, (10.0 * 2.0 + 2.0 / 3.0) / 40.0);
     }
+
+    #[test]
+    fn only_rows_as_heavy_as_the_heaviest_measure_the_gain() {
+        let rows = |lengths: [u32; 2]| {
+            let matte = Raster::from_fn(60, 4, |x, y| match y {
+                1 | 2 if x >= 10 && x < 10 + lengths[y as usize - 1] => 1.0,
+                _ => 0.0,
+            });
+            Rows::new([1.0, 0.0], 60, 4).spread(&matte)
+        };
+        let truth = rows([20, 19]);
+        let instant = InstantRows::new(&truth);
+        // The shorter row grows alone: that is no gain of all rows.
+        let found = RowMass::new(&rows([20, 21]), &truth, &instant, 4.0);
+        assert_eq!([found.growth, found.gain, found.loss], [0.5, 0.0, 0.0]);
+    }
 }

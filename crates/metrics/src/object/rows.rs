@@ -208,4 +208,25 @@ mod tests {
             "{length}"
         );
     }
+
+    #[test]
+    fn the_shadow_of_a_pixel_is_a_trapezium() {
+        // The plateau reaches 0.1 to both sides, and the slopes 0.7.
+        let below = |t| shadow_below(t, [0.6, 0.8]);
+        for (t, expected) in [
+            (0.0, 0.5),
+            (0.1, 0.625),
+            (0.4, 0.90625),
+            (0.7, 1.0),
+            (2.0, 1.0),
+        ] {
+            assert!((below(t) - expected).abs() < 1e-12, "{t}: {}", below(t));
+            assert!(
+                (below(-t) - (1.0 - expected)).abs() < 1e-12,
+                "-{t}: {}",
+                below(-t)
+            );
+        }
+        assert_eq!(shadow_below(0.25, [1.0, 0.0]), 0.75);
+    }
 }

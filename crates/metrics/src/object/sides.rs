@@ -62,3 +62,30 @@ pub fn object_sides(frame: &Frame, support: &Support, id: u32) -> Option<Raster<
     let (_, directions) = Mover::new(frame, id).ok()?;
     find_sides(&support.seen[id as usize], &directions)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Returns the side that each offset from a single pixel is on, which moves along a direction.
+    fn sides<const N: usize>(direction: [f64; 2], offsets: [[i32; 2]; N]) -> [Side; N] {
+        let support = Raster::from_fn(17, 17, |x, y| (x, y) == (8, 8));
+        let sides = find_sides(&support, &Raster::filled(17, 17, direction)).unwrap();
+        offsets.map(|[x, y]| *sides.at((8 + x) as u32, (8 + y) as u32))
+    }
+
+    #[test]
+    fn sides_meet_at_45_degrees_to_the_motion() {
+        use Side::{Inside, Lateral, Leading, Trailing};
+        let right = [1.0, 0.0];
+        assert_eq!(sides(right, [[0, 0], [1, 0], [1, 1], [-1, 1]]), [Inside; 4]);
+        assert_eq!(sides(right, [[2, 0], [3, 2], [3, -2]]), [Leading; 3]);
+        assert_eq!(sides(right, [[-2, 0], [-3, 2], [-3, -2]]), [Trailing; 3]);
+        assert_eq!(
+            sides(right, [[0, 2], [2, 3], [-2, 3], [2, -3]]),
+            [Lateral; 4]
+        );
+        // 16 degrees from the motion, then 90.
+        assert_eq!(sides([0.6, 0.8], [[4, 3], [4, -3]]), [Leading, Lateral]);
+    }
+}

@@ -120,3 +120,24 @@ fn map_pixel_errors(
 fn narrow(map: &Raster<f64>) -> Plane {
     map_pixels(map, |value| *value as f32)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_map_of_a_pixel_holds_its_own_error() {
+        let pixel = |value: f32| Image::filled(1, 1, [value; 3]);
+        let truth = pixel(0.25);
+        let errors = map_pixel_errors(&pixel(0.5), [&truth, &truth], &truth, 1.0);
+        let own = errors.at(0, 0);
+        assert_eq!([own.squared, own.absolute], [0.0625, 0.25]);
+        // 0.0625 / 0.0625, and 2 x 0.25 / (0.5 + 0.25), except for what keeps black from dividing by 0.
+        assert!((own.relative - 1.0).abs() < 0.2, "{}", own.relative);
+        assert!(
+            (own.symmetric - 2.0 / 3.0).abs() < 0.02,
+            "{}",
+            own.symmetric
+        );
+    }
+}

@@ -120,3 +120,70 @@ impl Pooled {
         all
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::picture::error_maps::PixelErrors;
+
+    /// Makes maps of 100 pixels, on which each error grows from pixel to pixel at a pace of its own.
+    fn maps() -> (ErrorMaps, Regions, Raster<bool>) {
+        let raster = |factor: f32| Raster::from_fn(10, 10, |x, y| factor * (10 * y + x + 1) as f32);
+        let errors = ErrorMaps {
+            pixels: raster(1.0).map(|value| PixelErrors {
+                squared: f64::from(*value),
+                relative: 10.0 * f64::from(*value),
+                absolute: 3.0 * f64::from(*value),
+                symmetric: 4.0 * f64::from(*value),
+            }),
+            ssim: raster(5.0).map(|value| f64::from(*value)),
+            flip: raster(6.0),
+            flip_hdr: raster(7.0),
+            label: raster(8.0).map(|value| f64::from(*value)),
+        };
+        let all = Raster::filled(10, 10, true);
+        let regions = Regions {
+            moving: all.clone(),
+            support: all.clone(),
+            still: all.clone(),
+            knowable: all.clone(),
+            unknowable: all.clone(),
+        };
+        (errors, regions, all)
+    }
+
+    #[test]
+    fn each_error_has_its_own_mean_and_percentiles() {
+        let (errors, regions, windows) = maps();
+        let found = Pooled::new(&errors, &regions, Region::Moving, &windows).unwrap();
+        let means = [found.mse, found.relmse, found.mae, found.smape, found.flip];
+        // The mean of 1 to 100 is 50.5.
+        assert_eq!(
+            means,
+            [1.0, 10.0, 3.0, 4.0, 6.0].map(|factor| factor * 50.5)
+        );
+        assert_eq!([found.flip_hdr, found.label], [7.0 * 50.5, 8.0 * 50.5]);
+        assert_eq!(found.ssim, Some(5.0 * 50.5));
+        assert_eq!([found.flip_p95, found.flip_p99], [6.0 * 95.0, 6.0 * 99.0]);
+        assert_eq!(found.label_p95, 8.0 * 95.0);
+        // 1 to 71 add up to 2556, and half of all is 2525.
+        assert_eq!(found.flip_weighted_median, 6.0 * 71.0);
+    }
+
+    #[test]
+    fn the_noise_of_each_unbiased_error_is_its_own_scatter() {
+        let (errors, regions, windows) = maps();
+        for pooled in Pooled::of_noise(&errors, &regions, &windows)
+            .into_iter()
+            .flatten()
+        {
+            let due = scatter((1..=100).map(f64::from)).unwrap();
+            assert!((pooled.mse / due - 1.0).abs() < 1e-12, "{pooled:?}");
+            assert!(
+                (pooled.relmse / (10.0 * due) - 1.0).abs() < 1e-12,
+                "{pooled:?}"
+            );
+            assert_eq!(pooled.mae, 3.0 * 50.5);
+        }
+    }
+}

@@ -49,3 +49,61 @@ pub fn score_labels(found: &Found) -> LabelScores {
         p95: score(found, |pooled| pooled.label_p95),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Makes pooled errors that all differ.
+    fn pooled(mse: f64) -> Pooled {
+        Pooled {
+            mse,
+            relmse: 0.2,
+            mae: 0.3,
+            smape: 0.4,
+            flip: 0.5,
+            flip_weighted_median: 0.6,
+            flip_p95: 0.7,
+            flip_p99: 0.8,
+            flip_hdr: 0.9,
+            ssim: None,
+            label: 1.1,
+            label_p95: 1.2,
+        }
+    }
+
+    #[test]
+    fn each_score_is_the_error_of_its_name() {
+        let found = Ok((pooled(0.1), pooled(0.01)));
+        let own = score_image(&found);
+        let scores = [
+            (own.mse, 0.1),
+            (own.psnr, 10.0),
+            (own.relmse, 0.2),
+            (own.mae, 0.3),
+            (own.smape, 0.4),
+            (own.flip, 0.5),
+            (own.flip_weighted_median, 0.6),
+            (own.flip_p95, 0.7),
+            (own.flip_p99, 0.8),
+            (own.flip_hdr, 0.9),
+        ];
+        for (measured, expected) in scores {
+            assert_eq!(measured.value(), Some(expected));
+        }
+        assert_eq!(own.ssim.value(), None);
+        let labels = score_labels(&found);
+        assert_eq!(
+            [labels.mean, labels.p95].map(|own| own.value()),
+            [Some(1.1), Some(1.2)]
+        );
+    }
+
+    #[test]
+    fn psnr_is_at_most_that_of_the_noise() {
+        let psnr = |mse| score_image(&Ok((pooled(mse), pooled(0.01)))).psnr;
+        assert_eq!(psnr(0.001), Measured::score(20.0, 20.0));
+        assert_eq!(psnr(-0.001), Measured::score(20.0, 20.0));
+        assert_eq!(psnr(0.1), Measured::score(10.0, 20.0));
+    }
+}
