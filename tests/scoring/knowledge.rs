@@ -105,7 +105,9 @@ fn skill_is_the_share_of_the_way_from_a_sharp_picture_to_the_one_frame_oracle() 
     let nothing = frame.picture();
     let oracle = mix(&nothing, &truth.mean(), 0.75);
     let reference = make_reference(&frame, &truth);
-    let reference = reference.with_ends(&Sharp::Frame(nothing.clone()), &oracle).unwrap();
+    let reference = reference
+        .with_ends(&Sharp::Frame(nothing.clone()), &oracle)
+        .unwrap();
     let scores_of = |picture: &Picture| reference.measure(picture).unwrap().scores;
     for (picture, expected) in [(&nothing, 0.0), (&oracle, 1.0)] {
         let expected = SKILLS.map(|name| (name, expected, 1e-6));
@@ -136,7 +138,9 @@ fn skill_needs_an_oracle_that_beats_no_blur() {
     let nothing = frame.picture();
     let unknown = measure_scores(&truth.mean(), &frame, &truth);
     let reference = make_reference(&frame, &truth);
-    let reference = reference.with_ends(&Sharp::Frame(nothing.clone()), &nothing).unwrap();
+    let reference = reference
+        .with_ends(&Sharp::Frame(nothing.clone()), &nothing)
+        .unwrap();
     let equal = reference.measure(&truth.mean()).unwrap().scores;
     for name in SKILLS {
         let unknown = find_reason(&unknown, name);
