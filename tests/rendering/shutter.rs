@@ -108,7 +108,7 @@ fn sub_frames_lie_at_the_middles_of_equal_parts_of_light() {
         efficiency: trapezoid(1.0, 0.0),
         rolling: 0.3,
     };
-    let settings = settings([WIDTH, HEIGHT], 64);
+    let settings = settings([WIDTH, HEIGHT], 1024);
     let truth = render_truth(&scene, &settings, Alignment::Trailing);
     let ladder = render_ladder(&scene, &settings, &truth, &[2]);
     assert_eq!(ladder.shutter_profile, scene.shutter_profile);
@@ -127,11 +127,17 @@ fn sub_frames_lie_at_the_middles_of_equal_parts_of_light() {
         // Pixels on an edge have noise.
         if areas.iter().all(|area| area.fract() == 0.0) {
             let expected = 0.5 * (areas[0] + areas[1]);
-            assert_eq!(f64::from(coverage), expected, "column {x}");
+            // Noise of the truth and of the whole shutter that the rung is a difference from: at most 0.012 each for a share of
+            // a half, by 1,024 samples. Four standard deviations of both.
+            expect_near(&format!("column {x}"), coverage.into(), expected, 0.07);
         }
         found.push(coverage);
     }
-    assert!(found.contains(&0.5), "none lies between them: {found:?}");
+    let is_half = |coverage: &f32| (coverage - 0.5).abs() < 0.07;
+    assert!(
+        found.iter().any(is_half),
+        "none lies between them: {found:?}"
+    );
 }
 
 #[test]

@@ -100,14 +100,24 @@ impl<'a> LadderTracer<'a> {
     pub fn trace(&self, subframes: u32, watch: Watch) -> Result<Ladder, TraceError> {
         let (width, height) = self.size;
         let pixels = &self.pixels;
+        let pictures = if self.whole.get().is_none() { 2 } else { 1 };
+        let part = |index: u64| {
+            move |progress: Progress| {
+                watch(Progress {
+                    done: progress.done + index * progress.total,
+                    total: pictures * progress.total,
+                })
+            }
+        };
         let whole = match self.whole.get() {
             Some(whole) => whole,
             None => {
-                let made = self.render(pixels, Times::Shutter(&self.sampler), watch)?;
+                let made = self.render(pixels, Times::Shutter(&self.sampler), &part(0))?;
                 self.whole.get_or_init(|| made)
             }
         };
-        let parts = self.render(pixels, Times::Midpoints(&self.sampler, subframes), watch)?;
+        let times = Times::Midpoints(&self.sampler, subframes);
+        let parts = self.render(pixels, times, &part(pictures - 1))?;
         let places: Vec<usize> = pixels.iter().map(|&pixel| pixel as usize).collect();
         self.rung(
             subframes,
@@ -162,7 +172,10 @@ impl<'a> LadderTracer<'a> {
         let scene = self.stage.scene;
         let groups = whole.iter().zip(parts);
         let groups: Vec<Picture> = groups
-            .map(|(whole, parts)| subtract(tile, places, [parts, whole]))
+            .map(|(whole, parts)| {
+                let objects = scene.objects.len() + 1;
+                subtract((tile, objects), places, [parts, whole])
+            })
             .collect();
         for group in &groups {
             check_picture(scene, group)?;
@@ -250,26 +263,27 @@ fn share_samples(truth: &Truth, pixels: &[u32], groups: u32, rungs: usize) -> Sa
     SampleCounts::PerPixel(counts.collect())
 }
 
-/// Subtracts the whole shutter's means from those of sub-frames; other places of the tile hold 0.
-fn subtract(tile: Tile, places: &[usize], [parts, whole]: [&Means; 2]) -> Picture {
+/// Subtracts the whole shutter's means from those of sub-frames; other places of the tile hold 0. Without places there are no
+/// means of objects, either.
+fn subtract(
+    (tile, objects): (Tile, usize),
+    places: &[usize],
+    [parts, whole]: [&Means; 2],
+) -> Picture {
     let Tile { width, height, .. } = tile;
     let mut color: Image = Raster::filled(width, height, [0.0; 3]);
     let colors = parts.color.iter().zip(&whole.color);
     for (&place, (parts, whole)) in places.iter().zip(colors) {
         color.pixels[place] = std::array::from_fn(|c| parts[c] - whole[c]);
     }
+    let mut coverage: Vec<Plane> = vec![Raster::filled(width, height, 0.0); objects];
     let coverages = parts.coverage.iter().zip(&whole.coverage);
-    let coverage = coverages.map(|(parts, whole)| {
-        let mut plane: Plane = Raster::filled(width, height, 0.0);
+    for (plane, (parts, whole)) in coverage.iter_mut().zip(coverages) {
         for (&place, (parts, whole)) in places.iter().zip(parts.iter().zip(whole)) {
             plane.pixels[place] = parts - whole;
         }
-        plane
-    });
-    Picture {
-        coverage: coverage.collect(),
-        color,
     }
+    Picture { coverage, color }
 }
 
 /// Indices of the pixels within the margin of any pixel that shows motion, rising.

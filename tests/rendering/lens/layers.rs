@@ -76,13 +76,20 @@ fn the_support_holds_nearly_all_that_the_lens_spreads() {
 fn sub_frames_have_the_lens() {
     let scene = fan();
     let settings = settings_of_two([48, 27], 256);
-    let truth = render_truth(&scene, &settings, Alignment::Trailing);
-    let ladder = render_ladder(&scene, &settings, &truth, &[64]);
-    let sharp = render_ladder(&scene.clone().pinhole(), &settings, &truth, &[64]);
-    let mean = truth.mean().color;
+    let truth = render_truth(&scene, &settings, Alignment::Centred);
+    // One sub-frame in the shutter's middle is the truth of a short shutter around the instant.
+    let short = RenderSettings {
+        exposure: Some(1e-3),
+        ..settings
+    };
+    let instant = render_truth(&scene, &short, Alignment::Centred)
+        .mean()
+        .color;
+    let ladder = render_ladder(&scene, &settings, &truth, &[1]);
+    let sharp = render_ladder(&scene.clone().pinhole(), &settings, &truth, &[1]);
     let [with, without] = [&ladder, &sharp]
-        .map(|ladder| rms_difference(&ladder.rungs[0].picture(&truth.mean()).color, &mean));
+        .map(|ladder| rms_difference(&ladder.rungs[0].picture(&truth.mean()).color, &instant));
     assert!(with < 0.02 && without > 2.0 * with, "{with} {without}");
-    let own = LadderTracer::new(&scene, &settings, &truth, &[64]).unwrap();
-    assert_eq!(own.trace(64, &unwatched).unwrap(), ladder);
+    let own = LadderTracer::new(&scene, &settings, &truth, &[1]).unwrap();
+    assert_eq!(own.trace(1, &unwatched).unwrap(), ladder);
 }

@@ -115,6 +115,24 @@ mod tests {
     use super::*;
 
     #[test]
+    fn sub_frames_lie_at_the_middles_of_equal_parts_of_the_interval_that_have_the_samples() {
+        for alignment in Alignment::ALL {
+            let shutter = alignment.shutter(0.5).expect("it is allowed");
+            let sampler = ShutterSampler::new(shutter, &ShutterProfile::default());
+            for number in (0..64).map(|step| (f64::from(step) + 0.5) / 64.0) {
+                let time = sampler.sample_time(number, 3, 9);
+                for subframes in [1, 4, 64] {
+                    let part = 0.5 / f64::from(subframes);
+                    let index = ((time - shutter.open) / part).floor();
+                    let middle = shutter.open + (index + 0.5) * part;
+                    let found = sampler.subframe_time(number, subframes, 3, 9);
+                    assert!((found - middle).abs() < 1e-12, "{found} {middle}");
+                }
+            }
+        }
+    }
+
+    #[test]
     fn alignments_share_the_times_of_their_overlap_bit_for_bit() {
         for exposure in [0.5, 0.3, 0.7123] {
             let [trailing, centred, leading] = Alignment::ALL.map(|alignment| {
