@@ -67,8 +67,12 @@ fn judge_bars(scene: &Scene, bounds: &SceneBounds, out: &Path) -> [Vec<JudgedSco
     let reference = Reference::new(&frame, &truth, None, &scene.display.into()).unwrap();
     // Bounds for all filters, required or not.
     let bounds = bounds.of("identity", "default");
-    [frame.picture(), Picture::mean(&rung.rungs[0].halves)]
-        .map(|picture| judge_scores(&reference.measure(&picture).unwrap().scores, None, &bounds))
+    let accumulation = Picture::mean(&rung.rungs[0].halves);
+    [
+        reference.measure(&frame.picture()),
+        reference.measure_rendered(&accumulation),
+    ]
+    .map(|measured| judge_scores(&measured.unwrap().scores, None, &bounds))
 }
 
 /// Formats the scores with an outcome.

@@ -95,7 +95,9 @@ impl CaseContext<'_> {
             }
             PictureSource::Accumulation(subframes) => {
                 let ladder = (self.read_rung)(*subframes)?;
-                self.measure_reference(Picture::mean(&ladder.rungs[0].halves))?
+                let picture = Picture::mean(&ladder.rungs[0].halves);
+                let measurement = self.references.reference.measure_rendered(&picture)?;
+                MeasuredPicture::new(picture, measurement)
             }
             PictureSource::Filter(choice, input) => self.measure_filter(choice, *input)?,
             PictureSource::Engine(scene) => self.measure_engine(scene)?,
