@@ -71,7 +71,7 @@ mod tests {
     #[test]
     fn limits_are_those_of_the_shipped_bounds() {
         let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/bounds.toml");
-        let bounds = read_bounds_file(root.as_ref()).unwrap().default;
+        let bounds = read_bounds_file(root).unwrap().default;
         let limit = |metric| bounds.get(&metric).unwrap().limit;
         assert_eq!(
             [limit(Metric::STILL), limit(Metric::GRAIN)],
