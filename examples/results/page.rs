@@ -2,7 +2,10 @@
 
 use cli::{markdown_table, range_text};
 use frame::Alignment;
-use judge::{RANK_RULE, RankedFilter, ResultScores, Results, SizeComparison, compare_sizes};
+use judge::{
+    RANK_RULE, RankedFilter, ResultScores, Results, SIDE_EFFECTS_RULE, SideEffects, SizeComparison,
+    compare_sizes,
+};
 use metrics::Metric;
 use store::{escape_markdown, markdown_code};
 use suite::{Bench, Error, IDENTITY};
@@ -79,6 +82,10 @@ impl<'a> Kept<'a> {
 
     fn page(&self) -> Result<String, Error> {
         let Self { results, bench, .. } = self;
+        let mut rule = RANK_RULE.to_owned();
+        if self.groups.iter().any(|group| has_effects(group)) {
+            rule += &format!(" {SIDE_EFFECTS_RULE}");
+        }
         let [width, height] = results.size;
         let settings = [
             ("{SCENES}", results.scenes().len().to_string()),
@@ -88,7 +95,7 @@ impl<'a> Kept<'a> {
                 "{ADAPTER}",
                 escape_markdown(results.adapter.as_deref().unwrap_or_default()),
             ),
-            ("{RANK_RULE}", RANK_RULE.to_owned()),
+            ("{RANK_RULE}", rule),
             ("{CARD}", escape_markdown(&bench.adapter.name)),
             ("{TIMED_SIZE}", format!("{}x{}", bench.width, bench.height)),
         ];
@@ -195,11 +202,7 @@ impl<'a> Kept<'a> {
 
     /// Makes the table of a shutter's presets, with their ranks in the sealed variants.
     fn ranking(&self, group: &[RankedFilter], sealed: &[RankedFilter]) -> String {
-        let titles = ["rank", "preset", "FLIP (95 % CI)", "sealed", "worst scene"];
-        let more = ["bleed", "time", "default of"]
-            .iter()
-            .filter(|_| self.is_site);
-        let titles: Vec<&str> = titles.iter().chain(more).copied().collect();
+        let has_effects = has_effects(group);
         let engines = list_engines();
         let row = |ranked: &RankedFilter| {
             let other = sealed.iter().find(|other| other.name == ranked.name);
@@ -220,20 +223,38 @@ impl<'a> Kept<'a> {
                 ranked.rank_text(),
                 format!("{bold}{}{bold}{none}", markdown_code(&ranked.name)),
                 mean(ranked),
+            ];
+            if has_effects {
+                row.extend(ranked.side_effects.texts());
+            }
+            row.extend([
                 other.map_or("-".to_owned(), RankedFilter::rank_text),
                 format!(
                     "{} {}",
                     escape_markdown(&scene.to_string()),
                     Metric::FLIP.number(*worst)
                 ),
-            ];
+            ]);
             if self.is_site {
                 let time = find_time(self.bench, &ranked.name);
                 row.extend([self.bleed(ranked), time, links.join(", ")]);
             }
             row
         };
-        markdown_table(&titles, group.iter().map(row))
+        markdown_table(&self.ranking_titles(has_effects), group.iter().map(row))
+    }
+
+    /// Lists the titles of that table.
+    fn ranking_titles(&self, has_effects: bool) -> Vec<&'static str> {
+        let mut titles = vec!["rank", "preset", "FLIP (95 % CI)"];
+        if has_effects {
+            titles.extend(["still", "grain"]);
+        }
+        titles.extend(["sealed", "worst scene"]);
+        if self.is_site {
+            titles.extend(["bleed", "time", "default of"]);
+        }
+        titles
     }
 
     /// Returns the mean bleed of a preset over the scenes that have one.
@@ -246,6 +267,12 @@ impl<'a> Kept<'a> {
             count => Metric::Bleed.number(scores.iter().sum::<f64>() / count as f64),
         }
     }
+}
+
+/// Returns whether results have changes where nothing moves, and grain; those of older runs have none.
+fn has_effects(group: &[RankedFilter]) -> bool {
+    let mut own = group.iter();
+    own.any(|own| own.side_effects != SideEffects::default())
 }
 
 /// Fills the lines of paragraphs; leaves tables, pictures, headings and commands unchanged.

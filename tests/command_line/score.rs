@@ -3,7 +3,7 @@
 use std::fs;
 
 use frame::{ExrFile, Frame, Raster, Truth, display_srgb, read_exr, write_exr, write_png};
-use metrics::{EquivalentMetric, Metric, ProbeScores, Scores, SkillMetric};
+use metrics::{EquivalentMetric, Metric, ObjectMetric, ProbeScores, Scores, SkillMetric};
 use serde_json::Value;
 use tests::text::assert_contains;
 
@@ -62,6 +62,7 @@ fn of_colour(metric: &Metric) -> bool {
         metric,
         Metric::Image(..)
             | Metric::StaticContamination
+            | Metric::Object(ObjectMetric::Flip)
             | Metric::Frozen(_)
             | Metric::Skill(SkillMetric::Mse | SkillMetric::Flip)
             | Metric::Equivalent(EquivalentMetric::Mse | EquivalentMetric::Flip)

@@ -90,7 +90,16 @@ fn a_change_at_still_pixels_is_contamination() {
         color: brighten(&mean.color, by, |x, y| *moving.at(x, y) == what),
         ..mean.clone()
     };
-    for (picture, expected) in [(changed(0.05, false), 0.05), (changed(0.5, true), 0.0)] {
+    // Root mean square of the change over the brightness, with a hundredth of white added.
+    let still = frame.color.pixels.iter().zip(&moving.pixels);
+    let squares = still.filter(|(_, moves)| !**moves).map(|(color, _)| {
+        let squares: f64 = color.iter().map(|c| f64::from(*c).powi(2)).sum();
+        let brightness = (squares / 3.0).sqrt();
+        (0.05 / (brightness + 0.01)).powi(2)
+    });
+    let squares: Vec<f64> = squares.collect();
+    let share = (squares.iter().sum::<f64>() / squares.len() as f64).sqrt();
+    for (picture, expected) in [(changed(0.05, false), share), (changed(0.5, true), 0.0)] {
         let expected = [("static_contamination", expected, 1e-6)];
         let scores = measure_scores(&picture, &frame, &truth);
         assert_scores("a change", &scores, &expected);

@@ -3,6 +3,7 @@
 mod decoy_matrix;
 mod decoys;
 mod flip_parity;
+mod grain;
 mod intervals;
 mod invariance;
 mod jod_parity;

@@ -22,8 +22,8 @@ const LEAST_PART: f64 = 0.05;
 /// Factor above the strictest limit that the truth's noise allows, since that varies too.
 const ABOVE_STRICTEST: f64 = 1.2;
 
-/// Metrics that react to small changes of a kernel. No filter has default bounds on them, since a good filter's scores differ from scene to
-/// scene.
+/// Metrics that react to small changes of a kernel. Only the first has a default bound, which allows far more than a filter changes
+/// that leaves still pixels alone; the others have none, since a good filter's scores differ from scene to scene.
 const SENSITIVE: [Metric; 4] = [
     Metric::StaticContamination,
     Metric::Probe(ProbeMetric::GatherSpread),
@@ -33,8 +33,13 @@ const SENSITIVE: [Metric; 4] = [
 
 /// Smallest limit on an error, by its unit: a tenth of a pixel, half a hundredth of a number without a unit. If a score is 0 in every
 /// run, its spread says nothing, and another adapter need not agree to the last bit. `static_contamination` compares still pixels with
-/// the frame and knows no noise: its limit once came out as 6.5e-9 of white, which is rounding alone.
-const LEAST_LIMITS: [(&str, f64); 3] = [("px", 0.1), ("white", 1e-5), ("", 0.005)];
+/// the frame and knows no noise: its limit once came out as 6.5e-9, which is rounding alone.
+const LEAST_LIMITS: [(&str, f64); 4] = [
+    ("px", 0.1),
+    ("white", 1e-5),
+    ("brightness", 1e-5),
+    ("", 0.005),
+];
 
 /// The score that rises to a perfect value.
 const JOD: Metric = Metric::Sequence(SequenceMetric::Jod);

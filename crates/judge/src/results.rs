@@ -13,6 +13,7 @@ use tracer::{Family, SceneId};
 use crate::groups::group_by;
 use crate::numbers::round_to_digits;
 use crate::ranking::filters::{RankedFilter, RankedScore, rank_by_score};
+use crate::ranking::side_effects::SideEffects;
 
 /// Version of the layout of a file of results.
 const RESULTS_FORMAT: u32 = 3;
@@ -273,6 +274,7 @@ impl ResultScores {
             alignment,
             value: self.score(metric)?,
             floor: self.floor,
+            side_effects: SideEffects::of(|metric| self.score(metric)),
         })
     }
 }

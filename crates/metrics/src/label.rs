@@ -17,19 +17,19 @@ pub fn label_variation(output: &[Plane], truth: &[Plane]) -> Raster<f64> {
     })
 }
 
-/// Averages a label total variation over the pixels of `inside`, weighted by the object's true matte: the error on the object
+/// Averages a map of errors over the pixels of `inside`, weighted by the object's true matte: the error on the object
 /// itself. `None` if the object is not seen inside.
-pub fn average_on_object(
-    variation: &Raster<f64>,
+pub fn average_on_object<T: Copy + Into<f64>>(
+    errors: &Raster<T>,
     truth: &Plane,
     inside: &Raster<bool>,
 ) -> Option<f64> {
     let (mut weight, mut wrong) = (0.0, 0.0);
     let pixels = truth.pixels.iter().zip(&inside.pixels);
-    for ((matte, inside), variation) in pixels.zip(&variation.pixels) {
+    for ((matte, inside), error) in pixels.zip(&errors.pixels) {
         if *inside {
             weight += f64::from(*matte);
-            wrong += f64::from(*matte) * variation;
+            wrong += f64::from(*matte) * (*error).into();
         }
     }
     (weight > 0.0).then(|| wrong / weight)

@@ -81,7 +81,7 @@ maps! {
         GradientError => gradient_error "gradient_error"
         /// `squared_error` against the truth with frozen shading.
         FrozenSquaredError => frozen_squared_error "frozen_squared_error"
-        /// `|F - I|` at the viewing exposure, mean over the channels, I being the instant; 0 where anything moves.
+        /// `|F - I|` over the brightness, root mean square of the channels, I being the instant; 0 where anything moves.
         StaticChange => static_change "static_change"
     }
     probes {

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use frame::{Image, Plane, Raster};
 
-use crate::color::absolute_error::{absolute_error, symmetric};
+use crate::color::absolute_error::{absolute, symmetric};
 use crate::color::cross_error::{psnr, relative_squared, squared_error};
 use crate::color::ssim::{SSIM_BORDER, ssim_of};
 use crate::object::gradient::{gradient_error, gradient_magnitude};
@@ -72,6 +72,7 @@ fn scores(output: &Plane, truth: &Plane) -> BTreeMap<&'static str, f64> {
     let relative = color.zip(&true_color, |output, truth| {
         relative_squared(*output, [*truth; 2], *truth, 1.0)
     });
+    let absolute = color.zip(&true_color, |output, truth| absolute(*output, *truth, 1.0));
     let symmetric = color.zip(&true_color, |output, truth| symmetric(*output, *truth, 1.0));
     let rows = Rows::new([1.0, 0.0], output.width, output.height);
     let apart = measure_misplacement(&rows.spread(output), &rows.spread(truth));
@@ -82,7 +83,7 @@ fn scores(output: &Plane, truth: &Plane) -> BTreeMap<&'static str, f64> {
         ("ssim", average(&similarity)),
         ("psnr", psnr(mse, 0.0)),
         ("mse", mse),
-        ("mae", average(&absolute_error(&color, &true_color, 1.0))),
+        ("mae", average(&absolute)),
         ("relmse", average(&relative)),
         ("smape", average(&symmetric)),
         ("wasserstein", apart.expect("both have mass").distance),

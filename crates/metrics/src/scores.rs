@@ -25,7 +25,7 @@ pub struct Scores {
     pub unknowable: ImageScores,
     /// Errors against the truth with frozen shading.
     pub frozen: FrozenScores,
-    /// Mean absolute change of the instant's colour where nothing moves, in display-scaled radiance.
+    /// Root mean square change of the instant's colour where nothing moves, relative to its brightness.
     pub static_contamination: Measured,
     /// Errors of labels: the objects that the shutter's time was given to.
     pub label_total_variation: LabelScores,
@@ -134,7 +134,9 @@ impl Scores {
         self.skill.label_total_variation = Measured::not_applicable(reason);
         self.equivalent_subframes.label_total_variation = Equivalent::not_applicable(reason);
         for scores in &mut self.objects {
-            for metric in ObjectMetric::ALL {
+            // FLIP on an object needs the true matte alone.
+            let own = ObjectMetric::ALL.into_iter();
+            for metric in own.filter(|metric| *metric != ObjectMetric::Flip) {
                 *scores.get_mut(metric) = Measured::not_applicable(reason);
             }
         }

@@ -64,6 +64,7 @@ mod tests {
             ssim: None,
             label: error,
             label_p95: 0.0,
+            grain: 0.0,
         }
     }
 

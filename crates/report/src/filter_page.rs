@@ -14,8 +14,10 @@ use crate::table::Column::{Plain, Text};
 use crate::table::{Column, scroll_table};
 
 /// Scores next to the error in the table of scenes.
-const SCORES: [(Metric, &str); 6] = [
+const SCORES: [(Metric, &str); 8] = [
     (Metric::FLIP, "FLIP"),
+    (Metric::STILL, "still"),
+    (Metric::GRAIN, "grain"),
     (Metric::SKILL, "skill"),
     (Metric::GROWTH, "growth"),
     (Metric::LOSS, "loss"),

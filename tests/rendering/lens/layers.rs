@@ -1,6 +1,6 @@
 //! A lens's effect on frames and truths, and what it leaves unchanged.
 
-use frame::{Alignment, Picture, Truth};
+use frame::{Alignment, Truth};
 use glam::DVec3;
 use tracer::{Background, Finish, LadderTracer, RenderSettings, Scene};
 

@@ -2,9 +2,10 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use frame::{Frame, Picture, Plane, Raster};
+use frame::{Frame, Picture, Plane, Raster, regions};
 use tests::synthetic::{Blur, EXPOSURE, Object, Sampling, Scene, Shape, constant};
 
+use super::touches::touch;
 use crate::{bar, dilated, mix, shifted, smear};
 
 /// Samples of a render with other noise than the truth's.
@@ -19,7 +20,7 @@ pub fn decoys(scene: &Scene, frame: &Frame) -> Vec<(&'static str, Picture)> {
     let instant = frame.picture();
     let wide = blurred(dilated(6.0));
     let rescaled = rescale(&blurred(Blur::TRUE), &wide, &instant);
-    vec![
+    let mut decoys = vec![
         ("identity", instant.clone()),
         ("constant", constant(&blurred(Blur::TRUE))),
         ("half length", blurred(smear(-0.5, 0.0))),
@@ -33,8 +34,11 @@ pub fn decoys(scene: &Scene, frame: &Frame) -> Vec<(&'static str, Picture)> {
         ("fat, rescaled", rescaled),
         ("own velocity", gather(frame)),
         ("sharp core", sharpen(&blurred(Blur::TRUE), &instant, scene)),
-        ("banding", blurred(Blur::accumulation(3))),
-    ]
+        ("banding", blurred(Blur::accumulation(4))),
+    ];
+    let still = regions(&scene.truth([Sampling::CLEAN; 2])).still;
+    decoys.extend(touch(&blurred(Blur::TRUE), &still));
+    decoys
 }
 
 /// Thins the dilated picture until every object has its true mass; the instant fills the gaps.

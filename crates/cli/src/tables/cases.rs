@@ -8,8 +8,10 @@ use suite::{Case, Failure, Run};
 use super::{Column, Missing, Table, bracket_name, legend_text, list_once, means_table};
 use crate::output::{bad, heading, wrap_lines};
 
-const CASE_COLUMNS: [Column; 7] = [
+const CASE_COLUMNS: [Column; 9] = [
     ("FLIP", Metric::FLIP),
+    ("still", Metric::STILL),
+    ("grain", Metric::GRAIN),
     ("skill", Metric::SKILL),
     ("grow", Metric::GROWTH),
     ("loss", Metric::LOSS),
@@ -58,7 +60,8 @@ pub fn run_table(run: &Run) -> String {
 
 /// Meaning of titles and marks.
 const KEY: &str = "Skill by FLIP: 0 is a sharp picture of the shutter's middle, [identity] if centred, else [accumulate:1]; 1 is \
-                   [scatter_oracle]. Bleed: the largest of sideways, ahead (>) and behind (<); grow, loss and bleed in pixels.";
+                   [scatter_oracle]. Bleed: the largest of sideways, ahead (>) and behind (<); grow, loss and bleed in pixels. Still: change \
+                   where nothing moves; grain: noise and patterns of pixel size; both as shares of the brightness.";
 
 /// Makes the table of one picture's scores, like [`run_table`].
 pub fn score_table(scene: &str, picture: &str, scores: &Scores) -> String {

@@ -2,7 +2,8 @@
 
 use frame::Alignment;
 use judge::{
-    MAX_RANKED, RANK_RULE, RankedFilter, list_summarized, mean_lag, no_gain_text, rank_for_summary,
+    MAX_RANKED, RANK_RULE, RankedFilter, SIDE_EFFECTS_RULE, list_summarized, mean_lag,
+    no_gain_text, rank_for_summary,
 };
 use metrics::Metric;
 use suite::Case;
@@ -64,15 +65,18 @@ fn ranking_table(cases: &[Case], groups: &[Vec<RankedFilter>]) -> Table {
     let cases = cases.filter(|case| case.rate == first);
     let scenes = list_once(cases.map(|case| &case.scene));
     let (title, columns) = match scenes.as_slice() {
-        [scene] => (scene.to_string(), 1),
-        scenes => (format!("mean over {} scenes", scenes.len()), 3),
+        [scene] => (scene.to_string(), 3),
+        scenes => (format!("mean over {} scenes", scenes.len()), 5),
     };
-    let titles = ["FLIP", "95 % CI", "worst scene"];
-    let mut table = Table::new(title, titles.into_iter().take(columns)).with_words_in(3);
+    let titles = ["FLIP", "still", "grain", "95 % CI", "worst scene"];
+    let mut table = Table::new(title, titles.into_iter().take(columns)).with_words_in(5);
     for group in groups {
         table.push_text(shutter_text(group[0].alignment, group[0].rate));
         for ranked in group {
-            let cells = ranking_cells(ranked, scenes.len(), |value| Metric::FLIP.number(value));
+            let [mean, interval, worst] =
+                ranking_cells(ranked, scenes.len(), |value| Metric::FLIP.number(value));
+            let [still, grain] = ranked.side_effects.texts();
+            let cells = [mean, still, grain, interval, worst];
             table.push(ranked_name(ranked), cells.into_iter().take(columns));
         }
     }
@@ -140,7 +144,7 @@ fn references_text(cases: &[Case], groups: &[Vec<RankedFilter>]) -> String {
 }
 
 fn notes(groups: &[Vec<RankedFilter>]) -> String {
-    let mut notes = "FLIP where anything moves; lower is better.".to_owned();
+    let mut notes = format!("FLIP where anything moves; lower is better. {SIDE_EFFECTS_RULE}");
     if groups.iter().flatten().any(RankedFilter::is_tied) {
         notes += &format!(" {RANK_RULE}");
     }

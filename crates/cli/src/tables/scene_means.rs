@@ -8,8 +8,10 @@ use super::{Column, Table, bracket_name, cell, legend_text, list_once, range_tex
 use crate::output::heading;
 
 /// FLIP, which ranks filters of one alignment, and the columns after it.
-const BY_FLIP: [Column; 6] = [
+const BY_FLIP: [Column; 8] = [
     ("FLIP", Metric::FLIP),
+    ("still", Metric::STILL),
+    ("grain", Metric::GRAIN),
     ("PSNR", Metric::PSNR),
     ("grow", Metric::GROWTH),
     ("loss", Metric::LOSS),

@@ -1,11 +1,14 @@
 //! Ranking of filters by one score, with ties.
 
+use std::cmp::Ordering;
+
 use frame::Alignment;
 use metrics::Metric;
 use suite::{Case, IDENTITY, InputFormat, TWO_SIDED, plain_mean};
 use tracer::{FrameRate, SceneId};
 
 use crate::groups::group_by;
+use crate::ranking::side_effects::SideEffects;
 
 /// A filter preset in the ranking of its shutter.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,6 +36,8 @@ pub struct RankedFilter {
     pub worst: (SceneId, f64),
     /// Number of ranked presets of the filter, including this one.
     pub presets: usize,
+    /// What it changes besides, in the mean.
+    pub side_effects: SideEffects,
 }
 
 /// Score of one filter preset on one scene; lower is better.
@@ -50,6 +55,8 @@ pub struct RankedScore {
     pub value: f64,
     /// Difference that the truth's noise makes.
     pub floor: f64,
+    /// What the filter changes besides; nothing in rankings by other scores.
+    pub side_effects: SideEffects,
 }
 
 /// A filter preset with its scores.
@@ -106,6 +113,7 @@ impl RankedScore {
             alignment: case.alignment,
             value: case.estimate(Metric::FLIP)?,
             floor: case.floor(Metric::FLIP)?,
+            side_effects: SideEffects::of(|metric| case.estimate(metric)),
         })
     }
 }
@@ -114,7 +122,7 @@ impl RankedScore {
 /// represented by its best preset. No blur, among the scores or the references, has a place and no rank.
 ///
 /// One filter is better than another if its mean is lower and the 95 % CI of the mean difference over their common scenes excludes 0;
-/// on a single scene, if the difference exceeds the noise floor. A filter's ranks allow for all filters that are too close to it. Being
+/// on a single scene, if the difference exceeds the noise floor. One that ruins what stands still is worse than all that do not. A filter's ranks allow for all filters that are too close to it. Being
 /// too close is not transitive, so ranges overlap.
 pub(crate) fn rank_by_score(
     scores: &[RankedScore],
@@ -140,12 +148,20 @@ fn rank_group(
 ) -> Vec<RankedFilter> {
     let entries = filters.into_iter();
     let mut group: Vec<Entry> = entries.map(|scores| (summarize(&scores), scores)).collect();
-    group.sort_by(|(a, _), (b, _)| a.mean.total_cmp(&b.mean));
+    let ruins_still = |own: &RankedFilter| own.side_effects.ruins_still();
+    group.sort_by(|(a, _), (b, _)| {
+        let by_mean = || a.mean.total_cmp(&b.mean);
+        ruins_still(a).cmp(&ruins_still(b)).then_with(by_mean)
+    });
     if best_presets {
         group = keep_best_presets(group);
     }
-    let is_better = |(own, scores): &Entry, (other, others): &Entry| {
-        own.mean < other.mean && !are_tied(scores, others)
+    let is_better = |(own, scores): &Entry, (other, others): &Entry| match ruins_still(own)
+        .cmp(&ruins_still(other))
+    {
+        Ordering::Less => true,
+        Ordering::Equal => own.mean < other.mean && !are_tied(scores, others),
+        Ordering::Greater => false,
     };
     let ranked = || group.iter().filter(|(own, _)| own.filter != IDENTITY);
     let rank = |own: &Entry| {
@@ -191,7 +207,9 @@ fn summarize(scores: &[&RankedScore]) -> RankedFilter {
         .max_by(|a, b| a.value.total_cmp(&b.value))
         .expect("a filter in a ranking has a score");
     let first = scores[0];
+    let side_effects: Vec<SideEffects> = scores.iter().map(|own| own.side_effects).collect();
     RankedFilter {
+        side_effects: SideEffects::mean(&side_effects),
         name: first.name.clone(),
         filter: first.filter.clone(),
         alignment: first.alignment,
@@ -260,6 +278,7 @@ pub(super) mod tests {
             alignment: Alignment::Trailing,
             value,
             floor,
+            side_effects: SideEffects::default(),
         }
     }
 

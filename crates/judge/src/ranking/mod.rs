@@ -4,3 +4,4 @@ pub mod filters;
 pub mod lag;
 pub mod no_blur;
 pub mod sequence_ranking;
+pub mod side_effects;

@@ -7,6 +7,7 @@ use suite::{Case, FilterId, InputFormat, Run, SceneMean, Sequence, TWO_SIDED, pl
 use tracer::SceneId;
 
 use crate::ranking::filters::{RankedFilter, RankedScore, rank_best, rank_by_score};
+use crate::ranking::side_effects::SideEffects;
 
 /// The score that ranks sequences: it counts errors of single frames and of their changes together. Scores of changes alone would favour
 /// a filter that flickers little around a wrong picture.
@@ -97,6 +98,7 @@ fn loss_of(own: &Sequence, filter: &str) -> Option<RankedScore> {
         alignment: own.alignment,
         value: PERFECT_JOD - score.value,
         floor: PERFECT_JOD - score.floor,
+        side_effects: SideEffects::default(),
     })
 }
 

@@ -1,17 +1,8 @@
 //! Absolute errors, which the truth's noise biases by as much as their floor says.
 
-use frame::{Image, Raster};
-
-use crate::math::raster::zip_pixels;
-
 /// Added to the denominator of SMAPE, in display-scaled radiance: a convention that keeps dark pixels from deciding the
 /// score.
 pub const SMAPE_EPSILON: f64 = 1e-2;
-
-/// Maps [`absolute`].
-pub fn absolute_error(output: &Image, truth: &Image, scale: f64) -> Raster<f64> {
-    zip_pixels(output, truth, |f, t| absolute(*f, *t, scale))
-}
 
 /// Computes `|F - T|`, mean over the channels, of radiance times `scale`.
 pub fn absolute(output: [f32; 3], truth: [f32; 3], scale: f64) -> f64 {

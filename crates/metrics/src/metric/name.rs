@@ -57,6 +57,10 @@ impl Metric {
     pub const FLIP: Metric = Metric::Image(ImageMetric::Flip, Region::Moving);
     /// Skill in FLIP.
     pub const SKILL: Metric = Metric::Skill(SkillMetric::Flip);
+    /// Change where nothing moves.
+    pub const STILL: Metric = Metric::StaticContamination;
+    /// Grain where anything moves, without the margin.
+    pub const GRAIN: Metric = Metric::Image(ImageMetric::Grain, Region::Support);
     /// PSNR where anything moves.
     pub const PSNR: Metric = Metric::Image(ImageMetric::Psnr, Region::Moving);
     /// Lateral growth.
@@ -69,8 +73,10 @@ impl Metric {
     pub const SUBFRAMES: Metric = Metric::Equivalent(EquivalentMetric::Mse);
 
     /// Scores that have a mean over scenes.
-    pub const OF_MEANS: [Metric; 10] = [
+    pub const OF_MEANS: [Metric; 12] = [
         Metric::FLIP,
+        Metric::STILL,
+        Metric::GRAIN,
         Metric::CommonFlip,
         Metric::SKILL,
         Metric::Skill(SkillMetric::Mse),
@@ -115,7 +121,7 @@ impl Metric {
             },
             Metric::StaticContamination => Row {
                 name: "static_contamination",
-                unit: "white",
+                unit: "brightness",
                 ideal: Ideal::Lowest,
                 group: Group::Seen,
                 map: ErrorMap::StaticChange,
@@ -178,7 +184,8 @@ impl Metric {
     pub fn group(self) -> Group {
         match self {
             Metric::Image(metric, Region::Moving) => metric.row().group,
-            Metric::Image(ImageMetric::Flip, Region::Support | Region::Still) => Group::Seen,
+            Metric::Image(ImageMetric::Flip, Region::Support | Region::Still)
+            | Metric::Image(ImageMetric::Grain, Region::Support) => Group::Seen,
             Metric::Image(ImageMetric::Flip, Region::Knowable | Region::Unknowable) => {
                 Group::Instant
             }
@@ -227,12 +234,13 @@ impl Metric {
     }
 
     /// Computes the strictest bound that a truth with this noise floor supports: three floors from perfect. For unbiased
-    /// squared errors these are three standard deviations of a perfect picture's score, and for PSNR three times the floor's
-    /// squared error. For equivalent sub-frames it is a third of the highest count that the truth can resolve, because error
+    /// squared errors these are three standard deviations of a perfect picture's score, and for PSNR and grain three times the floor's
+    /// square. For equivalent sub-frames it is a third of the highest count that the truth can resolve, because error
     /// falls at least as fast as the count rises.
     pub fn strictest_bound(self, floor: f64) -> f64 {
         match (self, self.ideal()) {
             (Metric::Image(ImageMetric::Psnr, _), _) => floor - 10.0 * 3f64.log10(),
+            (Metric::Image(ImageMetric::Grain, _), _) => 3f64.sqrt() * floor,
             (Metric::Sequence(SequenceMetric::Jod), _) => PERFECT_JOD - 3.0 * (PERFECT_JOD - floor),
             (_, Ideal::Lowest) => 3.0 * floor,
             (_, Ideal::Highest) => floor / 3.0,

@@ -89,6 +89,12 @@ metrics! {
             "punishes unbiased noise more than a shift by three pixels; bound flip instead",
         ),
     }
+
+    /// Root mean square of noise and patterns of pixel size, relative to the truth's brightness.
+    Grain => grain {
+        name: "grain", unit: "brightness", ideal: Ideal::Lowest, group: Group::RunJson, map: ErrorMap::SquaredError,
+        meaning: "noise and patterns of pixel size",
+    }
 }
 
 metrics! {
@@ -206,6 +212,12 @@ metrics! {
     LabelTotalVariation => label_total_variation {
         name: "object_label_tv", unit: "", ideal: Ideal::Lowest, group: Group::RunJson, map: ErrorMap::LabelTotalVariation,
         meaning: "share of the mover's time given to something else",
+    }
+
+    /// Mean LDR-FLIP on the object, within the moving region.
+    Flip => flip {
+        name: "object_flip", unit: "", ideal: Ideal::Lowest, group: Group::Silhouette, map: ErrorMap::Flip,
+        meaning: "visible difference on the mover",
     }
 
     /// Mean squared difference of the matte's gradient magnitudes, within the moving region.

@@ -12,6 +12,7 @@ use crate::object::mover::{Directions, Mover};
 use crate::object::patch::Patch;
 use crate::object::row_mass::RowMass;
 use crate::object::sides::{Side, find_sides};
+use crate::picture::error_maps::ErrorMaps;
 use crate::{Measured, ObjectMetric, ObjectScores};
 
 /// One object of the truth, with the scores of the truth's own noise on it.
@@ -24,8 +25,9 @@ pub struct ObjectReference {
     mover: Result<Moving, &'static str>,
     /// Mass scores of the truth's first half.
     mass_noise: Option<Mass>,
-    /// Mean error of the first half's labels on the object.
+    /// Mean errors of the first half's labels and colour on the object.
     label_noise: Option<f64>,
+    flip_noise: Option<f64>,
     /// True if the object is seen at the picture's border, at the instant or while the shutter is open.
     is_at_border: bool,
 }
@@ -44,10 +46,10 @@ struct Moving {
 }
 
 impl ObjectReference {
-    /// Prepares object `id` of a truth and its frame. `label_noise` are the errors of the first half's labels.
+    /// Prepares object `id` of a truth and its frame. `noise` are the errors of the first half.
     pub fn new(
         (frame, truth): (&Frame, &Truth),
-        (mean, label_noise): (&Picture, &Raster<f64>),
+        (mean, noise): (&Picture, &ErrorMaps),
         regions: &Regions,
         id: usize,
     ) -> Self {
@@ -79,23 +81,25 @@ impl ObjectReference {
             name: truth.objects[id].clone(),
             mover: Mover::new(frame, id as u32).map(moving),
             mass_noise: measure_mass(half, &matte, &core),
-            label_noise: average_on_object(label_noise, &matte, &regions.moving),
+            label_noise: average_on_object(&noise.label, &matte, &regions.moving),
+            flip_noise: average_on_object(&noise.flip, &matte, &regions.moving),
             core,
             is_at_border,
             truth: matte,
         }
     }
 
-    /// Scores an output's matte. `variation` is the label total variation of the output, `gradient` is
+    /// Scores an output's matte, with the output's `errors`. `gradient` is
     /// [`ObjectReference::map_gradient_errors`] of the matte.
     pub fn measure(
         &self,
         matte: &Plane,
-        variation: &Raster<f64>,
+        errors: &ErrorMaps,
         gradient: Option<&Patch>,
         regions: &Regions,
     ) -> ObjectScores {
-        let variation = average_on_object(variation, &self.truth, &regions.moving);
+        let variation = average_on_object(&errors.label, &self.truth, &regions.moving);
+        let flip = average_on_object(&errors.flip, &self.truth, &regions.moving);
         let [bleed_lateral, bleed_leading, bleed_trailing] = self.score_bleed(matte);
         let [
             lateral_growth,
@@ -129,6 +133,12 @@ impl ObjectReference {
                 ObjectMetric::LabelTotalVariation,
                 variation,
                 self.label_noise,
+                "is not seen in the moving region",
+            ),
+            flip: score(
+                ObjectMetric::Flip,
+                flip,
+                self.flip_noise,
                 "is not seen in the moving region",
             ),
             gradient_error: self.score_gradient(gradient, regions),

@@ -6,6 +6,7 @@ use crate::Maps;
 use crate::color::absolute_error::{absolute, symmetric};
 use crate::color::cross_error::{relative_squared, squared};
 use crate::color::flip::Displayed;
+use crate::color::grain::PixelGrain;
 use crate::color::ssim::map_ssim;
 use crate::label::label_variation;
 use crate::math::raster::{index_pixels, map_pixels, zip_pixels};
@@ -21,6 +22,8 @@ pub struct ErrorMaps {
     pub flip: Plane,
     /// HDR-FLIP.
     pub flip_hdr: Plane,
+    /// Grain.
+    pub grain: Raster<PixelGrain>,
     /// Label total variation.
     pub label: Raster<f64>,
 }
@@ -54,6 +57,7 @@ impl ErrorMaps {
             ssim,
             flip,
             flip_hdr,
+            grain: seen.grain.map(&output.color, &mean.color),
             label: label_variation(&output.coverage, &mean.coverage),
         }
     }

@@ -4,6 +4,7 @@ use frame::{Raster, Region, Regions};
 use rayon::prelude::*;
 
 use crate::color::cross_error::scatter;
+use crate::color::grain::{pool_grain, scatter_grain};
 use crate::math::pooling::{mean, percentile, percentile_of, weighted_median};
 use crate::picture::error_maps::ErrorMaps;
 
@@ -30,6 +31,8 @@ pub struct Pooled {
     pub flip_hdr: f64,
     /// Mean of SSIM over the pixels with their window in the picture; `None` if the region has no such pixel.
     pub ssim: Option<f64>,
+    /// Mean squared grain.
+    pub grain: f64,
     /// Mean of the label total variation.
     pub label: f64,
     /// 95th percentile of the label total variation.
@@ -96,6 +99,7 @@ impl Pooled {
             flip_p99: percentile(&flip, 0.99)?,
             flip_hdr,
             ssim: mean(ssim),
+            grain: pool_grain(regions.indices(region).map(|at| &errors.grain.pixels[at]))?,
             label: label_mean,
             label_p95: percentile_of(label, 0.95)?,
         })
@@ -115,6 +119,8 @@ impl Pooled {
                 let scattered = "a region that is pooled over has pixels";
                 pooled.mse = scatter(errors().map(|own| own.squared)).expect(scattered);
                 pooled.relmse = scatter(errors().map(|own| own.relative)).expect(scattered);
+                let grain = regions.indices(region).map(|at| &noise.grain.pixels[at]);
+                pooled.grain = scatter_grain(grain).expect(scattered);
             }
         }
         all
@@ -124,6 +130,7 @@ impl Pooled {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::color::grain::PixelGrain;
     use crate::picture::error_maps::PixelErrors;
 
     /// Makes maps of 100 pixels, on which each error grows from pixel to pixel at a pace of its own.
@@ -140,6 +147,11 @@ mod tests {
             flip: raster(6.0),
             flip_hdr: raster(7.0),
             label: raster(8.0).map(|value| f64::from(*value)),
+            grain: raster(9.0).map(|value| PixelGrain {
+                weight: 1.0,
+                squared: f64::from(*value),
+                noise: 0.0,
+            }),
         };
         let all = Raster::filled(10, 10, true);
         let regions = Regions {

@@ -1,6 +1,7 @@
 //! Scores of pooled errors and the noise in them.
 
 use crate::color::cross_error::psnr;
+use crate::color::grain::grain;
 use crate::picture::pooled::Pooled;
 use crate::{ImageScores, LabelScores, Measured};
 
@@ -17,10 +18,10 @@ fn score(found: &Found, error: impl Fn(&Pooled) -> f64) -> Measured {
 /// Scores the errors of colour.
 pub fn score_image(found: &Found) -> ImageScores {
     // An error below its noise counts as the noise.
-    let noise = found.map_or(0.0, |(_, noise)| noise.mse);
+    let (mse, squared_grain) = found.map_or((0.0, 0.0), |(_, noise)| (noise.mse, noise.grain));
     ImageScores {
         mse: score(found, |pooled| pooled.mse),
-        psnr: score(found, |pooled| psnr(pooled.mse, noise)),
+        psnr: score(found, |pooled| psnr(pooled.mse, mse)),
         relmse: score(found, |pooled| pooled.relmse),
         mae: score(found, |pooled| pooled.mae),
         smape: score(found, |pooled| pooled.smape),
@@ -30,6 +31,7 @@ pub fn score_image(found: &Found) -> ImageScores {
         flip_p99: score(found, |pooled| pooled.flip_p99),
         flip_hdr: score(found, |pooled| pooled.flip_hdr),
         ssim: score_ssim(found),
+        grain: score(found, |pooled| grain(pooled.grain, squared_grain)),
     }
 }
 
@@ -69,6 +71,7 @@ mod tests {
             ssim: None,
             label: 1.1,
             label_p95: 1.2,
+            grain: 1.3,
         }
     }
 

@@ -4,6 +4,7 @@ use frame::Image;
 
 use crate::Viewing;
 use crate::color::flip::{Displayed, SeenExposures};
+use crate::color::grain::GrainTruth;
 
 /// The truth's mean as a display shows it and as FLIP sees it.
 pub struct SeenTruth {
@@ -13,18 +14,21 @@ pub struct SeenTruth {
     pub display: SeenExposures,
     /// The truth as HDR-FLIP sees it.
     pub exposures: SeenExposures,
+    /// The truth for grain.
+    pub grain: GrainTruth,
     /// Factor from radiance to display.
     pub scale: f64,
 }
 
 impl SeenTruth {
-    /// Prepares the colour of the truth's mean.
-    pub fn new(mean: &Image, viewing: &Viewing) -> Self {
+    /// Prepares the colour of the truth's mean and halves.
+    pub fn new(mean: &Image, halves: [&Image; 2], viewing: &Viewing) -> Self {
         let displayed = Displayed::new(mean, viewing);
         Self {
             display: SeenExposures::of_display(&displayed),
             srgb: displayed.srgb,
             exposures: SeenExposures::new(mean, viewing),
+            grain: GrainTruth::new(mean, halves, viewing.scale()),
             scale: viewing.scale(),
         }
     }

@@ -7,7 +7,9 @@ use super::{Reference, Sharp};
 use crate::math::raster::zip_pixels;
 use crate::skill::Ends;
 use crate::subframes::{Equivalent, Subframes};
-use crate::{EquivalentMetric, MeasureError, Measurement};
+use crate::{EquivalentMetric, MeasureError, Measured, Measurement};
+
+const RENDERED: &str = "the picture was rendered by itself, not made from the frame";
 
 impl Reference<'_> {
     /// Adds the pictures that skill is measured between. `sharp` shows the instant in the middle of the shutter and has a skill
@@ -51,6 +53,7 @@ impl Reference<'_> {
         });
         let mut measurement =
             self.measure_against(&picture, halves.each_ref(), frozen.each_ref())?;
+        measurement.scores.static_contamination = Measured::not_applicable(RENDERED);
         let counts = &mut measurement.scores.equivalent_subframes;
         for metric in EquivalentMetric::ALL {
             if let Equivalent::Subframes(count) = counts.get(metric).clone() {

@@ -9,15 +9,13 @@ mod jitter;
 mod lateral_bleed;
 mod measurement;
 mod sharp;
+mod still;
 
 use frame::{Frame, Image, Ladder, Picture, Plane, Raster, Truth, regions};
 use rayon::prelude::*;
 
-use crate::color::absolute_error::absolute_error;
 use crate::color::flip::Displayed;
 use crate::color::ssim::SSIM_BORDER;
-use crate::math::pooling::mean_over;
-use crate::math::raster::zip_pixels;
 use crate::object::reference::ObjectReference;
 use crate::picture::error_maps::{ErrorMaps, MoreMaps};
 use crate::picture::pooled::Pooled;
@@ -85,7 +83,11 @@ impl<'a> Reference<'a> {
         let mean = truth.mean();
         let masks = regions(truth);
         let windows = mark_whole_windows(truth.size());
-        let seen = SeenTruth::new(&mean.color, viewing);
+        let seen = SeenTruth::new(
+            &mean.color,
+            truth.halves.each_ref().map(|half| &half.color),
+            viewing,
+        );
         let half = &truth.halves[0];
         let displayed = Displayed::new(&half.color, viewing);
         let noise = ErrorMaps::new((half, &displayed), [&mean.color; 2], &mean, &seen);
@@ -99,7 +101,7 @@ impl<'a> Reference<'a> {
             origins: OriginReference::new(truth, &at_instant, &masks),
             objects: (1..truth.objects.len())
                 .into_par_iter()
-                .map(|id| ObjectReference::new((frame, truth), (&mean, &noise.label), &masks, id))
+                .map(|id| ObjectReference::new((frame, truth), (&mean, &noise), &masks, id))
                 .collect(),
             curves: Curves::default(),
             regions: masks,
@@ -160,12 +162,7 @@ impl<'a> Reference<'a> {
                 knowable: score_image(knowable),
                 unknowable: score_image(unknowable),
                 frozen,
-                static_contamination: Measured::of(
-                    mean_over(&static_change, &self.regions, Region::Still),
-                    // The instant is exact there: the picture is compared with the filter's input.
-                    Some(0.0),
-                    explain_empty(Region::Still),
-                ),
+                static_contamination: self.score_static_change(&static_change),
                 label_total_variation: score_labels(moving),
                 objects,
                 probes: ProbeScores::not_applicable("no probes were run through the filter"),
@@ -204,7 +201,7 @@ impl<'a> Reference<'a> {
             for (at, error) in pixels {
                 gradient_error.pixels[at] += error as f32;
             }
-            object.measure(matte, &errors.label, gradient.as_ref(), &self.regions)
+            object.measure(matte, errors, gradient.as_ref(), &self.regions)
         });
         (scores.collect(), [bleed, gradient_error])
     }
@@ -250,14 +247,6 @@ impl<'a> Reference<'a> {
         halves: [&Image; 2],
     ) -> ErrorMaps {
         ErrorMaps::new((picture, displayed), halves, &self.mean, &self.seen)
-    }
-
-    /// Maps the change of the instant's colour where nothing moves; 0 elsewhere.
-    fn map_static_change(&self, output: &Image) -> Raster<f64> {
-        let changes = absolute_error(output, &self.instant, self.viewing.scale());
-        zip_pixels(&changes, &self.regions.still, |change, still| {
-            if *still { *change } else { 0.0 }
-        })
     }
 }
 

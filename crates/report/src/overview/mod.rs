@@ -24,8 +24,10 @@ use crate::pixels::scene_files::find_traced;
 use crate::run_facts::provenance;
 
 /// Scores with the titles of their tables, in the order of the page.
-const TABLE_SCORES: [(Metric, &str); 9] = [
+const TABLE_SCORES: [(Metric, &str); 11] = [
     (Metric::FLIP, "FLIP"),
+    (Metric::STILL, "Still"),
+    (Metric::GRAIN, "Grain"),
     (Metric::SKILL, "Skill"),
     (Metric::CommonFlip, "FLIP*"),
     (Metric::SUBFRAMES, "N_eq"),

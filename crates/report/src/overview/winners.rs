@@ -35,8 +35,22 @@ pub fn winners(table: &CaseTable) -> Markup {
                         "; worst: " (link(last)) " (" (number(last.mean)) ")"
                     }
                     "."
+                    (behind_all(group))
                 }
             }
+        }
+    }
+}
+
+/// Names the filters that rank behind all others because they change what stands still; nothing if none does.
+fn behind_all(group: &[RankedFilter]) -> Markup {
+    let ruining = group.iter().filter(|own| own.side_effects.ruins_still());
+    let names: Vec<String> = ruining
+        .map(|own| format!("{} ({})", own.name, own.side_effects.texts()[0]))
+        .collect();
+    html! {
+        @if !names.is_empty() {
+            " Behind all others, because they change what stands still: " (names.join(", ")) "."
         }
     }
 }

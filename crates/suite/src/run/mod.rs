@@ -23,7 +23,7 @@ use self::sequence::{Frames, Sequence};
 use crate::render::settings::list_settings;
 
 /// Version of the layout of `run.json`; it rises if a reader of the old one would misread the new one.
-pub const FORMAT: u32 = 6;
+pub const FORMAT: u32 = 7;
 
 /// A finished run: `run.json`.
 #[derive(Clone, Debug, Serialize, Deserialize)]
