@@ -57,8 +57,8 @@ pub use scores::Scores;
 pub use sequence::{
     Instant, JOD_DISPLAY, NEW_SHARE, SequenceMeasurement, SequenceReference, accumulate, video_jod,
 };
-pub use subframes::ladder::{Curves, Errors, Rung};
-pub use subframes::{Equivalent, LadderRange, Subframes, count_equivalents};
+pub use subframes::ladder::{Curves, ErrorKind, Errors, Rung};
+pub use subframes::{Equivalent, LadderRange, Subframes, equivalent};
 pub use viewing::Viewing;
 
 use frame::{Frame, Ladder, Picture, Truth};

@@ -75,7 +75,7 @@ fn the_support_holds_nearly_all_that_the_lens_spreads() {
 #[test]
 fn sub_frames_have_the_lens() {
     let scene = fan();
-    let settings = settings_of_two([48, 27], 256);
+    let settings = settings_of_two([48, 27], 1024);
     let truth = render_truth(&scene, &settings, Alignment::Centred);
     // One sub-frame in the shutter's middle is the truth of a short shutter around the instant.
     let short = RenderSettings {

@@ -25,6 +25,9 @@ const TRUTH_PER_MEAN: usize = 4;
 /// Provenance of pictures that were not traced.
 pub(super) const NOT_TRACED: &str = "none";
 
+/// The pictures of the two halves.
+type Halves = [Picture; HALVES];
+
 /// A truth and its ladder.
 pub struct EngineTruth {
     pub truth: Truth,
@@ -47,16 +50,7 @@ pub fn average_subframes(
     check_count(capture)?;
     let (mut means, range) = read_subframes(capture, objects.len(), watch)?;
     let halves = means.remove(0).1;
-    let rungs = means.iter().map(|(subframes, own)| Accumulation {
-        subframes: *subframes,
-        // Each half of the sub-frames against its own half of the truth.
-        groups: own
-            .iter()
-            .zip(&halves)
-            .map(|(own, half)| own.minus(half))
-            .collect(),
-    });
-    let rungs = rungs.collect();
+    let rungs = subtract_truth(&means, &halves);
     let changed = range.mark_changed();
     let reached = mark_reached(&capture.velocity, shutter);
     let restless = changed.zip(&reached, |changed, reached| *changed && !reached);
@@ -102,6 +96,17 @@ pub fn average_subframes(
             rungs,
         },
     }))
+}
+
+/// Makes the rungs of the ladder from the halves of means of sub-frames, each less its own half of the truth.
+fn subtract_truth(means: &[(u32, Halves)], truth: &Halves) -> Vec<Accumulation> {
+    let rung = |(subframes, halves): &(u32, Halves)| Accumulation {
+        subframes: *subframes,
+        groups: (halves.iter().zip(truth))
+            .map(|(own, truth)| own.minus(truth))
+            .collect(),
+    };
+    means.iter().map(rung).collect()
 }
 
 /// Refuses numbers of sub-frames that make no truth with two halves.
@@ -167,7 +172,7 @@ fn read_subframes(
     capture: &Capture,
     objects: usize,
     watch: Watch,
-) -> Result<(Vec<(u32, [Picture; HALVES])>, ColorRange), Error> {
+) -> Result<(Vec<(u32, Halves)>, ColorRange), Error> {
     let count = capture.subframes.len();
     let size = (capture.color.width, capture.color.height);
     let mean = |subframes: u32, pick: &dyn Fn(usize) -> Vec<usize>| Mean {

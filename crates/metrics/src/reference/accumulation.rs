@@ -24,8 +24,7 @@ impl Reference<'_> {
             }
             Sharp::Accumulation(rung) => {
                 check_rung(rung, self.truth, what)?;
-                // With the truth's noise, which other pictures are measured with too.
-                let picture = self.truth.halves[0].plus(&rung.difference());
+                let picture = rung.picture(&self.mean);
                 let halves = rung
                     .halves()
                     .map(|half| subtract(&picture.color, &half.color));

@@ -9,8 +9,8 @@ use crate::label::label_variation;
 use crate::math::pooling::mean_over;
 use crate::picture::pooled::Pooled;
 use crate::picture::scores::Found;
-use crate::subframes::ladder::{Curves, Errors, RungTruth};
-use crate::subframes::{Equivalent, count_equivalents};
+use crate::subframes::ladder::{Curves, ErrorKind, Errors, RungTruth};
+use crate::subframes::{Equivalent, equivalent};
 use crate::{EquivalentMetric, EquivalentScores, MeasureError, Measured, Scores};
 
 impl Reference<'_> {
@@ -68,7 +68,7 @@ impl Reference<'_> {
         if let Some((own, noise)) = measured_errors(scores)
             && !self.curves.is_empty()
         {
-            let found = count_equivalents(&own, &self.curves, &noise, &without);
+            let found = self.count_all((&own, &noise), &without);
             for metric in EquivalentMetric::ALL {
                 if let Equivalent::Subframes(_) = counts.get(metric) {
                     *counts.get_mut(metric) = found.get(metric).clone();
@@ -76,6 +76,20 @@ impl Reference<'_> {
             }
         }
         counts
+    }
+
+    /// Counts by every kind of error.
+    fn count_all(
+        &self,
+        (own, noise): (&Errors, &Errors),
+        without: &[(Errors, &Curves)],
+    ) -> EquivalentScores {
+        let count = |kind| equivalent(kind, (own, &self.curves), noise, without);
+        EquivalentScores {
+            mse: count(ErrorKind::Mse),
+            flip: count(ErrorKind::Flip),
+            label_total_variation: count(ErrorKind::Label),
+        }
     }
 
     pub(super) fn score_equivalents(&self, moving: &Found) -> EquivalentScores {
@@ -90,7 +104,7 @@ impl Reference<'_> {
         match moving {
             Ok((own, noise)) => {
                 let [own, noise] = [*own, *noise].each_ref().map(Errors::from);
-                count_equivalents(&own, &self.curves, &noise, &[])
+                self.count_all((&own, &noise), &[])
             }
             Err(reason) => missing(reason),
         }

@@ -1,9 +1,9 @@
 //! The count of sub-frames with a picture's error, and its interval.
 
 use super::curve::{Curve, Point};
-use super::ladder::{Curves, Errors};
+use super::ladder::{Curves, ErrorKind, Errors, Rung};
 use super::{Equivalent, Subframes};
-use crate::{EquivalentMetric, EquivalentScores, jackknife};
+use crate::jackknife;
 
 /// Counts the accumulated sub-frames with the errors `own`. `without` holds the picture's errors and the rungs' without each
 /// group of samples in turn: of the picture's frame, the truth and the rungs together. `noise` holds the errors that the truth's
@@ -15,29 +15,15 @@ use crate::{EquivalentMetric, EquivalentScores, jackknife};
 ///
 /// Without groups (a truth of two replicates, an engine's), nothing is known of the difference's noise. Then counts up to
 /// [`Subframes::floor`] are taken as certain and others as open.
-pub fn count_equivalents(
-    own: &Errors,
-    curves: &Curves,
-    noise: &Errors,
-    without: &[(Errors, &Curves)],
-) -> EquivalentScores {
-    let count = |metric| Equivalent::Subframes(count(metric, (own, curves), noise, without));
-    EquivalentScores {
-        mse: count(EquivalentMetric::Mse),
-        flip: count(EquivalentMetric::Flip),
-        label_total_variation: count(EquivalentMetric::LabelTotalVariation),
-    }
-}
-
-fn count(
-    metric: EquivalentMetric,
+pub fn equivalent(
+    kind: ErrorKind,
     (own, curves): (&Errors, &Curves),
     noise: &Errors,
     without: &[(Errors, &Curves)],
-) -> Subframes {
-    let error = own.square(metric);
+) -> Equivalent {
+    let error = own.square(kind);
     let difference = |own: &Errors, curves: &Curves, at: usize| {
-        own.square(metric) - curves.rungs[at].noisy.square(metric)
+        own.square(kind) - curves.rungs[at].noisy.square(kind)
     };
     let points: Vec<Point> = (curves.rungs.iter().enumerate())
         .map(|(at, rung)| {
@@ -58,32 +44,31 @@ fn count(
             }
         })
         .collect();
-    let exact = |plain: &super::ladder::Rung| Point {
-        subframes: f64::from(plain.subframes),
-        error: plain.plain.square(metric),
+    let exact = |rung: &Rung| Point {
+        subframes: f64::from(rung.subframes),
+        error: rung.plain.square(kind),
         below: 0.0,
         above: 0.0,
     };
     let plain = Curve(curves.rungs.iter().map(exact).collect());
-    let (floor, _) = plain.find(noise.square(metric));
+    let (floor, _) = plain.find(noise.square(kind));
     let curve = Curve(points);
     let (value, range) = curve.find(error);
     if without.len() < 2 {
-        return Subframes::of_floor(value, floor, range);
+        return Equivalent::Subframes(Subframes::of_floor(value, floor, range));
     }
-    Subframes {
+    Equivalent::Subframes(Subframes {
         value,
         floor,
         low: curve.lowest(error),
         high: curve.highest(error),
         range,
-    }
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::LadderRange;
-    use super::super::ladder::Rung;
     use super::*;
 
     fn errors(error: f64) -> Errors {
@@ -106,12 +91,18 @@ mod tests {
         }
     }
 
-    fn list(counts: &EquivalentScores) -> Vec<Subframes> {
-        let count = |metric| match counts.get(metric) {
-            Equivalent::Subframes(count) => *count,
-            Equivalent::NotApplicable { reason } => panic!("{reason}"),
-        };
-        EquivalentMetric::ALL.map(count).to_vec()
+    /// Counts by every kind of error.
+    fn list(
+        own: (Errors, &Curves),
+        noise: Errors,
+        without: &[(Errors, &Curves)],
+    ) -> [Subframes; 3] {
+        [ErrorKind::Mse, ErrorKind::Flip, ErrorKind::Label].map(|kind| {
+            match equivalent(kind, (&own.0, own.1), &noise, without) {
+                Equivalent::Subframes(count) => count,
+                Equivalent::NotApplicable { reason } => panic!("{reason}"),
+            }
+        })
     }
 
     #[test]
@@ -123,7 +114,7 @@ mod tests {
             .map(|own| (errors(own), &others))
             .to_vec();
         let own = errors(1.0 / 6.0 + 0.03);
-        for count in list(&count_equivalents(&own, &whole, &errors(0.1), &without)) {
+        for count in list((own, &whole), errors(0.1), &without) {
             assert!((5.9..6.1).contains(&count.value), "{count:?}");
             assert_eq!((count.floor - 10.0).round(), 0.0, "{count:?}");
             assert_eq!(count.range, LadderRange::Within);
@@ -139,7 +130,7 @@ mod tests {
             .map(|own| (errors(1.0 / 6.0 + 0.04 + own), &whole))
             .to_vec();
         let own = errors(1.0 / 6.0 + 0.03);
-        for count in list(&count_equivalents(&own, &whole, &errors(0.001), &without)) {
+        for count in list((own, &whole), errors(0.001), &without) {
             assert!((5.9..6.1).contains(&count.value), "{count:?}");
             assert!(count.low.is_some_and(|low| low < 5.0), "{count:?}");
             assert!(count.high.is_none_or(|high| high > 8.0), "{count:?}");
@@ -150,7 +141,7 @@ mod tests {
     fn without_groups_the_floor_bounds_what_is_certain() {
         let whole = curves(0.0);
         for (own, low, high) in [(0.3, 3.3, Some(3.3)), (0.08, 10.0, None)] {
-            for count in list(&count_equivalents(&errors(own), &whole, &errors(0.1), &[])) {
+            for count in list((errors(own), &whole), errors(0.1), &[]) {
                 assert!((count.low.unwrap() - low).abs() < 0.2, "{count:?}");
                 assert_eq!(count.high.map(|high| (10.0 * high).round() / 10.0), high);
             }

@@ -6,7 +6,7 @@ use crate::color::cross_error::multiply;
 use crate::color::flip::{Displayed, SeenExposures};
 use crate::label::label_variation;
 use crate::math::pooling::mean_over;
-use crate::{EquivalentMetric, Region, Regions, Viewing};
+use crate::{Region, Regions, Viewing};
 
 /// Errors over the moving region that sub-frames are counted by.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,13 +19,24 @@ pub struct Errors {
     pub label: f64,
 }
 
+/// Kind of error that sub-frames are counted by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ErrorKind {
+    /// [`Errors::mse`].
+    Mse,
+    /// [`Errors::flip`].
+    Flip,
+    /// [`Errors::label`].
+    Label,
+}
+
 impl Errors {
-    /// Returns the error that a count is by, squared: noise adds to squares by its variance, which the jackknife takes out.
-    pub fn square(&self, metric: EquivalentMetric) -> f64 {
-        match metric {
-            EquivalentMetric::Mse => self.mse,
-            EquivalentMetric::Flip => self.flip.powi(2),
-            EquivalentMetric::LabelTotalVariation => self.label.powi(2),
+    /// Returns one of the errors in squares: noise raises them by its variance, which the jackknife takes out.
+    pub(super) fn square(&self, kind: ErrorKind) -> f64 {
+        match kind {
+            ErrorKind::Mse => self.mse,
+            ErrorKind::Flip => self.flip.powi(2),
+            ErrorKind::Label => self.label.powi(2),
         }
     }
 }

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{Interval, Measured};
 
-pub use count::count_equivalents;
+pub use count::equivalent;
 
 /// Number of accumulated sub-frames that have the picture's error, or the reason why there is none.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
