@@ -187,7 +187,7 @@ fn costs_come_from_the_bench_beside_the_run() {
     let cell = "<td class=\"cost\" data-value";
     let own = format!("{cell}=\"{}\">", timing.seconds.median);
     for cell in [cell, &own] {
-        assert_eq!(page.matches(cell).count(), 9, "{cell}");
+        assert_eq!(page.matches(cell).count(), 11, "{cell}");
     }
     let costs = between(&page, "<section class=\"costs\">", "</section>")[0];
     let adapter = timed.adapter.name.as_str();

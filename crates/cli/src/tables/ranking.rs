@@ -41,15 +41,24 @@ pub fn ranking_text(cases: &[Case]) -> String {
     text += &references_text(cases, &groups);
     text += "\n";
     text += &legend_text(&notes(&groups));
-    if presets > rows {
-        let note = format!("Each filter by its best preset; --table shows all {presets}.");
-        text += &legend_text(&note);
-    }
-    if hidden > 0 {
-        text += &legend_text(&format!("And {hidden} more: --table shows all."));
-    }
+    text += &hidden_text(presets, rows, hidden);
     text += &twins_text(cases, &groups);
     text + &input_forms_text(cases) + &frame_rates_text(cases)
+}
+
+/// Says that filters are shown by their best of all presets, and that some of these rows are hidden; empty if neither is so.
+fn hidden_text(presets: usize, rows: usize, hidden: usize) -> String {
+    let note = match (presets > rows, hidden > 0) {
+        (true, true) => {
+            format!(
+                "Each filter by its best preset, and {hidden} more: --table shows all {presets}."
+            )
+        }
+        (true, false) => format!("Each filter by its best preset; --table shows all {presets}."),
+        (false, true) => format!("And {hidden} more: --table shows all."),
+        (false, false) => return String::new(),
+    };
+    legend_text(&note)
 }
 
 /// Names a group's shutter: `centred shutter`, with the frame rate if it differs from the scene files'.

@@ -9,8 +9,7 @@ pub const STILL_LIMIT: f64 = 0.01;
 pub const GRAIN_LIMIT: f64 = 0.018;
 
 /// Explanation of the two for readers.
-pub const SIDE_EFFECTS_RULE: &str = "Still: change where nothing moves; grain: noise and patterns of pixel size; both as shares of the \
-                                     brightness. Above 0.010 of still, a filter ranks behind all others. ! is above 0.010 and 0.018.";
+pub const SIDE_EFFECTS_RULE: &str = "! marks still (change where nothing moves) above 0.010, which ranks last, and grain above 0.018.";
 
 /// Change where nothing moves and grain, of a filter on a scene or in the mean; none if it does not apply.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
