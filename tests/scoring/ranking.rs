@@ -219,7 +219,7 @@ fn skill_over_scenes_is_a_ratio_of_means() {
 fn compared_runs_have_the_means_of_skill_of_each_run() {
     let [first, mut second] = [make_run(), make_run()];
     let is_own =
-        |case: &&mut Case| case.name() == "jump_flood:paper" && case.scene.to_string() == "scene_0";
+        |case: &&mut Case| case.name() == "jump_flood:paper" && case.scene.name == "scene_0";
     let case = second.cases.iter_mut().find(is_own).unwrap();
     case.scores.skill.flip = Measured::score(1.0, 1.0);
     second.overall = overall(&second.cases);

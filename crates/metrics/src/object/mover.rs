@@ -148,7 +148,7 @@ mod tests {
     #[test]
     fn a_mover_translates_if_its_pixels_deviate_by_at_most_a_tenth_of_their_mean() {
         assert_eq!(translation([6.0, -8.0], 0.0), Ok([0.6, -0.8]));
-        assert_eq!(translation([6.0, -8.0], 0.999), Ok([0.6, -0.8]));
+        assert_eq!(translation([6.0, -8.0], 1.0), Ok([0.6, -0.8]));
         let reason = translation([6.0, -8.0], 1.001).unwrap_err();
         assert!(
             reason.contains("deviates by 1.00 px from its mean of 10.00 px"),
