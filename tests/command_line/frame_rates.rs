@@ -122,6 +122,12 @@ fn assert_kept(sandbox: &Sandbox, first: &Run) {
     assert!(page.contains("plate@60fps_1-120s"));
 }
 
+/// Returns the mean absolute difference of two pictures.
+fn mean_difference(a: &Image, b: &Image) -> f32 {
+    let pairs = a.pixels.iter().flatten().zip(b.pixels.iter().flatten());
+    pairs.map(|(a, b)| (a - b).abs()).sum::<f32>() / (3 * a.pixels.len()) as f32
+}
+
 #[test]
 fn a_rule_of_the_shutter_is_the_blur_of_another_exposure() {
     let sandbox = Sandbox::new();
@@ -138,14 +144,16 @@ fn a_rule_of_the_shutter_is_the_blur_of_another_exposure() {
         };
         read_output(&sandbox, find(&cases, scene, &name))
     };
+    // Frames of 24 and 144 per second show the plate at the same place: only the length of the blur differs.
+    let [right, wrong] = ["right", "in_frames"].map(|it| output("plate@144fps_1-120s", it));
+    let wrong = mean_difference(&right, &wrong);
     for (own, same) in read_table("rules of the shutter") {
         let ((scene, rule), same) = (own.split_once(' ').unwrap(), same[0]);
         let [own, other] = [output(scene, rule), output(same, "right")];
-        assert!(own == other, "{scene} rule={rule} is not {same}");
+        // Samples are chosen for the time that the shutter is open, so that the frames' noise differs.
+        let found = mean_difference(&own, &other);
+        assert!(found < 0.1 * wrong, "{scene} rule={rule} is not {same}: {found} of {wrong}");
     }
-    // Frames of 24 and 144 per second show the plate at the same place: only the length of the blur differs.
-    let [right, wrong] = ["right", "in_frames"].map(|it| output("plate@144fps_1-120s", it));
-    assert!(right != wrong);
     let case = find(&cases, "plate@24fps", &format!("{name} rule=share_falls"));
     assert_eq!(case.input.rule, ShutterRule::ShareFalls);
     // The truth stays the scene's.

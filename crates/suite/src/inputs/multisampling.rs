@@ -141,7 +141,9 @@ mod tests {
     fn samples_share_the_rays_of_a_pixel_and_no_random_numbers() {
         let mut frame = test_frame(4, 3);
         frame.provenance.seed = u64::MAX;
-        for (samples_per_pixel, share) in [(64, 16), (2, 1)] {
+        frame.provenance.replicates = 2;
+        // Every replicate has a sample at least.
+        for (samples_per_pixel, share) in [(64, 16), (4, 2)] {
             frame.provenance.samples_per_pixel = samples_per_pixel;
             let settings = sample_settings(&frame);
             assert!(settings.iter().all(|own| own.samples_per_pixel == share));

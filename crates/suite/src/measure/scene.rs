@@ -8,7 +8,7 @@ use store::{
     CASE_RECORD, RenderFile, clear_scene, look_up, put, refuse_scene, remove_altered_files, take,
 };
 
-use super::pictures::{write_frame, write_truth};
+use super::pictures::{PARTS_FILE, write_frame, write_truth};
 use super::plan::RunPlan;
 use super::planned_case::PlannedCase;
 use super::run_scene::RunScene;
@@ -166,8 +166,14 @@ impl SceneContext<'_> {
             case.intervals.clear();
             return Some(case);
         }
-        let has_intervals = !case.intervals.is_empty();
-        (has_intervals || case.is_reference || case.drawn.is_some()).then_some(case)
+        let has_none = case.is_reference || case.drawn.is_some();
+        (has_none || self.has_intervals(&case)).then_some(case)
+    }
+
+    /// Returns whether a case has intervals, and the pictures that a sequence's intervals are measured from.
+    fn has_intervals(&self, case: &Case) -> bool {
+        let parts = self.plan.out.join(&case.folder).join(PARTS_FILE);
+        !case.intervals.is_empty() && (self.plan.frames.is_one() || parts.is_file())
     }
 
     /// Lists the frame and the truths that must be rendered, by the headers of files. Copying an engine's counts as no time.

@@ -2,7 +2,7 @@
 
 use metrics::{
     Equivalent, FrozenMetric, Ideal, ImageMetric, Interval, Measured, Metric, ObjectMetric,
-    ProbeMetric, Region, Rise, Scores, SequenceMetric, SequenceScores, jackknife_of, psnr,
+    ProbeMetric, Region, Rise, Scores, SequenceMetric, SequenceScores, jackknife_of, psnr, PSNR_LIMIT,
 };
 use store::LADDER;
 
@@ -99,7 +99,7 @@ fn psnr_interval(whole: &Scores, error: Option<Interval>, region: Region) -> Opt
     ]
     .map(|(mse, floor)| psnr(mse, floor));
     // The slope of 10 log10, at an error that the truth can tell from none.
-    let known = error.center.max(score.floor).max(f64::MIN_POSITIVE);
+    let known = error.center.max(score.floor).max(10f64.powf(-PSNR_LIMIT / 10.0));
     let slope = 10.0 / (std::f64::consts::LN_10 * known);
     Some(Interval {
         low,

@@ -103,12 +103,12 @@ fn verify_frame(work: &Work) -> Result<Vec<(PathBuf, Tile)>, Error> {
     let further = has_further.then(|| trace_further_velocities(work.scene, &settings, &grid));
     let further = further.transpose()?;
     work.trace_tiles(&[RenderFile::Frame], frame.size(), |_, tile, watch| {
-        let mut made = trace_frame_part(work.scene, &settings, &grid, Some(tile), watch)?.frame;
-        made.velocity_next = further.as_ref().map(|(next, _)| next.part(tile));
-        made.velocity_z = further.as_ref().map(|(_, z)| z.part(tile));
+        let mut made = trace_frame_part(work.scene, &settings, &grid, Some(tile), watch)?;
+        made.frame.velocity_next = further.as_ref().map(|(next, _)| next.part(tile));
+        made.frame.velocity_z = further.as_ref().map(|(_, z)| z.part(tile));
         let mut file = made.to_exr();
         if has_further {
-            file.push_plane(EXCLUSION, &draw_exclusion(&made, work.scene));
+            file.push_plane(EXCLUSION, &draw_exclusion(&made.frame, work.scene));
         }
         Ok(file)
     })
