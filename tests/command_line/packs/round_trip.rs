@@ -345,6 +345,11 @@ fn a_frame_and_a_rung_are_verified_too() {
     let (file, [x, y]) = find_tile(&honest, "frame.exr");
     let path = sandbox.path(&file);
     let whole = Frame::read(&path).unwrap();
+    let replicates = read_frame_replicates(&path).unwrap();
+    let write = |frame: Frame| {
+        let replicates = replicates.clone();
+        TracedFrame { frame, replicates }.write(&path).unwrap();
+    };
     let pixel = (y * 64 + x) as usize;
     let refused = |file: &str, channel: &str| {
         let place = format!("{file}: pixel ({x}, {y}) of its channel {channel}");
@@ -352,13 +357,13 @@ fn a_frame_and_a_rung_are_verified_too() {
     };
     let mut frame = whole.clone();
     frame.velocity.pixels[pixel][0] += 1.0;
-    frame.write(&path).unwrap();
+    write(frame);
     refused(&file, "velocity.X");
     let mut frame = whole.clone();
     frame.object_id.pixels[pixel] ^= 1;
-    frame.write(&path).unwrap();
+    write(frame);
     refused(&file, "object.id");
-    whole.write(&path).unwrap();
+    write(whole);
     verify(&sandbox, "--seed 3");
 
     let (file, [x, y]) = find_tile(&honest, "ladder_trailing");
