@@ -152,7 +152,10 @@ fn a_rule_of_the_shutter_is_the_blur_of_another_exposure() {
         let [own, other] = [output(scene, rule), output(same, "right")];
         // Samples are chosen for the time that the shutter is open, so that the frames' noise differs.
         let found = mean_difference(&own, &other);
-        assert!(found < 0.1 * wrong, "{scene} rule={rule} is not {same}: {found} of {wrong}");
+        assert!(
+            found < 0.1 * wrong,
+            "{scene} rule={rule} is not {same}: {found} of {wrong}"
+        );
     }
     let case = find(&cases, "plate@24fps", &format!("{name} rule=share_falls"));
     assert_eq!(case.input.rule, ShutterRule::ShareFalls);

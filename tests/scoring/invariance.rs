@@ -135,7 +135,9 @@ fn a_scene_moved_by_whole_pixels_has_the_same_matte_scores() {
         object.center = [object.center[0] + 4.0, object.center[1] - 3.0];
     }
     // All but FLIP on the object, which depends on what is behind it.
-    let mattes = ObjectMetric::ALL.into_iter().filter(|own| *own != ObjectMetric::Flip);
+    let mattes = ObjectMetric::ALL
+        .into_iter()
+        .filter(|own| *own != ObjectMetric::Flip);
     let mattes: Vec<Metric> = mattes.map(Metric::Object).collect();
     // Sampling positions are the same in every pixel; only rounding differs.
     let found = measure_blur(&moved, WRONG).scores;

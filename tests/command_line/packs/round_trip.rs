@@ -3,7 +3,7 @@
 use std::fs;
 use std::process::Output;
 
-use frame::{Frame, Ladder, Replicate, read_exr, write_exr};
+use frame::{Frame, Ladder, Replicate, TracedFrame, read_exr, read_frame_replicates, write_exr};
 use serde_json::Value;
 use suite::TRAVERSALS;
 use tests::text::{Parts, assert_contains};

@@ -2,7 +2,8 @@
 
 use metrics::{
     Equivalent, FrozenMetric, Ideal, ImageMetric, Interval, Measured, Metric, ObjectMetric,
-    ProbeMetric, Region, Rise, Scores, SequenceMetric, SequenceScores, jackknife_of, psnr, PSNR_LIMIT,
+    PSNR_LIMIT, ProbeMetric, Region, Rise, Scores, SequenceMetric, SequenceScores, jackknife_of,
+    psnr,
 };
 use store::LADDER;
 
@@ -62,13 +63,13 @@ pub(crate) fn sequence_intervals(whole: &SequenceScores, parts: &[SequenceScores
 const ROOT: f64 = 0.5;
 const ROOT_OF_FLIP: f64 = 0.35;
 
-/// Returns how noise raises a score. FLIP where things move is raised like a smooth score, because most errors there exceed the noise.
+/// Returns how noise raises a score.
 fn find_rise(metric: Metric) -> Rise {
     use ImageMetric::{Flip, FlipHdr, Mae, Smape};
     match metric {
         _ if metric.row().is_percentile => Rise::Percentile,
         Metric::Image(Flip | FlipHdr, Region::Still | Region::Full) => Rise::Power(ROOT_OF_FLIP),
-        Metric::Image(Mae | Smape, _)
+        Metric::Image(Flip | FlipHdr | Mae | Smape, _)
         | Metric::Frozen(FrozenMetric::Flip)
         | Metric::Object(ObjectMetric::RowLoss)
         | Metric::Probe(ProbeMetric::GatherOffset | ProbeMetric::GatherSpread) => Rise::Power(ROOT),
@@ -99,7 +100,10 @@ fn psnr_interval(whole: &Scores, error: Option<Interval>, region: Region) -> Opt
     ]
     .map(|(mse, floor)| psnr(mse, floor));
     // The slope of 10 log10, at an error that the truth can tell from none.
-    let known = error.center.max(score.floor).max(10f64.powf(-PSNR_LIMIT / 10.0));
+    let known = error
+        .center
+        .max(score.floor)
+        .max(10f64.powf(-PSNR_LIMIT / 10.0));
     let slope = 10.0 / (std::f64::consts::LN_10 * known);
     Some(Interval {
         low,
