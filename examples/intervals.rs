@@ -15,7 +15,7 @@ const FILTERS: [(&str, &str); 2] = [("jump_flood", "paper"), ("mcguire", "paper"
 const SIZE: [u32; 2] = [160, 90];
 /// Folder of all renders: an interrupted study continues.
 const FOLDER: &str = "target/tmp/intervals";
-/// Replicates of the truths, and the seed and the replicates of the converged one: more of them need no more memory at once.
+/// Replicates of all truths, and the seed of the converged one.
 const REPLICATES: u32 = 8;
 const CONVERGED_SEED: u64 = 1_000_000;
 /// Limits at these multiples of the converged score: one is broken, one kept.

@@ -47,7 +47,7 @@ mod traced_frame;
 mod truth;
 mod words;
 
-pub use accumulation::{Accumulation, Ladder, rung_file};
+pub use accumulation::{Accumulation, Ladder, MOST_GROUPS, rung_file};
 pub use at_instant::AtInstant;
 pub use camera::{Camera, CameraPose};
 pub use display::{Display, FlipExposures, MAX_STOPS, decode_srgb, display_srgb, scene_linear};

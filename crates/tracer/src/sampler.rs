@@ -9,7 +9,7 @@ const JOINT_BOUNCES: u32 = 2;
 /// Number of the lens' set, which no bounce has.
 const LENS_SET: u32 = u32::MAX;
 
-/// Independent streams of random numbers, so that no two renders of a scene share their noise.
+/// Independent streams of random numbers, so that renders of a scene share no noise but what they are meant to.
 #[derive(Clone, Copy)]
 pub(crate) enum Stream {
     /// Truths, and the frame that goes with them: they differ by nothing where nothing changes.

@@ -7,7 +7,6 @@ use tracer::check_next_frame;
 use super::plan::RunPlan;
 use super::planned_case::PlannedCase;
 use crate::Error;
-use crate::render::settings::frame_settings;
 use crate::run::sequence::{Frames, MAX_FRAMES};
 use crate::stats::parts::MIN_REPLICATES;
 
@@ -29,7 +28,7 @@ impl RunPlan {
         for scene in &self.scenes {
             for frame in 0..self.frames.count {
                 let scene = &scene.at_frame(frame);
-                frame_settings(&self.render).check_frame(scene)?;
+                self.render.check_frame(scene)?;
                 if self.reads_further_velocities() {
                     check_next_frame(scene)?;
                 }

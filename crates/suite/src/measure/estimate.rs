@@ -12,7 +12,6 @@ use super::frames::visit_frames;
 use super::plan::RunPlan;
 use super::planned_case::PlannedCase;
 use crate::render::ladders::needed_rungs;
-use crate::render::settings::frame_settings;
 
 /// Threads in the measurements of the times below: means over the shipped scenes, on two cores of a server with llvmpipe.
 const CORES: f64 = 2.0;
@@ -178,9 +177,9 @@ fn count_ladders(plan: &RunPlan, truths: &[Alignment]) -> f64 {
 
 /// Estimates the CPU time to render some truths and ladders of a scene, and its frame if `frame` is set.
 fn render_cpu_seconds(render: &RenderSettings, frame: bool, truths: usize, ladders: f64) -> f64 {
-    let of_frame = u32::from(frame) * frame_settings(render).samples_per_pixel;
-    let of_truths = (truths as f64 + WHOLE_LADDER * ladders) * f64::from(render.samples_per_pixel);
-    let samples = count_pixels(render) * (f64::from(of_frame) + of_truths);
+    // A frame has as many samples as a truth.
+    let pictures = f64::from(u32::from(frame)) + truths as f64 + WHOLE_LADDER * ladders;
+    let samples = count_pixels(render) * pictures * f64::from(render.samples_per_pixel);
     (1 + truths) as f64 * SCENE + samples * SAMPLE
 }
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use filters::FilterError;
-use frame::{Alignment, Frame, Ladder, Truth};
+use frame::{Alignment, Frame, Ladder, Picture, Truth};
 use metrics::{ColorReference, Reference};
 use store::put;
 use tracer::{Defocus, Progress, TraceError, Watch};
@@ -13,7 +13,7 @@ use super::planned_case::PlannedCase;
 use super::references::{TruthPart, TruthReferences};
 use super::run_scene::RunScene;
 use super::scene::SceneContext;
-use super::stored_frames::store_frames;
+use super::stored_frames::{read_replicates, store_frames};
 use crate::Error;
 use crate::inputs::depth_of_field::DepthOfField;
 use crate::inputs::input_format::InputFormat;
@@ -35,7 +35,8 @@ impl SceneContext<'_> {
         }
         let is_needed = |input: &&InputFormat| missing.iter().any(|case| case.id.input == **input);
         let inputs: Vec<InputFormat> = self.plan.inputs.iter().filter(is_needed).copied().collect();
-        let stored_frames = store_frames(self.plan, self.scene, &inputs, frame)?;
+        let replicates = read_replicates(self.plan, self.scene)?;
+        let stored_frames = store_frames(self.plan, self.scene, &inputs, (frame, &replicates))?;
         let depth_of_field = self.prepare_passes(&inputs, frame)?;
         let common_alignment = self.plan.common_alignment();
         let has_others = (missing.iter()).any(|case| case.id.alignment != common_alignment);
@@ -59,7 +60,7 @@ impl SceneContext<'_> {
                 common = Some(Reference::new(&frame.cropped(), &truth, None, &viewing)?.into());
                 continue;
             }
-            let parts = self.truth_parts(alignment, &own)?;
+            let parts = self.truth_parts(alignment, &own, &replicates)?;
             let references = self.references(frame, &truth, &parts)?;
             let context = CaseContext {
                 scene: self,
@@ -175,13 +176,14 @@ impl SceneContext<'_> {
         }
     }
 
-    /// Makes the parts of the frame and of an alignment's truth, if cases of filters get intervals or, with a ladder, counts of equivalent
+    /// Makes the parts of the frame, given by its replicates, and of an alignment's truth, if cases of filters get intervals or, with a ladder, counts of equivalent
     /// sub-frames, which have intervals. Makes none for an engine's scene: sub-frames are no random samples, and a truth without some of
     /// them has holes.
     fn truth_parts(
         &self,
         alignment: Alignment,
         cases: &[(usize, &PlannedCase)],
+        frames: &[Picture],
     ) -> Result<Vec<TruthPart>, Error> {
         let has_filters = cases.iter().any(|(_, case)| !case.id.is_reference);
         let RunScene::Traced(scene) = self.scene else {
@@ -190,16 +192,13 @@ impl SceneContext<'_> {
         if !has_filters || !self.plan.measures_parts() {
             return Ok(Vec::new());
         }
-        let rendering = self.plan.rendering(scene);
         let count = self.plan.render.replicates;
-        let (frames, truths) = (
-            rendering.frame_replicates()?,
-            rendering.files(alignment).replicates(0..count)?,
-        );
+        let files = self.plan.rendering(scene).files(alignment);
+        let truths = files.replicates(0..count)?;
         let groups = Groups::of(count);
         let without = |group| {
             Ok(TruthPart {
-                picture: groups.picture_without(group, &frames),
+                picture: groups.picture_without(group, frames),
                 truth: groups.truth_without(group, &truths)?,
             })
         };

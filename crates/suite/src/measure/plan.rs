@@ -14,6 +14,7 @@ use crate::inputs::input_format::InputFormat;
 use crate::render::rendering::Rendering;
 use crate::run::sequence::Frames;
 use crate::run::{FORMAT, Run};
+use crate::stats::parts::MIN_REPLICATES;
 use crate::{Monitor, PROGRAM};
 
 /// All settings of a run.
@@ -106,7 +107,8 @@ impl RunPlan {
 
     /// Tells whether filters are measured on parts of the frame's replicates, for intervals of scores or of counts of sub-frames.
     pub(crate) fn measures_parts(&self) -> bool {
-        self.intervals || self.ladders
+        let is_needed = self.intervals || self.ladders;
+        is_needed && self.render.replicates >= MIN_REPLICATES
     }
 
     /// Tells whether a filter reads velocities that few filters read.

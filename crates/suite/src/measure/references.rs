@@ -48,7 +48,7 @@ impl<'a> TruthReferences<'a> {
             // The sharp picture of a centred shutter is the frame.
             let sharp = match &sharp {
                 Sharp::Frame(_) => Sharp::Frame(frame.picture()),
-                Sharp::Accumulation(rung) => Sharp::Accumulation(rung.without(group)),
+                rung => rung.without(group),
             };
             Reference::new(&frame, &part.truth, None, viewing)?.with_ends(&sharp, &oracle)
         };

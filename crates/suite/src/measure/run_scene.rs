@@ -8,7 +8,6 @@ use crate::Error;
 use crate::engine_scene::EngineScene;
 use crate::render::ladders::needed_rungs;
 use crate::render::memory::{bound_memory, count_measured, refuse_beyond_free};
-use crate::render::settings::frame_settings;
 use crate::run::case::Drawn;
 
 /// A scene of a run.
@@ -101,7 +100,7 @@ impl<'a> RunScene<'a> {
     ) -> Result<(), Error> {
         match self {
             Self::Traced(scene) => {
-                frame_settings(settings).check_frame(scene)?;
+                settings.check_frame(scene)?;
                 refuse_beyond_free(scene, settings, count_measured(settings, truths, forms))
             }
             Self::Drawn(scene) => scene.check_truth(),

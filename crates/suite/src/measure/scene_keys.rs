@@ -8,7 +8,6 @@ use tracer::RenderSettings;
 
 use crate::measure::run_scene::RunScene;
 use crate::render::ladders::ladder_hash;
-use crate::render::settings::frame_settings;
 
 /// Hashes of the inputs of one scene's frame and truths.
 #[derive(Clone, Debug)]
@@ -32,7 +31,7 @@ impl SceneKeys {
         let (own, frame) = match scene {
             RunScene::Traced(scene) => (
                 hash_inputs(&(&scene.exposes, scene.family, &scene.display)),
-                tracer::frame_hash(scene, &frame_settings(settings)),
+                tracer::frame_hash(scene, settings),
             ),
             RunScene::Drawn(scene) => (hash_inputs(scene), scene.hash.clone()),
         };

@@ -23,12 +23,12 @@ pub(crate) struct StoredFrame {
     pub parts_before: Vec<Picture>,
 }
 
-/// Stores a scene's frame in every form, and the previous frame for filters with history.
+/// Stores a scene's frame and its replicates in every form, and the previous frame for filters with history.
 pub(super) fn store_frames(
     plan: &RunPlan,
     scene: RunScene,
     formats: &[InputFormat],
-    frame: &Frame,
+    (frame, replicates): (&Frame, &[Picture]),
 ) -> Result<Vec<StoredFrame>, Error> {
     let whole = read_further_velocities(plan, scene)?;
     if let Some(whole) = whole.as_ref().filter(|_| scene.id().frame == 0) {
@@ -36,10 +36,13 @@ pub(super) fn store_frames(
     }
     let frame = whole.as_ref().unwrap_or(frame);
     let before = read_frame_before(plan, scene)?;
+    let replicates_before = match &before {
+        Some((scene, _)) => read_replicates(plan, RunScene::Traced(scene))?,
+        None => Vec::new(),
+    };
     let groups = Groups::of(plan.render.replicates);
-    let store = |format: &InputFormat, frame: &Frame, own: RunScene| {
-        let replicates = read_replicates(plan, own)?;
-        let (frame, replicates) = format.apply(frame, &replicates, own.traced(), plan.monitor)?;
+    let store = |format: &InputFormat, frame: &Frame, replicates: &[Picture], own: RunScene| {
+        let (frame, replicates) = format.apply(frame, replicates, own.traced(), plan.monitor)?;
         let parts = match replicates.is_empty() {
             true => Vec::new(),
             false => (groups.list())
@@ -56,9 +59,11 @@ pub(super) fn store_frames(
     let stored: Vec<StoredFrame> = (formats.iter())
         .map(|format| {
             let before = before.as_ref();
-            let before = before.map(|(scene, frame)| store(format, frame, RunScene::Traced(scene)));
+            let before = before.map(|(scene, frame)| {
+                store(format, frame, &replicates_before, RunScene::Traced(scene))
+            });
             let (before, parts_before) = before.transpose()?.unzip();
-            let (frame, parts) = store(format, frame, scene)?;
+            let (frame, parts) = store(format, frame, replicates, scene)?;
             Ok(StoredFrame {
                 format: *format,
                 frame,
@@ -80,7 +85,7 @@ pub(super) fn store_frames(
 }
 
 /// Reads the replicates of a scene's frame if filters are measured on parts of them; none of an engine's.
-fn read_replicates(plan: &RunPlan, scene: RunScene) -> Result<Vec<Picture>, Error> {
+pub(super) fn read_replicates(plan: &RunPlan, scene: RunScene) -> Result<Vec<Picture>, Error> {
     let scene = scene.traced().filter(|_| plan.measures_parts());
     scene.map_or(Ok(Vec::new()), |scene| {
         plan.rendering(scene).frame_replicates()

@@ -7,7 +7,6 @@ use store::{RenderFile, RenderPath, Wanted};
 
 use super::ladders::{ladder_hash, needed_rungs};
 use super::rendering::Rendering;
-use super::settings::frame_settings;
 
 /// Lists a truth, its replicates, and the rungs of its ladder that measuring needs: all if ladders are requested.
 pub(crate) fn truth_files(
@@ -45,7 +44,7 @@ impl Rendering<'_> {
             },
             hash: hash.to_owned(),
         };
-        let frame = tracer::frame_hash(scene, &frame_settings(settings));
+        let frame = tracer::frame_hash(scene, settings);
         let mut files = vec![wanted(RenderFile::Frame, &frame)];
         for &alignment in alignments {
             let truth = tracer::truth_hash(scene, settings, alignment);

@@ -3,13 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use filters::{EXCLUSION, Filter};
-use frame::{Alignment, Frame, Picture, TracedFrame, read_frame_replicates, write_small_exr};
+use frame::{
+    Alignment, Frame, Picture, TracedFrame, read_attribute, read_frame_replicates, write_small_exr,
+};
 use store::{RenderFile, refuse_scene, scene_folder};
 use tracer::{PixelGrid, RenderSettings, Scene};
 
 use super::exclusion::{FilterFrame, draw_exclusion};
 use super::memory::check_memory;
-use super::settings::frame_settings;
 use super::velocities::add_further_velocities;
 use crate::{Error, Monitor};
 
@@ -18,7 +19,7 @@ use crate::{Error, Monitor};
 pub struct Rendering<'a> {
     /// The scene.
     pub scene: &'a Scene,
-    /// Settings of its truths.
+    /// Settings of its frame and its truths: what stands still has the same samples in both.
     pub settings: RenderSettings,
     /// Folder of the run.
     pub out: &'a Path,
@@ -30,8 +31,7 @@ impl Rendering<'_> {
     /// Renders the frame, or reads it from its file if its inputs are the same.
     pub fn frame(&self) -> Result<Frame, Error> {
         refuse_scene(&scene_folder(self.out, self.scene))?;
-        let own = frame_settings(&self.settings);
-        let hash = tracer::frame_hash(self.scene, &own);
+        let hash = tracer::frame_hash(self.scene, &self.settings);
         if let Ok(found) = Frame::read(&self.path(RenderFile::Frame))
             && found.provenance.is_rendered_of(&hash)
         {
@@ -40,18 +40,22 @@ impl Rendering<'_> {
         Ok(self.trace_frame()?.frame)
     }
 
-    /// Reads the replicates of the frame, or renders it again if its file lacks them.
+    /// Reads the replicates of the frame; renders it if its file lacks them, is broken or was made from other inputs.
     pub fn frame_replicates(&self) -> Result<Vec<Picture>, Error> {
-        self.frame()?;
-        match read_frame_replicates(&self.path(RenderFile::Frame))? {
-            found if found.is_empty() => Ok(self.trace_frame()?.replicates),
-            found => Ok(found),
+        let path = self.path(RenderFile::Frame);
+        let hash = tracer::frame_hash(self.scene, &self.settings);
+        if read_attribute(&path, "content_hash") == Some(hash)
+            && let Ok(found) = read_frame_replicates(&path)
+            && !found.is_empty()
+        {
+            return Ok(found);
         }
+        Ok(self.trace_frame()?.replicates)
     }
 
     /// Renders the frame and writes it with its replicates.
     fn trace_frame(&self) -> Result<TracedFrame, Error> {
-        let own = frame_settings(&self.settings);
+        let own = self.settings;
         own.check_frame(self.scene)?;
         self.check_memory(self.settings.replicates)?;
         let label = format!("{} frame", self.scene.id);
@@ -70,7 +74,7 @@ impl Rendering<'_> {
 
     /// Renders the frame as [`Rendering::frame`] does, with the velocities that few filters read, which its file need not have.
     pub fn frame_with_further_velocities(&self) -> Result<Frame, Error> {
-        let settings = frame_settings(&self.settings);
+        let settings = self.settings;
         let grid = PixelGrid::of_picture(settings.width, settings.height);
         add_further_velocities(self.frame()?, self.scene, &settings, &grid)
     }

@@ -1,4 +1,4 @@
-//! Allowed render settings, their list, and the settings of a truth's frame.
+//! Allowed render settings, their list, and the settings that a frame was rendered with.
 
 use std::ops::RangeInclusive;
 
@@ -28,11 +28,6 @@ pub fn list_settings(settings: &RenderSettings) -> [(&'static str, String); 8] {
     ]
 }
 
-/// Selects the settings of the frame that goes with truths: their own, so that what stands still has the same samples in both.
-pub(crate) fn frame_settings(settings: &RenderSettings) -> RenderSettings {
-    *settings
-}
-
 /// Reads the settings of a frame that was rendered here.
 pub(crate) fn settings_of(frame: &Frame) -> RenderSettings {
     let (width, height) = frame.size();
@@ -46,6 +41,5 @@ pub(crate) fn settings_of(frame: &Frame) -> RenderSettings {
         replicates: frame.provenance.replicates,
         seed: frame.provenance.seed,
         exposure: Some(frame.exposure),
-        ..RenderSettings::default()
     }
 }

@@ -130,21 +130,27 @@ fn worst_interval(
         (own.moves == moves).then(|| interval(own.get(object), parts, metric))?
     };
     let all: Vec<Interval> = (0..whole.objects.len()).filter_map(of_object).collect();
+    join_worst(&all, ideal)
+}
+
+/// Joins the intervals of all objects that may have the worst score.
+fn join_worst(all: &[Interval], ideal: Ideal) -> Option<Interval> {
     let least = |own: &Interval| least_badness(ideal, own);
     let most = |own: &Interval| f64::max(ideal.badness(own.low), ideal.badness(own.high));
     let certain = all.iter().map(least).fold(f64::NEG_INFINITY, f64::max);
-    let mut candidates = all.iter().filter(|own| most(own) >= certain);
-    let first = *candidates.next()?;
-    let joined = candidates.fold(first, |joined, own| {
+    let mut candidates = (all.iter())
+        .filter(|own| most(own) >= certain)
+        .map(|own| without_better(*own, ideal, certain));
+    let first = candidates.next()?;
+    Some(candidates.fold(first, |joined, own| {
         let is_worse = ideal.badness(own.center) > ideal.badness(joined.center);
-        let worst = if is_worse { own } else { &joined };
+        let worst = if is_worse { own } else { joined };
         Interval {
             low: joined.low.min(own.low),
             high: joined.high.max(own.high),
-            ..*worst
+            ..worst
         }
-    });
-    Some(without_better(joined, ideal, certain))
+    }))
 }
 
 /// Returns the smallest badness of an interval's values.
@@ -155,15 +161,81 @@ fn least_badness(ideal: Ideal, own: &Interval) -> f64 {
     }
 }
 
-/// Cuts off an end of values that are better than the least that is certain.
+/// Cuts off the values at the ends that are better than the least that is certain.
 fn without_better(own: Interval, ideal: Ideal, certain: f64) -> Interval {
-    let mut cut = own;
-    match ideal {
-        Ideal::Lowest => cut.low = own.low.max(certain),
-        Ideal::Highest => cut.high = own.high.min(-certain),
-        Ideal::Target(target) if own.low > target => cut.low = own.low.max(target + certain),
-        Ideal::Target(target) if own.high < target => cut.high = own.high.min(target - certain),
-        Ideal::Target(_) => {}
+    let [low, high] = match ideal {
+        Ideal::Lowest => [own.low.max(certain), own.high],
+        Ideal::Highest => [own.low, own.high.min(-certain)],
+        Ideal::Target(target) => {
+            let [below, above] = [target - certain, target + certain];
+            let low = if own.low <= below {
+                own.low
+            } else {
+                own.low.max(above)
+            };
+            let high = if own.high >= above {
+                own.high
+            } else {
+                own.high.min(below)
+            };
+            [low, high]
+        }
+    };
+    Interval { low, high, ..own }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn interval(low: f64, high: f64) -> Interval {
+        Interval {
+            low,
+            high,
+            center: 0.5 * (low + high),
+            standard_error: 1.0,
+        }
     }
-    cut
+
+    fn ends(ideal: Ideal, all: &[[f64; 2]]) -> [f64; 2] {
+        let all: Vec<Interval> = all
+            .iter()
+            .map(|[low, high]| interval(*low, *high))
+            .collect();
+        let found = join_worst(&all, ideal).unwrap();
+        [found.low, found.high]
+    }
+
+    #[test]
+    fn the_worst_score_is_at_least_what_is_certain_of_any_object() {
+        // The second object is worse than the first one at its best; the third one may be the worst.
+        let found = ends(Ideal::Lowest, &[[0.1, 0.2], [0.3, 0.5], [0.2, 0.6]]);
+        assert_eq!(found, [0.3, 0.6]);
+        assert_eq!(
+            ends(Ideal::Highest, &[[8.0, 9.0], [5.0, 7.0], [4.0, 8.0]]),
+            [4.0, 7.0]
+        );
+        assert_eq!(join_worst(&[], Ideal::Lowest), None);
+    }
+
+    #[test]
+    fn the_worst_distance_from_a_target_may_be_on_either_side() {
+        let ideal = Ideal::Target(1.0);
+        assert_eq!(
+            ends(ideal, &[[1.1, 1.2], [1.3, 1.5], [1.0, 1.4]]),
+            [1.3, 1.5]
+        );
+        assert_eq!(ends(ideal, &[[0.5, 0.7], [0.9, 1.1]]), [0.5, 0.7]);
+        // Objects on both sides of the target: the worst may be any of them.
+        assert_eq!(ends(ideal, &[[0.6, 0.8], [1.3, 1.5]]), [0.6, 1.5]);
+    }
+
+    #[test]
+    fn the_center_is_of_the_object_that_seems_worst() {
+        let all = [interval(0.1, 0.9), interval(0.4, 0.8)];
+        assert_eq!(
+            join_worst(&all, Ideal::Lowest).unwrap().center,
+            0.6000000000000001
+        );
+    }
 }

@@ -1,9 +1,9 @@
 //! Parts of the replicates of a frame and of its truth, from which scores' intervals are estimated.
 
-use frame::{Picture, Replicate, Truth, TruthError};
+use std::ops::Range;
 
-/// Upper limit on the groups.
-const MOST_GROUPS: usize = 4;
+use frame::{MOST_GROUPS, Picture, Replicate, Truth, TruthError};
+
 /// Smallest number of replicates for an interval: two groups.
 pub const MIN_REPLICATES: u32 = 4;
 
@@ -18,12 +18,12 @@ impl Groups {
     /// Divides this many replicates.
     pub fn of(replicates: u32) -> Self {
         Self {
-            count: (replicates as usize / 2).min(MOST_GROUPS),
+            count: (replicates / 2).min(MOST_GROUPS) as usize,
         }
     }
 
     /// Lists the groups that are left out in turn; none if there is only one.
-    pub fn list(self) -> std::ops::Range<usize> {
+    pub fn list(self) -> Range<usize> {
         match self.count {
             ..=1 => 0..0,
             count => 0..count,
