@@ -43,7 +43,7 @@ fn swap(right: &Picture, other: &Image, inside: &Raster<bool>) -> Picture {
 }
 
 /// Multiplies the light of the pixels of `inside` by a factor of their column and row.
-fn scale(right: &Picture, inside: &Raster<bool>, factor: impl Fn(u32, u32) -> f32) -> Picture {
+fn scale(right: &Picture, inside: &Raster<bool>, factor: impl FnMut(u32, u32) -> f32) -> Picture {
     let (width, height) = (inside.width, inside.height);
     let factors = Raster::from_fn(width, height, factor);
     let changed = right
