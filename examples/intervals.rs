@@ -180,26 +180,33 @@ fn print_study(study: &Study, subjects: &[Subject]) {
     );
     println!("|---|---|---|---|---|---|");
     let mut details = String::new();
+    let mut all = [0; 5];
     for subject in subjects {
         let found = count_coverage(study, subject);
         let count = |is: &dyn Fn(&Coverage) -> bool| found.iter().filter(|own| is(own)).count();
-        println!(
-            "| {} | {} | {} | {} | {} | {} |",
-            subject.name,
+        let counts = [
             found.len(),
             count(&|own| (0.93..=0.97).contains(&own.held)),
             count(&|own| own.held < 0.9),
             count(&|own| own.held > 0.97),
             count(&|own| own.wide > 2.0),
-        );
+        ];
+        print_row(&subject.name, counts);
+        all = std::array::from_fn(|at| all[at] + counts[at]);
         let low = found.iter().filter(|own| own.held < 0.9);
         let low: Vec<String> = low
             .map(|own| format!("{} {:.0}", own.metric, 100.0 * own.held))
             .collect();
         details += &format!("- {}: {}\n", subject.name, list(&low));
     }
+    print_row("all", all);
     println!("\nBelow 90 %, with the percentage that contain the converged score:\n\n{details}");
     print_limits(subjects);
+}
+
+fn print_row(name: &str, counts: [usize; 5]) {
+    let cells = counts.map(|count| count.to_string());
+    println!("| {name} | {} |", cells.join(" | "));
 }
 
 fn list(words: &[String]) -> String {
@@ -221,11 +228,19 @@ fn print_limits(subjects: &[Subject]) {
         100.0 * all.iter().filter(|own| is(own)).count() as f64 / all.len() as f64
     };
     let [low, high] = LIMITS;
-    println!(
-        "flip_moving: a limit of {low} times the converged score breaks in {:.1} %, of {high} times is kept in {:.1} %, \
-         and of the converged score breaks in {:.1} %.",
-        share(&|(converged, own)| own.low > low * converged),
-        share(&|(converged, own)| own.high < high * converged),
-        share(&|(converged, own)| own.low > *converged),
+    println!("| limit on `flip_moving` | verdict | share |");
+    println!("|---|---|---|");
+    let row = |limit: &str, verdict: &str, share: f64| {
+        println!("| {limit} | {verdict} | {share:.1} % |");
+    };
+    let [lower, higher] = LIMITS.map(|limit| format!("{limit} times the converged score"));
+    let breaks = |own: &(f64, Interval), limit: f64| own.1.low > limit * own.0;
+    row(&lower, "breaks", share(&|own| breaks(own, low)));
+    let keeps = |(converged, own): &(f64, Interval)| own.high < high * converged;
+    row(&higher, "is kept", share(&keeps));
+    row(
+        "the converged score",
+        "breaks",
+        share(&|own| breaks(own, 1.0)),
     );
 }

@@ -93,7 +93,11 @@ fn the_tables_of_studies_are_what_their_commands_printed() {
     let mut pages = 0;
     for entry in fs::read_dir(root().join("results/studies")).unwrap() {
         let kept = entry.unwrap().path();
-        if kept.extension().is_some_and(|own| own == "txt") && !kept.ends_with("mutation.txt") {
+        if kept.extension().is_some_and(|own| own == "txt")
+            && !["mutation.txt", "intervals.txt"]
+                .iter()
+                .any(|other| kept.ends_with(other))
+        {
             let printed = fs::read_to_string(&kept).unwrap();
             let count = check_page(&kept.with_extension("md"), &printed);
             assert!(count > 3, "{}: {count} scores", kept.display());
@@ -101,6 +105,19 @@ fn the_tables_of_studies_are_what_their_commands_printed() {
         }
     }
     assert!(pages >= 2, "only {pages} pages");
+}
+
+#[test]
+fn the_counts_of_intervals_are_what_their_command_printed() {
+    let folder = root().join("results/studies");
+    let [page, printed] = ["intervals.md", "intervals.txt"]
+        .map(|name| fs::read_to_string(folder.join(name)).unwrap());
+    let rows: Vec<&str> = page.lines().filter(|line| line.starts_with("| ")).collect();
+    assert!(rows.len() > 8, "{rows:?}");
+    for row in rows {
+        let is_printed = printed.lines().any(|line| line == row);
+        assert!(is_printed, "no command printed {row}");
+    }
 }
 
 #[test]

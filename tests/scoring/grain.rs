@@ -99,14 +99,13 @@ fn a_perfect_picture_s_grain_seldom_exceeds_its_floor_and_hardly_ever_three_time
         })
         .collect();
     let above = |part: f64| {
-        let is_above = |score: &&Score| score.value.powi(2) > part * score.floor.powi(2) * 1.0001;
+        let is_above = |score: &&Score| score.value > part.sqrt() * score.floor * 1.0001;
         found.iter().filter(is_above).count()
     };
-    assert!(
-        found
-            .iter()
-            .all(|score| score.floor > 0.0 && score.value >= score.floor)
-    );
+    assert!(found.iter().all(|score| score.floor > 0.0));
+    // It scatters about 0.
+    let negative = found.iter().filter(|score| score.value < 0.0).count();
+    assert!((30..=70).contains(&negative), "{negative}");
     // One normal value of six is above a standard deviation, one of 44 above two and one of 740 above three; 4 sigma of 100.
     assert!((2..=31).contains(&above(1.0)), "{}", above(1.0));
     assert!(above(2.0) <= 8, "{}", above(2.0));

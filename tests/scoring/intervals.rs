@@ -36,9 +36,10 @@ fn intervals_of(pictures: &[&Picture], frame: &Frame, replicates: &[Replicate]) 
     let parts: Vec<_> = parts.iter().map(reference).collect();
     let scores =
         |reference: &Reference, picture: &Picture| reference.measure(picture).unwrap().scores;
+    let still = scores(&whole, &frame.picture()).still;
     let of_picture = |picture: &&Picture| {
         let without: Vec<Scores> = parts.iter().map(|part| scores(part, picture)).collect();
-        intervals(&scores(&whole, picture), &without, Metric::all())
+        intervals(&scores(&whole, picture), &without, &still, Metric::all())
     };
     pictures.iter().map(of_picture).collect()
 }

@@ -50,8 +50,8 @@ pub struct PixelGrain {
 pub struct GrainTruth {
     /// Factor from radiance to a part of the brightness around each pixel.
     gain: Raster<f64>,
-    /// Squared noise of the truth's mean, fine and coarse.
-    noise: [Raster<f64>; 2],
+    /// Squared noise of the truth's mean among fine differences.
+    noise: Raster<f64>,
 }
 
 impl GrainTruth {
@@ -61,29 +61,24 @@ impl GrainTruth {
         let gain = map_pixels(&squares, |square| {
             scale / (square.sqrt() + BRIGHTNESS_EPSILON)
         });
-        let noise = square_differences(&gain, |at, c| {
-            f64::from(a.pixels[at][c] - b.pixels[at][c]) / 2.0
-        });
+        let noise = |at: usize, c: usize| f64::from(a.pixels[at][c] - b.pixels[at][c]) / 2.0;
+        let [noise, _] = multiply_differences(&gain, [&noise, &noise]);
         Self { gain, noise }
     }
 
-    /// Maps the grain of a picture; `mean` is the truth's.
-    ///
-    /// With d = (A - B) / 2, the product (F - A)(F - B) is (F - T)² - d², and so it is for differences: that is unbiased.
-    pub fn map(&self, output: &Image, mean: &Image) -> Raster<PixelGrain> {
-        let [fine, coarse] = square_differences(&self.gain, |at, c| {
-            f64::from(output.pixels[at][c]) - f64::from(mean.pixels[at][c])
-        });
+    /// Maps the grain of a picture against two halves of the truth: products of differences, unbiased like the squared error
+    /// `(F - A)(F - B)`.
+    pub fn map(&self, output: &Image, [a, b]: [&Image; 2]) -> Raster<PixelGrain> {
+        let error = |half: &Image, at: usize, c: usize| {
+            f64::from(output.pixels[at][c]) - f64::from(half.pixels[at][c])
+        };
+        let [first, second] = [a, b].map(|half| move |at, c| error(half, at, c));
+        let [fine, coarse] = multiply_differences(&self.gain, [&first, &second]);
         let around = average(&coarse);
-        let [fine_noise, coarse_noise] = &self.noise;
-        index_pixels(&fine, |at| {
-            let own = fine.pixels[at] - coarse.pixels[at];
-            let noise = fine_noise.pixels[at] - coarse_noise.pixels[at];
-            PixelGrain {
-                weight: 1.0 / (around.pixels[at].max(0.0) + COARSE_EPSILON * COARSE_EPSILON),
-                squared: (own - noise) / (1.0 - WHITE_IN_COARSE),
-                noise: fine_noise.pixels[at] / (1.0 - WHITE_IN_COARSE),
-            }
+        index_pixels(&fine, |at| PixelGrain {
+            weight: 1.0 / (around.pixels[at].max(0.0) + COARSE_EPSILON * COARSE_EPSILON),
+            squared: (fine.pixels[at] - coarse.pixels[at]) / (1.0 - WHITE_IN_COARSE),
+            noise: self.noise.pixels[at] / (1.0 - WHITE_IN_COARSE),
         })
     }
 }
@@ -94,17 +89,20 @@ pub fn brightness(color: [f32; 3], scale: f64) -> f64 {
     scale * (squares / 3.0).sqrt()
 }
 
-/// Maps the squares of fine and coarse differences of an error times `gain`, mean over the channels.
-fn square_differences(
-    gain: &Raster<f64>,
-    error: impl Fn(usize, usize) -> f64 + Send + Sync,
-) -> [Raster<f64>; 2] {
-    let channels = [0, 1, 2].map(|c| index_pixels(gain, |at| error(at, c) * gain.pixels[at]));
+/// An error of a pixel's channel.
+type ChannelError<'a> = &'a (dyn Fn(usize, usize) -> f64 + Send + Sync);
+
+/// Maps the products of the fine differences of two errors times `gain`, and of the coarse ones; means over the channels.
+fn multiply_differences(gain: &Raster<f64>, errors: [ChannelError; 2]) -> [Raster<f64>; 2] {
+    let scaled = errors
+        .map(|error| [0, 1, 2].map(|c| index_pixels(gain, |at| error(at, c) * gain.pixels[at])));
     let (fine, coarse) = (fine(), coarse());
     [&fine[..], &coarse[..]].map(|taps| {
-        let found = (channels.each_ref()).map(|channel| filter_separably(channel, taps, taps));
+        let [f, g] = (scaled.each_ref())
+            .map(|channels| (channels.each_ref()).map(|own| filter_separably(own, taps, taps)));
         index_pixels(gain, |at| {
-            (found.iter().map(|own| own.pixels[at].powi(2))).sum::<f64>() / 3.0
+            let products = f.iter().zip(&g).map(|(f, g)| f.pixels[at] * g.pixels[at]);
+            products.sum::<f64>() / 3.0
         })
     })
 }
@@ -136,7 +134,7 @@ pub fn scatter_grain<'a>(pixels: impl Iterator<Item = &'a PixelGrain>) -> Option
     (weights > 0.0).then(|| (CORRELATION * fourths / 3.0).sqrt() / weights)
 }
 
-/// Converts mean squared grain to grain. Less than `floor`, which the truth cannot distinguish from none, counts as `floor`.
-pub fn grain(squared: f64, floor: f64) -> f64 {
-    squared.max(floor).max(0.0).sqrt()
+/// Converts mean squared grain to grain. What noise or blurred edges take below 0 keeps its sign.
+pub fn grain(squared: f64) -> f64 {
+    squared.abs().sqrt().copysign(squared)
 }

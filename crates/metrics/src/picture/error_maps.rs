@@ -57,7 +57,7 @@ impl ErrorMaps {
             ssim,
             flip,
             flip_hdr,
-            grain: seen.grain.map(&output.color, &mean.color),
+            grain: seen.grain.map(&output.color, halves),
             label: label_variation(&output.coverage, &mean.coverage),
         }
     }

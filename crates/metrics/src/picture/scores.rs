@@ -18,7 +18,7 @@ fn score(found: &Found, error: impl Fn(&Pooled) -> f64) -> Measured {
 /// Scores the errors of colour.
 pub fn score_image(found: &Found) -> ImageScores {
     // An error below its noise counts as the noise.
-    let (mse, squared_grain) = found.map_or((0.0, 0.0), |(_, noise)| (noise.mse, noise.grain));
+    let mse = found.map_or(0.0, |(_, noise)| noise.mse);
     ImageScores {
         mse: score(found, |pooled| pooled.mse),
         psnr: score(found, |pooled| psnr(pooled.mse, mse)),
@@ -31,7 +31,7 @@ pub fn score_image(found: &Found) -> ImageScores {
         flip_p99: score(found, |pooled| pooled.flip_p99),
         flip_hdr: score(found, |pooled| pooled.flip_hdr),
         ssim: score_ssim(found),
-        grain: score(found, |pooled| grain(pooled.grain, squared_grain)),
+        grain: score(found, |pooled| grain(pooled.grain)),
     }
 }
 

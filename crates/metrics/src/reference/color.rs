@@ -2,6 +2,7 @@
 
 use frame::{Image, Picture, Raster};
 
+use super::shared_noise::halves_for;
 use super::{Reference, explain_empty};
 use crate::color::flip::Displayed;
 use crate::picture::error_maps::ErrorMaps;
@@ -17,6 +18,8 @@ pub struct ColorReference {
     halves: [Image; 2],
     /// The mean, with the coverage of the background alone.
     mean: Picture,
+    instant: Image,
+    shared: Raster<bool>,
     seen: SeenTruth,
     viewing: Viewing,
     regions: Regions,
@@ -31,6 +34,8 @@ impl From<Reference<'_>> for ColorReference {
         Self {
             halves: (reference.truth.halves.each_ref()).map(|half| half.color.clone()),
             mean,
+            instant: reference.instant,
+            shared: reference.shared,
             seen: reference.seen,
             viewing: reference.viewing,
             regions: reference.regions,
@@ -46,9 +51,11 @@ impl ColorReference {
     pub fn measure(&self, output: &Picture) -> Result<ImageScores, MeasureError> {
         check_brightness(output, &self.viewing, "the output")?;
         let displayed = Displayed::new(&output.color, &self.viewing);
+        let truth = (self.halves.each_ref(), &self.mean.color);
+        let halves = halves_for(&output.color, (&self.instant, &self.shared), truth);
         let errors = ErrorMaps::new(
             (output, &displayed),
-            self.halves.each_ref(),
+            halves.each_ref(),
             &self.mean,
             &self.seen,
         );

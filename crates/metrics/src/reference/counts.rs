@@ -42,7 +42,8 @@ impl Reference<'_> {
     pub fn measure_errors(&self, output: &Picture) -> Result<Option<Errors>, MeasureError> {
         check_picture(output, self.truth, "the output")?;
         check_brightness(output, &self.viewing, "the output")?;
-        let squared = squared_error(&output.color, self.half_colors(), self.viewing.scale());
+        let halves = self.halves_for(&output.color);
+        let squared = squared_error(&output.color, halves.each_ref(), self.viewing.scale());
         let flip = (self.seen.display).map_errors(&self.display(output).linear);
         let label = label_variation(&output.coverage, &self.mean.coverage);
         let mse = mean_over(&squared, &self.regions, Region::Moving);

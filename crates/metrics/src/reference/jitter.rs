@@ -50,7 +50,8 @@ impl Reference<'_> {
             (0..3).map(variance).sum::<f64>() / 3.0 * scale * scale
         });
         let mean_image: Image = map_pixels(&expectations, |mean| mean.map(|mean| mean as f32));
-        let errors = squared_error(&mean_image, self.half_colors(), scale);
+        let halves = self.halves_for(&mean_image);
+        let errors = squared_error(&mean_image, halves.each_ref(), scale);
         let pool = |map| mean_over(map, &self.regions, Region::Moving);
         let variance = pool(&variances)?;
         Some(Jitter {

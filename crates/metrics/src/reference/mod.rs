@@ -8,6 +8,7 @@ mod frozen;
 mod jitter;
 mod lateral_bleed;
 mod measurement;
+mod shared_noise;
 mod sharp;
 mod still;
 
@@ -27,6 +28,7 @@ use crate::subframes::ladder::Curves;
 use crate::{MeasureError, Measured, ObjectScores, ProbeScores, Region, Regions, Scores, Viewing};
 use check::{check_agreement, check_brightness, check_picture, check_viewing};
 use frozen::FrozenReference;
+use shared_noise::{halves_for, mark_shared};
 
 pub use color::ColorReference;
 pub use jitter::Jitter;
@@ -51,6 +53,8 @@ pub struct Reference<'a> {
     noise: [Option<Pooled>; Region::ALL.len()],
     /// The instant: the picture of a filter that does nothing.
     instant: Image,
+    /// Pixels in which the instant has the truth's noise.
+    shared: Raster<bool>,
     /// The two pictures that skill is measured between; none until they are given.
     ends: Option<Ends>,
     /// Pixels with their SSIM window in the picture.
@@ -83,11 +87,8 @@ impl<'a> Reference<'a> {
         let mean = truth.mean();
         let masks = regions(truth);
         let windows = mark_whole_windows(truth.size());
-        let seen = SeenTruth::new(
-            &mean.color,
-            truth.halves.each_ref().map(|half| &half.color),
-            viewing,
-        );
+        let halves = truth.halves.each_ref().map(|half| &half.color);
+        let seen = SeenTruth::new(&mean.color, halves, viewing);
         let half = &truth.halves[0];
         let displayed = Displayed::new(&half.color, viewing);
         let noise = ErrorMaps::new((half, &displayed), [&mean.color; 2], &mean, &seen);
@@ -95,6 +96,7 @@ impl<'a> Reference<'a> {
         let frozen = at_instant.frozen(&mean.color);
         let mut reference = Self {
             noise: Pooled::of_noise(&noise, &masks, &windows),
+            shared: mark_shared(&instant.color, halves, &mean.color, &masks),
             ends: None,
             windows,
             frozen: FrozenReference::new(truth, &frozen, &masks, viewing),
@@ -125,17 +127,18 @@ impl<'a> Reference<'a> {
 
     /// Measures one picture.
     pub fn measure(&self, output: &Picture) -> Result<Measurement, MeasureError> {
-        self.measure_against(output, self.half_colors(), self.frozen.halves())
+        check_picture(output, self.truth, "the output")?;
+        let halves = self.halves_for(&output.color);
+        self.measure_against(output, halves.each_ref(), self.frozen.halves())
     }
 
-    /// Measures one picture: squared errors against these halves of the truth, and of the one with frozen shading.
+    /// Measures a picture: squared errors against these halves of the truth, and of the one with frozen shading.
     fn measure_against(
         &self,
         output: &Picture,
         halves: [&Image; 2],
         frozen_halves: [&Image; 2],
     ) -> Result<Measurement, MeasureError> {
-        check_picture(output, self.truth, "the output")?;
         check_brightness(output, &self.viewing, "the output")?;
         let displayed = self.display(output);
         let errors = self.map_errors(output, &displayed, halves);
@@ -234,6 +237,12 @@ impl<'a> Reference<'a> {
     /// Returns the colours of the truth's halves.
     pub(crate) fn half_colors(&self) -> [&Image; 2] {
         self.truth.halves.each_ref().map(|half| &half.color)
+    }
+
+    /// Returns the halves of the truth for the squared error of a picture that was made from the frame: see [`halves_for`].
+    fn halves_for(&self, output: &Image) -> [Image; 2] {
+        let truth = (self.half_colors(), &self.mean.color);
+        halves_for(output, (&self.instant, &self.shared), truth)
     }
 
     fn display(&self, picture: &Picture) -> Displayed {

@@ -229,9 +229,9 @@ impl CaseContext<'_> {
         let of_parts = parts()
             .map(|(reference, part)| Ok(measure(reference, part)?.scores))
             .collect::<Result<Vec<_>, MeasureError>>()?;
-        let found = match of_parts.as_slice() {
-            [] => Intervals::new(),
-            parts => intervals(scores, parts, Metric::all()),
+        let found = match &self.references.still {
+            None => Intervals::new(),
+            Some(still) => intervals(scores, &of_parts, still, Metric::all()),
         };
         Ok((measurement, found))
     }

@@ -40,12 +40,10 @@ impl SceneContext<'_> {
         let depth_of_field = self.prepare_passes(&inputs, frame)?;
         let common_alignment = self.plan.common_alignment();
         let has_others = (missing.iter()).any(|case| case.id.alignment != common_alignment);
-        // One truth at a time is in memory. The common one comes first, since its colours stay.
-        let mut alignments = self.scene.alignments(self.plan.alignments());
-        alignments.sort_by_key(|alignment| *alignment != common_alignment);
         let mut common: Option<ColorReference> = None;
         let mut cases = BTreeMap::new();
-        for alignment in alignments {
+        // One truth at a time is in memory.
+        for alignment in self.common_first() {
             let is_common = alignment == common_alignment;
             let own = missing.iter().copied().enumerate();
             let own = own.filter(|(_, case)| case.id.alignment == alignment);
@@ -84,6 +82,13 @@ impl SceneContext<'_> {
             }
         }
         Ok(cases.into_values().collect())
+    }
+
+    /// Returns the alignments of the scene's truths; the common one comes first, since its colours stay in memory.
+    fn common_first(&self) -> Vec<Alignment> {
+        let mut alignments = self.scene.alignments(self.plan.alignments());
+        alignments.sort_by_key(|alignment| *alignment != self.plan.common_alignment());
+        alignments
     }
 
     /// Prepares a truth for measuring. All pictures of a scene are viewed at its frame's exposures.
@@ -176,9 +181,9 @@ impl SceneContext<'_> {
         }
     }
 
-    /// Makes the parts of the frame, given by its replicates, and of an alignment's truth, if cases of filters get intervals or, with a ladder, counts of equivalent
-    /// sub-frames, which have intervals. Makes none for an engine's scene: sub-frames are no random samples, and a truth without some of
-    /// them has holes.
+    /// Makes the parts of the frame, given by its replicates, and of an alignment's truth, if filters get intervals or, with a ladder,
+    /// counts of equivalent sub-frames. Makes none for an engine's scene: sub-frames are no random samples, and a truth without some
+    /// of them has holes.
     fn truth_parts(
         &self,
         alignment: Alignment,

@@ -1,7 +1,7 @@
 //! Truths, prepared for measuring many pictures.
 
 use frame::{Accumulation, Frame, Ladder, Picture, Truth};
-use metrics::{Reference, Sharp, Viewing, make_oracles};
+use metrics::{ImageScores, Reference, Sharp, Viewing, make_oracles};
 
 use crate::Error;
 use crate::render::ladders::sharp_picture;
@@ -16,6 +16,8 @@ pub(crate) struct TruthReferences<'a> {
     pub reference: Reference<'a>,
     /// References without one group of replicates of frame, truth and ladder each; empty if nothing gets intervals.
     pub parts: Vec<Reference<'a>>,
+    /// Scores of the frame itself where nothing moves, if there are parts: see [`intervals`](crate::intervals).
+    pub still: Option<ImageScores>,
 }
 
 /// A part of the replicates of a frame and of its truth.
@@ -62,10 +64,15 @@ impl<'a> TruthReferences<'a> {
                 reference.add_rungs(&rung.without(group))?;
             }
         }
+        let still = match parts {
+            [] => None,
+            _ => Some(own.measure(&frame.picture())?.scores.still),
+        };
         Ok(Self {
             truth,
             reference: own,
             parts: references,
+            still,
             oracle,
         })
     }

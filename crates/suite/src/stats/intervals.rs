@@ -1,9 +1,9 @@
 //! Jackknife intervals of scores, from parts of the replicates of frame and truth.
 
 use metrics::{
-    Equivalent, FrozenMetric, Ideal, ImageMetric, Interval, Measured, Metric, ObjectMetric,
-    PSNR_LIMIT, ProbeMetric, Region, Rise, Scores, SequenceMetric, SequenceScores, jackknife_of,
-    psnr,
+    Equivalent, FrozenMetric, Ideal, ImageMetric, ImageScores, Interval, Measured, Metric,
+    ObjectMetric, PSNR_LIMIT, ProbeMetric, Region, Rise, Scores, SequenceMetric, SequenceScores,
+    jackknife, jackknife_of, psnr,
 };
 use store::LADDER;
 
@@ -13,11 +13,12 @@ use crate::run::case::Intervals;
 const LADDER_ENDS: [u32; 2] = [LADDER[0], LADDER[LADDER.len() - 1]];
 
 /// Computes the interval of each of `metrics` that has a score of the whole and of all `parts`, each without one of the
-/// [`Groups`](crate::Groups) of replicates. Counts of equivalent sub-frames have an interval of their own, with the ladder's ends
-/// for open ends.
+/// [`Groups`](crate::Groups) of replicates. `still` are the scores of the frame itself where nothing moves: its errors there may all
+/// be noise. Counts of equivalent sub-frames have an interval of their own, with the ladder's ends for open ends.
 pub fn intervals(
     whole: &Scores,
     parts: &[Scores],
+    still: &ImageScores,
     metrics: impl IntoIterator<Item = Metric>,
 ) -> Intervals {
     (metrics.into_iter())
@@ -28,6 +29,15 @@ pub fn intervals(
                     let error = Metric::Image(ImageMetric::Mse, region);
                     let parts = parts.iter().map(|scores| scores.get(error).value());
                     psnr_interval(whole, interval(&whole.get(error), parts, error), region)
+                }
+                Metric::Image(ImageMetric::Grain, _) => {
+                    let parts = parts.iter().map(|scores| scores.get(metric).value());
+                    grain_interval(&whole.get(metric), parts)
+                }
+                Metric::Image(kind, Region::Still) => {
+                    let parts = parts.iter().map(|scores| scores.get(metric).value());
+                    let own = interval(&whole.get(metric), parts, metric);
+                    own.map(|own| reach_below(own, still.get(kind), metric))
                 }
                 Metric::OccluderContamination => {
                     let object = ObjectMetric::LabelTotalVariation;
@@ -61,7 +71,10 @@ pub(crate) fn sequence_intervals(whole: &SequenceScores, parts: &[SequenceScores
 /// Slowest power of the number of replicates by which noise in a mean of absolute errors falls, and the same for FLIP over nearly perfect
 /// pictures: FLIP raises small differences to the power of 0.7.
 const ROOT: f64 = 0.5;
-const ROOT_OF_FLIP: f64 = 0.35;
+const ROOT_OF_FLIP: f64 = 0.25;
+
+/// Grain that no picture shows: the slope of the root is finite.
+const LEAST_GRAIN: f64 = 1e-6;
 
 /// Returns how noise raises a score.
 fn find_rise(metric: Metric) -> Rise {
@@ -85,6 +98,39 @@ fn interval(
 ) -> Option<Interval> {
     let without: Vec<f64> = without.collect::<Option<_>>()?;
     jackknife_of(whole.value()?, &without, find_rise(metric))
+}
+
+/// Extends the interval of a score over still pixels downwards by the score of the frame there, all of which may be noise. Where only few
+/// samples see what light changes, parts of the samples do not tell how much of it is.
+fn reach_below(own: Interval, frame: &Measured, metric: Metric) -> Interval {
+    let is_raised = find_rise(metric) != Rise::Inverse;
+    let noise = frame.value().filter(|_| is_raised).unwrap_or(0.0);
+    let half_width = own.high - own.center;
+    Interval {
+        low: own.low.min(own.center - noise - half_width),
+        ..own
+    }
+}
+
+/// Computes the interval of grain from its squares, which noise raises by the inverse of the replicates. A square below the floor's
+/// cannot be told from none.
+fn grain_interval(
+    whole: &Measured,
+    without: impl Iterator<Item = Option<f64>>,
+) -> Option<Interval> {
+    let Measured::Score(score) = whole else {
+        return None;
+    };
+    let square = |value: f64| value * value.abs();
+    let squares: Vec<f64> = without.map(|own| own.map(square)).collect::<Option<_>>()?;
+    let own = jackknife(square(score.value), &squares)?;
+    let [low, center, high] = [own.low, own.center, own.high].map(|end| end.max(0.0).sqrt());
+    Some(Interval {
+        low,
+        high: high.max(score.floor),
+        center,
+        standard_error: own.standard_error / (2.0 * center.max(score.floor).max(LEAST_GRAIN)),
+    })
 }
 
 /// Converts the interval of a squared error to that of PSNR. An error that may be none leaves the end open at the limit of PSNR.
