@@ -35,8 +35,9 @@ pub enum Rise {
     /// By a power of that number, between this one and the inverse. A mean of absolute errors rises by the inverse if few errors are
     /// smaller than the noise, and by the noise itself, the inverse root, if the picture is perfect.
     Power(f64),
-    /// Little, and less than parts of the replicates can tell: a percentile is no smooth function of the pictures.
-    Percentile,
+    /// Little, and less than parts of the replicates can tell: a percentile is no smooth function of the pictures. Over nearly perfect
+    /// pictures it may rise by a power, too.
+    Percentile(Option<f64>),
 }
 
 /// Estimates the interval of a score that noise raises by the inverse of the replicates: see [`jackknife_of`].
@@ -54,8 +55,8 @@ pub fn jackknife(whole: f64, without: &[f64]) -> Option<Interval> {
 /// - The centre is `whole` + (G - 1)(`whole` - m): the rise that is left is G - 1 times that of leaving a group out.
 /// - The half width is the standard error times the quantile of Student's t of G - 1 degrees of freedom.
 ///
-/// A rise by the power p is 1 / ((G / (G - 1))^p - 1) times that of leaving a group out. For [`Rise::Power`] the interval reaches from
-/// one centre to the other, and a half width beyond both.
+/// A rise by the power p is 1 / ((G / (G - 1))^p - 1) times that of leaving a group out. With a power, the interval reaches from one
+/// centre to the other, and a half width beyond both.
 ///
 /// The rise of a percentile is known no better than the percentile. Its centre takes half of it out, and its standard error is about
 /// `whole`, not m, so that it contains the rise.
@@ -68,14 +69,16 @@ pub fn jackknife_of(whole: f64, without: &[f64], rise: Rise) -> Option<Interval>
     let raised: Vec<f64> = without.iter().map(|value| value - whole).collect();
     let mean = raised.iter().sum::<f64>() / count;
     let (center, about) = match rise {
-        Rise::Percentile => (whole - 0.5 * (count - 1.0) * mean, 0.0),
+        Rise::Percentile(_) => (whole - 0.5 * (count - 1.0) * mean, 0.0),
         _ => (whole - (count - 1.0) * mean, mean),
     };
     let squares: f64 = raised.iter().map(|value| (value - about).powi(2)).sum();
     let standard_error = ((count - 1.0) / count * squares).sqrt();
     let half_width = standard_error * quantile(count - 1.0);
     let apart = match rise {
-        Rise::Power(power) => whole - mean / ((count / (count - 1.0)).powf(power) - 1.0) - center,
+        Rise::Power(power) | Rise::Percentile(Some(power)) => {
+            whole - mean / ((count / (count - 1.0)).powf(power) - 1.0) - center
+        }
         _ => 0.0,
     };
     Some(Interval {
@@ -164,7 +167,7 @@ mod tests {
 
     #[test]
     fn a_percentile_counts_its_rise_as_noise() {
-        let interval = jackknife_of(1.0, &[1.1, 1.1, 1.1, 1.1], Rise::Percentile).unwrap();
+        let interval = jackknife_of(1.0, &[1.1, 1.1, 1.1, 1.1], Rise::Percentile(None)).unwrap();
         // Half of 3 x 0.1 is taken out, and the root of 3 / 4 x 4 x 0.01 is the standard error.
         assert!((interval.center - 0.85).abs() < 1e-12, "{interval:?}");
         assert!((interval.standard_error - 0.03_f64.sqrt()).abs() < 1e-12);

@@ -227,6 +227,11 @@ impl Metric {
             Self::Bleed | Self::Object(_) => 2,
             _ => 3,
         };
+        // Below 0, grain is none.
+        let value = match self {
+            Self::Image(ImageMetric::Grain, _) => value.max(0.0),
+            _ => value,
+        };
         // No "-0.00".
         let scale = 10f64.powi(digits);
         let rounded = (value * scale).round() / scale + 0.0;

@@ -3,7 +3,7 @@
 use metrics::{
     Equivalent, FrozenMetric, Ideal, ImageMetric, ImageScores, Interval, Measured, Metric,
     ObjectMetric, PSNR_LIMIT, ProbeMetric, Region, Rise, Scores, SequenceMetric, SequenceScores,
-    jackknife, jackknife_of, psnr,
+    SkillMetric, jackknife, jackknife_of, psnr,
 };
 use store::LADDER;
 
@@ -28,7 +28,7 @@ pub fn intervals(
                 Metric::Image(ImageMetric::Psnr, region) => {
                     let error = Metric::Image(ImageMetric::Mse, region);
                     let parts = parts.iter().map(|scores| scores.get(error).value());
-                    psnr_interval(whole, interval(&whole.get(error), parts, error), region)
+                    psnr_interval(&whole.get(error), parts)
                 }
                 Metric::Image(ImageMetric::Grain, _) => {
                     let parts = parts.iter().map(|scores| scores.get(metric).value());
@@ -68,22 +68,26 @@ pub(crate) fn sequence_intervals(whole: &SequenceScores, parts: &[SequenceScores
         .collect()
 }
 
-/// Slowest power of the number of replicates by which noise in a mean of absolute errors falls, and the same for FLIP over nearly perfect
-/// pictures: FLIP raises small differences to the power of 0.7.
+/// Slowest power of the number of replicates by which noise in a mean of absolute errors falls, and the same for errors over the whole
+/// picture, most of which is still: its noise is of few samples, and FLIP raises small differences to the power of 0.7.
 const ROOT: f64 = 0.5;
-const ROOT_OF_FLIP: f64 = 0.25;
+const SLOW: f64 = 0.3;
 
 /// Grain that no picture shows: the slope of the root is finite.
 const LEAST_GRAIN: f64 = 1e-6;
 
 /// Returns how noise raises a score.
 fn find_rise(metric: Metric) -> Rise {
-    use ImageMetric::{Flip, FlipHdr, Mae, Smape};
+    use ImageMetric::{Flip, FlipHdr, FlipWeightedMedian, Mae, Smape};
     match metric {
-        _ if metric.row().is_percentile => Rise::Percentile,
-        Metric::Image(Flip | FlipHdr, Region::Still | Region::Full) => Rise::Power(ROOT_OF_FLIP),
+        Metric::Image(FlipWeightedMedian, Region::Full) => Rise::Percentile(Some(SLOW)),
+        _ if metric.row().is_percentile => Rise::Percentile(None),
+        Metric::Image(Flip | FlipHdr | Mae | Smape, Region::Still | Region::Full) => {
+            Rise::Power(SLOW)
+        }
         Metric::Image(Flip | FlipHdr | Mae | Smape, _)
         | Metric::Frozen(FrozenMetric::Flip)
+        | Metric::Skill(SkillMetric::Flip | SkillMetric::Mse)
         | Metric::Object(ObjectMetric::RowLoss)
         | Metric::Probe(ProbeMetric::GatherOffset | ProbeMetric::GatherSpread) => Rise::Power(ROOT),
         _ => Rise::Inverse,
@@ -134,11 +138,15 @@ fn grain_interval(
 }
 
 /// Converts the interval of a squared error to that of PSNR. An error that may be none leaves the end open at the limit of PSNR.
-fn psnr_interval(whole: &Scores, error: Option<Interval>, region: Region) -> Option<Interval> {
-    let Measured::Score(score) = whole.get(Metric::Image(ImageMetric::Mse, region)) else {
+fn psnr_interval(
+    squared_error: &Measured,
+    without: impl Iterator<Item = Option<f64>>,
+) -> Option<Interval> {
+    let Measured::Score(score) = squared_error else {
         return None;
     };
-    let error = error?;
+    let without: Vec<f64> = without.collect::<Option<_>>()?;
+    let error = jackknife(score.value, &without)?;
     let [low, center, high] = [
         (error.high, 0.0),
         (error.center, score.floor),
@@ -250,6 +258,67 @@ mod tests {
             .collect();
         let found = join_worst(&all, ideal).unwrap();
         [found.low, found.high]
+    }
+
+    /// Values of an error e(n) of n groups, for all four groups and for any three of them.
+    fn groups(error: impl Fn(f64) -> f64, floor: f64) -> (Measured, Vec<Option<f64>>) {
+        (
+            Measured::score(error(4.0), floor),
+            vec![Some(error(3.0)); 4],
+        )
+    }
+
+    #[test]
+    fn psnr_is_that_of_the_error_without_noise() {
+        let (whole, without) = groups(|count| 0.01 + 0.04 / count, 1e-4);
+        let found = psnr_interval(&whole, without.into_iter()).unwrap();
+        for end in [found.low, found.center, found.high] {
+            assert!((end - 20.0).abs() < 1e-9, "{found:?}");
+        }
+    }
+
+    #[test]
+    fn psnr_of_an_error_that_may_be_none_is_open_and_its_estimate_the_floor_s() {
+        let (whole, _) = groups(|_| 1e-4, 1e-4);
+        let without = [1.0, -1.0, 2.0, -2.0].map(|change| Some(1e-4 * (1.0 + change)));
+        let found = psnr_interval(&whole, without.into_iter()).unwrap();
+        assert_eq!(found.high, PSNR_LIMIT);
+        assert!(
+            (found.center - 40.0).abs() < 1e-9 && found.low < 40.0,
+            "{found:?}"
+        );
+        assert!(psnr_interval(&whole, [Some(1.0), None].into_iter()).is_none());
+    }
+
+    #[test]
+    fn grain_without_noise_is_the_root_of_the_squares_without_it() {
+        let (whole, without) = groups(|count: f64| (4e-4 - 4e-4 / count).sqrt(), 1e-3);
+        let found = grain_interval(&whole, without.into_iter()).unwrap();
+        for end in [found.low, found.center, found.high] {
+            assert!((end - 0.02).abs() < 1e-9, "{found:?}");
+        }
+    }
+
+    #[test]
+    fn grain_below_none_is_from_none_to_the_floor() {
+        let (whole, without) = groups(|_| -0.01, 1e-3);
+        let found = grain_interval(&whole, without.into_iter()).unwrap();
+        assert_eq!([found.low, found.center, found.high], [0.0, 0.0, 1e-3]);
+    }
+
+    #[test]
+    fn a_score_of_still_pixels_reaches_down_by_the_frame_s_own() {
+        let metric = Metric::Image(ImageMetric::Flip, Region::Still);
+        let own = Interval {
+            center: 0.5,
+            ..interval(0.4, 0.6)
+        };
+        let found = reach_below(own, &Measured::score(0.25, 0.0), metric);
+        // The half width of 0.1 remains beyond it.
+        assert!((found.low - 0.15).abs() < 1e-12 && found.high == 0.6);
+        assert_eq!(reach_below(own, &Measured::score(0.0, 0.0), metric), own);
+        let unbiased = Metric::Image(ImageMetric::Mse, Region::Still);
+        assert_eq!(reach_below(own, &Measured::score(0.25, 0.0), unbiased), own);
     }
 
     #[test]
