@@ -118,6 +118,29 @@ fn the_counts_of_intervals_are_what_their_command_printed() {
         let is_printed = printed.lines().any(|line| line == row);
         assert!(is_printed, "no command printed {row}");
     }
+    let all = printed.lines().find(|line| line.starts_with("| all"));
+    let all = all.unwrap().split('|').map(str::trim);
+    let [count, below, over] = [2, 4, 5].map(|at| all.clone().nth(at).unwrap());
+    let by_chance = chance_of_few() * count.parse::<f64>().unwrap();
+    let words = squeeze(&page);
+    for said in [
+        format!("{count} score series have noise. {below} of them have fewer than 90 %"),
+        format!("{by_chance:.0} would by chance"),
+        format!("{over} have over 97 %"),
+    ] {
+        assert!(words.contains(&said), "{said}");
+    }
+}
+
+/// Returns the probability that fewer than 90 % of 48 intervals hold their score, if each holds it in 95 %.
+fn chance_of_few() -> f64 {
+    let few = (0..=43).map(|held| {
+        let ways: f64 = (1..=held)
+            .map(|k| f64::from(49 - k) / f64::from(k))
+            .product();
+        ways * 0.95_f64.powi(held) * 0.05_f64.powi(48 - held)
+    });
+    few.sum()
 }
 
 #[test]
