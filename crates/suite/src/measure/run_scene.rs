@@ -4,11 +4,11 @@ use frame::Alignment;
 use store::LADDER;
 use tracer::{Family, RenderSettings, Scene, SceneId};
 
-use crate::Error;
 use crate::engine_scene::EngineScene;
 use crate::render::ladders::needed_rungs;
 use crate::render::memory::{bound_memory, count_measured, refuse_beyond_free};
 use crate::run::case::Drawn;
+use crate::{Error, RunPlan};
 
 /// A scene of a run.
 #[derive(Clone, Copy, Debug)]
@@ -92,28 +92,20 @@ impl<'a> RunScene<'a> {
     }
 
     /// Refuses settings that the scene cannot be measured with, and too little memory for this many truths.
-    pub fn check(
-        self,
-        settings: &RenderSettings,
-        truths: usize,
-        forms: usize,
-    ) -> Result<(), Error> {
+    pub fn check(self, plan: &RunPlan, truths: usize) -> Result<(), Error> {
         match self {
             Self::Traced(scene) => {
-                settings.check_frame(scene)?;
-                refuse_beyond_free(scene, settings, count_measured(settings, truths, forms))
+                plan.render.check_frame(scene)?;
+                refuse_beyond_free(scene, &plan.render, count_measured(plan, truths))
             }
             Self::Drawn(scene) => scene.check_truth(),
         }
     }
 
-    /// Bounds the memory needed to measure against this many truths with this many forms of the frame, in bytes; 0 for a scene that is not
-    /// rendered.
-    pub fn memory(self, settings: &RenderSettings, truths: usize, forms: usize) -> u64 {
+    /// Bounds the memory needed to measure against this many truths, in bytes; 0 for a scene that is not rendered.
+    pub fn memory(self, plan: &RunPlan, truths: usize) -> u64 {
         match self {
-            Self::Traced(scene) => {
-                bound_memory(scene, settings, count_measured(settings, truths, forms))
-            }
+            Self::Traced(scene) => bound_memory(scene, &plan.render, count_measured(plan, truths)),
             Self::Drawn(_) => 0,
         }
     }

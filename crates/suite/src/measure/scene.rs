@@ -64,8 +64,7 @@ impl SceneContext<'_> {
             return Ok((found.into_iter().flatten().map(Ok).collect(), read_back));
         }
         let truths = self.plan.alignments().len();
-        let forms = self.plan.inputs.len();
-        self.scene.check(&self.plan.render, truths, forms)?;
+        self.scene.check(self.plan, truths)?;
         let frame = self.render(advance)?;
         let missing = (planned.iter().zip(&found)).filter(|(_, found)| found.is_none());
         let missing: Vec<&PlannedCase> = missing.map(|(case, _)| case).collect();

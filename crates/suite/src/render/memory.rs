@@ -4,7 +4,8 @@ use std::fs;
 
 use tracer::{RenderSettings, Scene};
 
-use crate::Error;
+use crate::stats::parts::Groups;
+use crate::{Error, RunPlan};
 
 /// Memory of the program without any picture, in bytes.
 const PROGRAM: u64 = 136 << 20;
@@ -20,6 +21,8 @@ const PER_TRIANGLE: u64 = 600;
 const PICTURES_OF_TRUTH: u64 = 7;
 /// Pictures of a frame, of the truth that filters are measured by, and of the measured case, for any number of replicates.
 const PICTURES_MEASURED: u64 = 14;
+/// Pictures of each part of frame and truth that intervals leave out replicates of: its own, and all that is prepared to measure by it.
+const PICTURES_OF_PART: u64 = 10;
 /// Pictures of each further truth.
 const PICTURES_OF_FURTHER_TRUTH: u64 = 6;
 
@@ -38,13 +41,18 @@ fn count_rendered(replicates: u32) -> u64 {
     PICTURES_OF_TRUTH + u64::from(replicates)
 }
 
-/// Counts the pictures in memory at once while a scene is rendered and filters are measured against a number of its truths, each on a
-/// number of forms of the frame.
-pub(crate) fn count_measured(settings: &RenderSettings, truths: usize, forms: usize) -> u64 {
+/// Counts the pictures in memory at once while a scene is rendered and filters are measured as planned against a number of its truths.
+pub(crate) fn count_measured(plan: &RunPlan, truths: usize) -> u64 {
+    let replicates = plan.render.replicates;
     let further_truths = truths.saturating_sub(1) as u64;
-    let further_forms = forms.saturating_sub(1) as u64;
+    let further_forms = plan.inputs.len().saturating_sub(1) as u64;
+    let parts = match plan.measures_parts() {
+        true => Groups::of(replicates).list().len() as u64,
+        false => 0,
+    };
     (PICTURES_MEASURED + PICTURES_OF_FURTHER_TRUTH * further_truths + further_forms)
-        .max(count_rendered(settings.replicates))
+        .max(count_rendered(replicates))
+        + PICTURES_OF_PART * parts
 }
 
 /// Bounds the memory of a number of pictures of a scene and of all else, in bytes.
