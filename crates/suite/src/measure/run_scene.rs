@@ -6,8 +6,9 @@ use tracer::{Family, RenderSettings, Scene, SceneId};
 
 use crate::engine_scene::EngineScene;
 use crate::render::ladders::needed_rungs;
-use crate::render::memory::{bound_memory, count_measured, refuse_beyond_free};
+use crate::render::memory::{Measured, bound_memory, count_measured, refuse_beyond_free};
 use crate::run::case::Drawn;
+use crate::stats::parts::Groups;
 use crate::{Error, RunPlan};
 
 /// A scene of a run.
@@ -96,7 +97,7 @@ impl<'a> RunScene<'a> {
         match self {
             Self::Traced(scene) => {
                 plan.render.check_frame(scene)?;
-                refuse_beyond_free(scene, &plan.render, count_measured(plan, truths))
+                refuse_beyond_free(scene, &plan.render, count_pictures(plan, truths))
             }
             Self::Drawn(scene) => scene.check_truth(),
         }
@@ -105,8 +106,23 @@ impl<'a> RunScene<'a> {
     /// Bounds the memory needed to measure against this many truths, in bytes; 0 for a scene that is not rendered.
     pub fn memory(self, plan: &RunPlan, truths: usize) -> u64 {
         match self {
-            Self::Traced(scene) => bound_memory(scene, &plan.render, count_measured(plan, truths)),
+            Self::Traced(scene) => bound_memory(scene, &plan.render, count_pictures(plan, truths)),
             Self::Drawn(_) => 0,
         }
     }
+}
+
+/// Counts the pictures in memory while a scene is measured as planned against this many truths.
+fn count_pictures(plan: &RunPlan, truths: usize) -> u64 {
+    let parts = match plan.measures_parts() {
+        true => Groups::of(plan.render.replicates).list().len(),
+        false => 0,
+    };
+    let forms = plan.inputs.len();
+    let measured = Measured {
+        truths,
+        forms,
+        parts,
+    };
+    count_measured(&plan.render, measured)
 }

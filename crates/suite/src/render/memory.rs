@@ -4,8 +4,7 @@ use std::fs;
 
 use tracer::{RenderSettings, Scene};
 
-use crate::stats::parts::Groups;
-use crate::{Error, RunPlan};
+use crate::Error;
 
 /// Memory of the program without any picture, in bytes.
 const PROGRAM: u64 = 136 << 20;
@@ -41,18 +40,23 @@ fn count_rendered(replicates: u32) -> u64 {
     PICTURES_OF_TRUTH + u64::from(replicates)
 }
 
-/// Counts the pictures in memory at once while a scene is rendered and filters are measured as planned against a number of its truths.
-pub(crate) fn count_measured(plan: &RunPlan, truths: usize) -> u64 {
-    let replicates = plan.render.replicates;
-    let further_truths = truths.saturating_sub(1) as u64;
-    let further_forms = plan.inputs.len().saturating_sub(1) as u64;
-    let parts = match plan.measures_parts() {
-        true => Groups::of(replicates).list().len() as u64,
-        false => 0,
-    };
-    (PICTURES_MEASURED + PICTURES_OF_FURTHER_TRUTH * further_truths + further_forms)
-        .max(count_rendered(replicates))
-        + PICTURES_OF_PART * parts
+/// What a scene is measured with.
+#[derive(Clone, Copy)]
+pub(crate) struct Measured {
+    /// Truths.
+    pub truths: usize,
+    /// Forms of the frame that filters get.
+    pub forms: usize,
+    /// Parts of frame and truth that intervals are computed from.
+    pub parts: usize,
+}
+
+/// Counts the pictures in memory at once while a scene is rendered and filters are measured.
+pub(crate) fn count_measured(settings: &RenderSettings, measured: Measured) -> u64 {
+    let further = |count: usize| count.saturating_sub(1) as u64;
+    let of_truths = PICTURES_OF_FURTHER_TRUTH * further(measured.truths);
+    let whole = PICTURES_MEASURED + of_truths + further(measured.forms);
+    whole.max(count_rendered(settings.replicates)) + PICTURES_OF_PART * measured.parts as u64
 }
 
 /// Bounds the memory of a number of pictures of a scene and of all else, in bytes.
