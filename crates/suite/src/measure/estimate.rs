@@ -107,7 +107,7 @@ pub fn estimate_run(plan: &RunPlan, gpu: Option<&Gpu>) -> RunEstimate {
         let pictures = u64::from(frame) + truths.len() as u64 * of_truth + cases as u64;
         estimate.disk += pixels as u64 * pictures * PICTURE_BYTES;
         let truths = plan.alignments().len();
-        let memory = (scene.scene).memory(plan, truths);
+        let memory = (scene.scene).memory(&plan.render, plan.measured(truths));
         estimate.memory = estimate.memory.max(memory);
         Ok(())
     });
@@ -125,7 +125,7 @@ pub fn estimate_jobs(plan: &RunPlan) -> Vec<SceneJobs> {
     let cpu_seconds = frames * render_cpu_seconds(&plan.render, true, truths, ladders);
     let all = plan.all_scenes().into_iter();
     let jobs = all.map(|scene| {
-        let memory = scene.memory(plan, truths);
+        let memory = scene.memory(&plan.render, plan.measured(truths));
         let planned = PlannedCase::all(plan, scene);
         SceneJobs {
             render: (scene.traced()).map(|_| JobCost {
@@ -144,7 +144,7 @@ pub fn estimate_jobs(plan: &RunPlan) -> Vec<SceneJobs> {
 /// Estimates the page of a run with this many cases.
 pub fn estimate_report(plan: &RunPlan, cases: usize) -> JobCost {
     let scenes = plan.all_scenes().into_iter();
-    let memory = scenes.map(|scene| scene.memory(plan, 1));
+    let memory = scenes.map(|scene| scene.memory(&plan.render, plan.measured(1)));
     JobCost {
         cpu_seconds: CORES * cases as f64 * count_pixels(&plan.render) * REPORT_PIXEL,
         memory: memory.max().unwrap_or(0),

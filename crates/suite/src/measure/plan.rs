@@ -11,10 +11,11 @@ use super::run_scene::RunScene;
 use crate::engine_scene::EngineScene;
 use crate::filter_choice::FilterChoice;
 use crate::inputs::input_format::InputFormat;
+use crate::render::memory::Measured;
 use crate::render::rendering::Rendering;
 use crate::run::sequence::Frames;
 use crate::run::{FORMAT, Run};
-use crate::stats::parts::MIN_REPLICATES;
+use crate::stats::parts::{Groups, MIN_REPLICATES};
 use crate::{Monitor, PROGRAM};
 
 /// All settings of a run.
@@ -109,6 +110,19 @@ impl RunPlan {
     pub(crate) fn measures_parts(&self) -> bool {
         let is_needed = self.intervals || self.ladders;
         is_needed && self.render.replicates >= MIN_REPLICATES
+    }
+
+    /// Counts what a scene is measured with, against this many truths.
+    pub(crate) fn measured(&self, truths: usize) -> Measured {
+        let parts = match self.measures_parts() {
+            true => Groups::of(self.render.replicates).list().len(),
+            false => 0,
+        };
+        Measured {
+            truths,
+            forms: self.inputs.len(),
+            parts,
+        }
     }
 
     /// Tells whether a filter reads velocities that few filters read.

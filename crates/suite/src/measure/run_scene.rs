@@ -4,12 +4,11 @@ use frame::Alignment;
 use store::LADDER;
 use tracer::{Family, RenderSettings, Scene, SceneId};
 
+use crate::Error;
 use crate::engine_scene::EngineScene;
 use crate::render::ladders::needed_rungs;
 use crate::render::memory::{Measured, bound_memory, count_measured, refuse_beyond_free};
 use crate::run::case::Drawn;
-use crate::stats::parts::Groups;
-use crate::{Error, RunPlan};
 
 /// A scene of a run.
 #[derive(Clone, Copy, Debug)]
@@ -92,37 +91,24 @@ impl<'a> RunScene<'a> {
         }
     }
 
-    /// Refuses settings that the scene cannot be measured with, and too little memory for this many truths.
-    pub fn check(self, plan: &RunPlan, truths: usize) -> Result<(), Error> {
+    /// Refuses settings that the scene cannot be measured with, and too little memory.
+    pub fn check(self, settings: &RenderSettings, measured: Measured) -> Result<(), Error> {
         match self {
             Self::Traced(scene) => {
-                plan.render.check_frame(scene)?;
-                refuse_beyond_free(scene, &plan.render, count_pictures(plan, truths))
+                settings.check_frame(scene)?;
+                refuse_beyond_free(scene, settings, count_measured(settings, measured))
             }
             Self::Drawn(scene) => scene.check_truth(),
         }
     }
 
-    /// Bounds the memory needed to measure against this many truths, in bytes; 0 for a scene that is not rendered.
-    pub fn memory(self, plan: &RunPlan, truths: usize) -> u64 {
+    /// Bounds the memory needed to measure, in bytes; 0 for a scene that is not rendered.
+    pub fn memory(self, settings: &RenderSettings, measured: Measured) -> u64 {
         match self {
-            Self::Traced(scene) => bound_memory(scene, &plan.render, count_pictures(plan, truths)),
+            Self::Traced(scene) => {
+                bound_memory(scene, settings, count_measured(settings, measured))
+            }
             Self::Drawn(_) => 0,
         }
     }
-}
-
-/// Counts the pictures in memory while a scene is measured as planned against this many truths.
-fn count_pictures(plan: &RunPlan, truths: usize) -> u64 {
-    let parts = match plan.measures_parts() {
-        true => Groups::of(plan.render.replicates).list().len(),
-        false => 0,
-    };
-    let forms = plan.inputs.len();
-    let measured = Measured {
-        truths,
-        forms,
-        parts,
-    };
-    count_measured(&plan.render, measured)
 }

@@ -64,7 +64,7 @@ impl SceneContext<'_> {
             return Ok((found.into_iter().flatten().map(Ok).collect(), read_back));
         }
         let truths = self.plan.alignments().len();
-        self.scene.check(self.plan, truths)?;
+        (self.scene).check(&self.plan.render, self.plan.measured(truths))?;
         let frame = self.render(advance)?;
         let missing = (planned.iter().zip(&found)).filter(|(_, found)| found.is_none());
         let missing: Vec<&PlannedCase> = missing.map(|(case, _)| case).collect();
