@@ -13,6 +13,8 @@ mod constants;
 mod control_flow;
 #[cfg(test)]
 mod deep;
+mod depth;
+mod dialects;
 mod entry;
 mod flow_reader;
 mod includes;
@@ -21,6 +23,7 @@ mod matrices;
 mod members;
 mod module;
 mod next_block;
+mod opengl;
 mod packages;
 mod places;
 mod sections;

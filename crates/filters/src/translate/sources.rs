@@ -25,8 +25,8 @@ const MAX_DEPTH: usize = 8;
 /// Texts of a shader and of what it needs.
 pub(super) struct Sources<'a> {
     /// The filter's folder.
-    folder: &'a Path,
-    language: Language,
+    pub folder: &'a Path,
+    pub language: Language,
     stage: Stage,
     /// The shader itself.
     pub shader: PathBuf,
@@ -66,6 +66,11 @@ impl<'a> Sources<'a> {
             _ => sources.resolve_all(&base)?,
         }
         Ok(sources)
+    }
+
+    /// Returns the text of the shader itself.
+    pub fn text(&self) -> &str {
+        &self.texts[&self.shader]
     }
 
     /// Writes all files below a folder.
@@ -131,8 +136,10 @@ impl<'a> Sources<'a> {
                 }
                 // A condition may leave it out.
                 (None, false) => {
-                    lines[include.line - 1] =
-                        format!("#error includes \"{path}\", which is no file of this filter");
+                    lines[include.line - 1] = format!(
+                        "#error includes \"{path}\", which is no file of this filter{}",
+                        hint(path)
+                    );
                 }
                 (Some(lead), true) => {
                     let quoted = format!("\"{path}\"");
@@ -187,6 +194,7 @@ impl<'a> Sources<'a> {
         is_module: bool,
     ) -> Result<Option<PathBuf>, String> {
         let leads_out = || self.leads_out(path);
+        let path = strip_root(path);
         let own = folder_of(by);
         let ending = if is_module { ".slang" } else { "" };
         let named = format!("{path}{ending}");
@@ -252,6 +260,26 @@ impl<'a> Sources<'a> {
             )),
             false => Ok(()),
         }
+    }
+}
+
+/// Folders that Unreal calls by a path from the root.
+const ROOTS: [&str; 3] = ["Engine/", "Plugin/", "Project/"];
+
+/// Removes the slash before a path of Unreal, so that it names a folder next to the shader, as Unity's `Packages/` does.
+fn strip_root(path: &str) -> &str {
+    let below = path.strip_prefix('/');
+    let known = below.filter(|below| ROOTS.iter().any(|root| below.starts_with(root)));
+    known.unwrap_or(path)
+}
+
+/// Says where a missing file of Unreal goes; nothing for another.
+fn hint(path: &str) -> String {
+    match strip_root(path) {
+        below if below == path => String::new(),
+        below => format!(
+            "; copy it to {below} next to the shader, or write there what the shader uses of it"
+        ),
     }
 }
 
