@@ -31,7 +31,11 @@ fn a_picture_in_place_begins_with_the_colours_and_keeps_what_is_not_written() {
                 }
                 // Halves have 11 binary digits, four times.
                 let found = output.at(x, y)[0];
-                assert_near(found, row[x as usize], 0.002 * f64::from(row[x as usize]) + 1e-6);
+                assert_near(
+                    found,
+                    row[x as usize],
+                    0.002 * f64::from(row[x as usize]) + 1e-6,
+                );
             }
         }
     }

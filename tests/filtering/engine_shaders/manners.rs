@@ -16,7 +16,8 @@ fn a_tutorial_of_opengl_blurs_the_right_way_up() {
     let files = make_declared("opengl", "tutorial.toml");
     assert_blurs(&files);
     // Textures of Vulkan's GLSL in the same file keep their places.
-    let placed = files.changed(
+    let newer = files.changed("tutorial.frag", "330 core", "450 core");
+    let placed = newer.changed(
         "tutorial.frag",
         "uniform sampler2D screenTexture",
         "layout(binding = 5) uniform sampler2D screenTexture",
@@ -68,8 +69,7 @@ fn a_macro_of_unity_without_its_include_is_named() {
     assert_contains(&error, &parts);
     // The way out.
     let wrapped = files.changed("filter.toml", "buffer.hlsl", "wrapped.hlsl");
-    let shown =
-        super::blur_busy(&wrapped.changed("filter.toml", "binding = 0", "name = \"Settings\""));
+    let shown = super::blur_busy(&wrapped);
     assert_eq!(shown, busy_picture().color);
 }
 
@@ -83,7 +83,7 @@ fn unreal_includes_by_paths_from_the_root() {
     let error = files.load().unwrap_err().to_string();
     let parts = [
         "/Engine/Private/Common.ush",
-        "no file of this filter; copy it to Engine/Private/Common.ush next to the shader",
+        "no file of this filter ; copy it to Engine/Private/Common.ush next to the shader",
     ];
     assert_contains(&error, &parts);
     let common = "#pragma once\n#include \"Platform.ush\"\n";

@@ -174,6 +174,29 @@ mod tests {
     use super::*;
 
     #[test]
+    fn velocity_with_a_bias_leads_back() {
+        let form = Convention {
+            velocity: VelocityUnit::Ndc,
+            velocity_scale: Some(0.5),
+            velocity_bias: Some(0.5),
+            ..Convention::default()
+        };
+        let pixels = vec![[0.0, 0.0], [40.0, -20.0], [-8.0, 4.0]];
+        let velocity = Raster {
+            width: 3,
+            height: 1,
+            pixels,
+        };
+        let stored = form.convert_velocity(&velocity, 1.0);
+        assert_eq!(stored.pixels[0], [0.5, 0.5]);
+        let restored = form.restore_velocity(&stored, 1.0).unwrap();
+        for (found, due) in restored.pixels.iter().zip(&velocity.pixels) {
+            assert!((found[0] - due[0]).abs() < 1e-4, "{:?}", restored.pixels);
+            assert!((found[1] - due[1]).abs() < 1e-4, "{:?}", restored.pixels);
+        }
+    }
+
+    #[test]
     fn each_form_of_depth_has_its_planes_at_its_ends_and_leads_back() {
         let planes = |depth, far| Convention {
             depth,

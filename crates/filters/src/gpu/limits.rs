@@ -206,6 +206,29 @@ mod tests {
     use super::*;
 
     #[test]
+    fn an_adapter_that_cannot_pack_halves_refuses_to() {
+        let folder = tempfile::tempdir().unwrap();
+        let write =
+            |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+        let head = "name = \"packs\"\nsummary = \"Packs halves.\"\nalignment = \"centred\"\n[[pass]]\nentry = \"pack\"\n";
+        write("filter.toml", head);
+        let kernel = "@group(0) @binding(1) var output: texture_storage_2d<rgba32float, write>;\n\
+                      @compute @workgroup_size(8, 8) fn pack(@builtin(global_invocation_id) id: vec3<u32>) {\n\
+                      let packed = pack2x16float(vec2<f32>(id.xy));\n\
+                      textureStore(output, vec2<i32>(id.xy), vec4<f32>(f32(packed)));\n}\n";
+        write("packs.wgsl", kernel);
+        let filter = Filter::load(folder.path()).unwrap();
+        Limits::lowest().check(&filter).unwrap();
+        let lacking = Limits {
+            packs_halves: false,
+            ..Limits::lowest()
+        };
+        let refusal = lacking.check(&filter).unwrap_err().to_string();
+        let says = "converts to or from 16-bit floats, as pack2x16float, packHalf2x16 and f32tof16 do, not allowed by the lowest";
+        assert!(refusal.contains(says), "{refusal}");
+    }
+
+    #[test]
     fn a_format_that_the_adapter_cannot_store_is_refused_with_those_that_it_can() {
         let limits = Limits {
             stored_formats: vec![Format::R32Sint, Format::R32Float],

@@ -7,7 +7,6 @@ use wgpu::naga::{
 };
 
 const DEPTH: &str = "texture_depth_2d";
-const GATHER: &str = "textureGather(";
 
 /// Change of a text: a range of bytes, and what takes its place.
 type Edit = (Range<usize>, &'static str);
@@ -69,18 +68,49 @@ fn list_reads(
         if compares {
             return None;
         }
-        let call = function.expressions.get_span(handle).to_range()?;
-        edits.push(match gathers {
+        // The span of a call is its function's name.
+        let name = function.expressions.get_span(handle).to_range()?;
+        let arguments = find_brackets(text, name.end)?;
+        let (at, new) = match gathers {
             // A gather from floats says of which component.
-            true => {
-                let within = text.get(call.clone())?.find(GATHER)?;
-                let at = call.start + within + GATHER.len();
-                (at..at, "0, ")
-            }
-            false => (call.end..call.end, ".x"),
-        });
+            true => (arguments.start + 1, "0, "),
+            false => (arguments.end, ".x"),
+        };
+        edits.push((at..at, new));
     }
     Some(())
+}
+
+/// Finds the brackets that open first after a place, with what they hold.
+fn find_brackets(text: &str, from: usize) -> Option<Range<usize>> {
+    let mut start = None;
+    let mut depth = 0;
+    let mut at = from;
+    while let Some(c) = text.get(at..)?.chars().next() {
+        let rest = &text[at..];
+        let comment = if rest.starts_with("//") {
+            Some(rest.find('\n').unwrap_or(rest.len()))
+        } else if rest.starts_with("/*") {
+            Some(rest.find("*/")? + 2)
+        } else {
+            None
+        };
+        match c {
+            '(' if comment.is_none() => {
+                start.get_or_insert(at);
+                depth += 1;
+            }
+            ')' if comment.is_none() => {
+                depth -= 1;
+                if depth == 0 {
+                    return Some(start?..at + 1);
+                }
+            }
+            _ => {}
+        }
+        at += comment.unwrap_or(c.len_utf8());
+    }
+    None
 }
 
 /// Finds the type of an image.
@@ -105,4 +135,17 @@ fn is_depth(module: &Module, ty: Handle<Type>) -> bool {
             class: ImageClass::Depth { multi: false },
         }
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::find_brackets;
+
+    #[test]
+    fn brackets_within_comments_do_not_count() {
+        let text = "textureLoad (depth, /* ) */ at((1)), // )\n 0) + (2)";
+        let found = find_brackets(text, "textureLoad".len()).unwrap();
+        assert_eq!(&text[found], "(depth, /* ) */ at((1)), // )\n 0)");
+        assert_eq!(find_brackets("textureLoad(depth", 11), None);
+    }
 }

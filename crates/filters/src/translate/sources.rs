@@ -278,7 +278,7 @@ fn hint(path: &str) -> String {
     match strip_root(path) {
         below if below == path => String::new(),
         below => format!(
-            "; copy it to {below} next to the shader, or write there what the shader uses of it"
+            "; copy it to \"{below}\" next to the shader, or write there what the shader uses of it"
         ),
     }
 }
