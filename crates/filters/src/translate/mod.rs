@@ -26,6 +26,7 @@ mod next_block;
 mod opengl;
 mod packages;
 mod places;
+mod roots;
 mod sections;
 mod shader_lab;
 mod sources;

@@ -9,6 +9,7 @@ use super::closed::check_closed;
 use super::includes::{list_includes, make_plain};
 use super::language::Language;
 use super::packages::name_packages;
+use super::roots::{refuse_if_used, strip_root};
 use super::sections::{allow_includes, keep_section};
 use crate::FilterError;
 use crate::filter::{PassShader, Stage};
@@ -136,10 +137,7 @@ impl<'a> Sources<'a> {
                 }
                 // A condition may leave it out.
                 (None, false) => {
-                    lines[include.line - 1] = format!(
-                        "#error includes \"{path}\", which is no file of this filter{}",
-                        hint(path)
-                    );
+                    lines[include.line - 1] = refuse_if_used(path);
                 }
                 (Some(lead), true) => {
                     let quoted = format!("\"{path}\"");
@@ -260,26 +258,6 @@ impl<'a> Sources<'a> {
             )),
             false => Ok(()),
         }
-    }
-}
-
-/// Folders that Unreal calls by a path from the root.
-const ROOTS: [&str; 3] = ["Engine/", "Plugin/", "Project/"];
-
-/// Removes the slash before a path of Unreal, so that it names a folder next to the shader, as Unity's `Packages/` does.
-fn strip_root(path: &str) -> &str {
-    let below = path.strip_prefix('/');
-    let known = below.filter(|below| ROOTS.iter().any(|root| below.starts_with(root)));
-    known.unwrap_or(path)
-}
-
-/// Says where a missing file of Unreal goes; nothing for another.
-fn hint(path: &str) -> String {
-    match strip_root(path) {
-        below if below == path => String::new(),
-        below => format!(
-            "; copy it to \"{below}\" next to the shader, or write there what the shader uses of it"
-        ),
     }
 }
 
