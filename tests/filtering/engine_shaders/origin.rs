@@ -59,6 +59,20 @@ fn textures_and_the_picture_are_turned_over_together() {
 #[test]
 fn glsl_of_opengl_says_its_origin_and_its_loose_uniforms() {
     make_declared("opengl", "tutorial.toml").assert_refused("opengl");
+    // With bindings, only the velocity shows that it may be of OpenGL.
+    let bound = show_rows("top_left", "");
+    bound.load().unwrap();
+    let unsure = bound.changed(
+        "filter.toml",
+        "origin = \"top_left\"",
+        "velocity_y = \"up\"",
+    );
+    let error = unsure.load().unwrap_err().to_string();
+    let parts = [
+        "rows.frag:7: has gl_FragCoord, and [convention] has velocity_y = \"up\" and no origin",
+        "write origin = \"bottom_left\" if it is of OpenGL",
+    ];
+    assert_contains(&error, &parts);
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::language::Language;
 use super::opengl::is_opengl;
 use super::sources::Sources;
-use crate::filter::PassShader;
+use crate::filter::{PassShader, VerticalDirection};
 use crate::{Convention, FilterError};
 
 /// Words of HLSL that no GLSL has.
@@ -69,11 +69,21 @@ fn find_foreign_glsl(sources: &Sources, file: &Path, convention: &Convention) ->
                       iChannel0, includes this one, and calls mainImage(color, gl_FragCoord.xy) from its main";
         return Some((Some(line), reason.into()));
     }
-    (is_opengl(sources) && convention.origin.is_none()).then(|| {
+    if convention.origin.is_some() {
+        return None;
+    }
+    if is_opengl(sources) {
         let reason = "is GLSL of OpenGL, by its #version or by a uniform without a binding, and OpenGL's pictures begin at the \
                       bottom left; write origin = \"bottom_left\" in [convention], or \"top_left\" if its engine turns \
                       them over";
-        (None, reason.to_owned())
+        return Some((None, reason.to_owned()));
+    }
+    // With bindings, GLSL of OpenGL looks like Vulkan's.
+    let (line, _) = find_word(text, &["gl_FragCoord"])?;
+    (convention.velocity_y == Some(VerticalDirection::Up)).then(|| {
+        let reason = "has gl_FragCoord, and [convention] has velocity_y = \"up\" and no origin; write origin = \"bottom_left\" if \
+                      it is of OpenGL, where both count from the bottom, or \"top_left\"";
+        (Some(line), reason.to_owned())
     })
 }
 
