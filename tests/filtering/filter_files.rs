@@ -54,7 +54,9 @@ impl FilterFiles {
     pub fn load(&self) -> Result<Filter, FilterError> {
         let folder = tempfile::tempdir().unwrap();
         for (name, content) in &self.0 {
-            fs::write(folder.path().join(name), content).unwrap();
+            let path = folder.path().join(name);
+            fs::create_dir_all(path.parent().unwrap()).unwrap();
+            fs::write(path, content).unwrap();
         }
         Filter::load(folder.path())
     }

@@ -32,9 +32,9 @@ pub use command::CommandBlur;
 pub use error::FilterError;
 pub(crate) use expression::Expression;
 pub use filter::{
-    Code, Command, Convention, DepthKind, EXCLUSION, Filter, History, Holds, Kind, Parameter,
-    Preset, ReachBy, Scale, Settings, Source, Texture, TuningRecord, Unit, Value, VelocitySign,
-    VelocityTime, VelocityUnit, VerticalDirection,
+    Code, Command, Convention, DepthKind, EXCLUSION, Filter, History, Holds, Kind, Origin,
+    Parameter, Preset, ReachBy, Scale, Settings, Source, Texture, TuningRecord, Unit, Value,
+    VelocitySign, VelocityTime, VelocityUnit, VerticalDirection,
 };
 pub(crate) use filter::{Count, Pass, Rounding, Stage};
 pub use gpu::{

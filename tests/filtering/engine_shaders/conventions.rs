@@ -26,6 +26,7 @@ fn a_shader_sees_what_its_engine_would_show_it() {
         ("velocity = \"uv\"\nvelocity_sign = \"previous_minus_current\"", [-x / width, -y / height, z], 1.0),
         ("velocity = \"ndc\"\nvelocity_y = \"up\"\nvelocity_per = \"shutter\"", [2.0 * x / width * exposure, -2.0 * y / height * exposure, z], 1.0),
         ("velocity_per = \"second\"\nframes_per_second = 60", [60.0 * x, 60.0 * y, z], 1.0),
+        ("velocity = \"uv\"\nvelocity_scale = 0.5\nvelocity_bias = 0.5", [0.5 * x / width + 0.5, 0.5 * y / height + 0.5, z], 1.0),
         ("velocity_scale = 0.5\ndepth = \"reversed\"\nnear = 0.1", [0.5 * x, 0.5 * y, 0.1 / z], 1.0),
         ("color_scale = 4.0\ndepth = \"forward\"\nnear = 1\nfar = 29", [x, y, 1.0 - (29.0 - z) / (z * 28.0)], 4.0),
     ];

@@ -36,7 +36,7 @@ fn uniform_motion() -> Picture {
 }
 
 /// Asserts that a filter blurs a picture like the guide's kernel.
-fn assert_blurs_as_the_guide(filter: &Filter, picture: &Picture) {
+pub(super) fn assert_blurs_as_the_guide(filter: &Filter, picture: &Picture) {
     let kernel = load_filter(
         "my_blur",
         block("`my_blur/filter.toml` says what it is:"),

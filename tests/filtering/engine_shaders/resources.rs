@@ -1,6 +1,7 @@
 //! Textures, images and uniforms in engines' forms: packed formats, sides rounded down, images that are read and written, variables
 //! without registers.
 
+use filters::Limits;
 use tests::near::assert_near;
 use tests::text::assert_contains;
 
@@ -84,6 +85,7 @@ fn samplers_clamp_repeat_or_mirror_and_interpolate_or_not() {
             gray(13),
             gray(56),
         ),
+        ("sampler = \"nearest\"\nwrap = \"border\"", gray(13), 0.0),
     ] {
         println!("{keys}");
         let declarations = format!(
@@ -94,6 +96,53 @@ fn samplers_clamp_repeat_or_mirror_and_interpolate_or_not() {
         assert_near(shown.at(3, 5)[0], inside, 0.01);
         assert_near(shown.at(55, 5)[0], beyond, 0.01);
     }
+}
+
+#[test]
+fn a_border_is_refused_where_no_adapter_promises_it() {
+    let declarations = "[[pass]]\nshader = \"sample.wgsl\"\nstage = \"fragment\"\n[[pass.binding]]\nbinding = 1\nwrap = \"border\"\n";
+    let filter = make("resources", declarations).load().unwrap();
+    let error = Limits::lowest().check(&filter).unwrap_err().to_string();
+    let parts = [
+        "sampler \"own\" has wrap = \"border\", not allowed by the lowest common limits",
+        "take wrap = \"clamp\"",
+    ];
+    assert_contains(&error, &parts);
+}
+
+#[test]
+fn halves_are_packed_in_every_language() {
+    for shader in ["halves.wgsl", "halves.frag", "halves.hlsl"] {
+        let pass = format!(
+            "[[pass]]\nshader = \"{shader}\"\nstage = \"fragment\"\n[[pass.binding]]\nname = \"color\"\ntexture = \"color\"\n"
+        );
+        let shown = blur_busy(&make("halves", &pass));
+        let mut rounded = 0;
+        for (found, color) in shown.pixels.iter().zip(&busy_picture().color.pixels) {
+            for (found, color) in found.iter().zip(color) {
+                let exact = 0.3 * color;
+                rounded += u32::from(*found != exact);
+                // Halves of values below 1 have 11 binary digits; drivers may cut the rest off.
+                assert_near(*found, exact, 1.0 / 2048.0);
+            }
+        }
+        assert!(rounded > 1000, "{shader}: {rounded} values were rounded");
+    }
+}
+
+#[test]
+fn a_depth_texture_is_the_depth() {
+    let pass = "[[pass]]\nshader = \"depth.wgsl\"\nstage = \"fragment\"\n[[pass.binding]]\nbinding = 1\nsampler = \"nearest\"\n";
+    let files = make("depth", pass);
+    let shown = blur_busy(&files);
+    let depth = busy_picture().depth;
+    for (x, y) in [(12_u32, 9_u32), (40, 30), (0, 0)] {
+        let own = *depth.at(x, y);
+        // The second corner of a gather is the one at the bottom right.
+        let due = [own, 2.0 * own, *depth.at(x + 1, y + 1)];
+        assert_eq!(*shown.at(x, y), due, "({x}, {y})");
+    }
+    files.assert_refused("depth");
 }
 
 #[test]

@@ -81,6 +81,16 @@ fn make_base(name: &str) -> FilterFiles {
         "by_number" => change("name = \"image\"", "binding = 0"),
         "turned" => change("# pass", "vertex_shader = \"corner.vert\"\n# vertex"),
         "drawn" => routes::declare("drawn.toml"),
+        "opengl" => {
+            let files = FilterFiles::fixture("filters/opengl");
+            let head = "name = \"keys\"\nsummary = \"Of OpenGL.\"\nalignment = \"trailing\"\n";
+            let manifest = format!("{head}{}", files.text("tutorial.toml"));
+            (files.with("filter.toml", manifest)).changed(
+                "filter.toml",
+                "origin = \"bottom_left\"",
+                "# convention",
+            )
+        }
         "lab" => routes::declare("lab.toml"),
         "pyramid" => FilterFiles::fixture("filters/mips")
             .changed("filter.toml", "default = 3", "default = 1.25")

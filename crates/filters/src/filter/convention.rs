@@ -18,10 +18,13 @@ pub(crate) const CONVENTION_VALUES: [&str; 5] = [
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Convention {
+    /// Corner of the picture where texels, texture coordinates and `gl_FragCoord` begin; the top left if left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub origin: Option<Origin>,
     /// Unit of velocity.
     pub velocity: VelocityUnit,
-    /// Direction of its +y.
-    pub velocity_y: VerticalDirection,
+    /// Direction of its +y; away from the origin if left out.
+    pub velocity_y: Option<VerticalDirection>,
     /// Order of the two places in the difference.
     pub velocity_sign: VelocitySign,
     /// Time in which a surface moves that far.
@@ -30,6 +33,9 @@ pub struct Convention {
     pub frames_per_second: Option<f64>,
     /// Factor on velocity after these conversions; 1 if left out.
     pub velocity_scale: Option<f64>,
+    /// Summand on both components of velocity after the factor; 0 if left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub velocity_bias: Option<f64>,
     /// Format of the velocity texture; `rg32float` if left out.
     pub velocity_format: Option<Format>,
     /// Meaning of depth.
@@ -46,6 +52,17 @@ pub struct Convention {
     pub color_format: Option<Format>,
     /// Format of the output of a fragment shader; `rgba32float` if left out.
     pub output_format: Option<Format>,
+}
+
+/// Corner of the picture with the texel (0, 0).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Origin {
+    /// The top left, as in Vulkan, Direct3D, Metal and WebGPU.
+    #[default]
+    TopLeft,
+    /// The bottom left, as in OpenGL.
+    BottomLeft,
 }
 
 /// Unit of velocity.
@@ -151,6 +168,9 @@ impl Convention {
                 "velocity_scale = {scale}; allowed: a finite number other than 0"
             ));
         }
+        if let Some(bias) = self.velocity_bias.filter(|bias| !bias.is_finite()) {
+            return Err(format!("velocity_bias = {bias}; allowed: a finite number"));
+        }
         if self.velocity_per == VelocityTime::Second && self.frames_per_second.is_none() {
             return Err("velocity_per = \"second\" needs frames_per_second".into());
         }
@@ -195,6 +215,19 @@ impl Convention {
         }
     }
 
+    /// Returns the corner with the texel (0, 0).
+    pub(crate) fn origin(&self) -> Origin {
+        self.origin.unwrap_or_default()
+    }
+
+    /// Returns the direction of the velocity's +y.
+    pub(crate) fn velocity_y(&self) -> VerticalDirection {
+        self.velocity_y.unwrap_or(match self.origin() {
+            Origin::TopLeft => VerticalDirection::Down,
+            Origin::BottomLeft => VerticalDirection::Up,
+        })
+    }
+
     /// Returns a value that members of uniform blocks may name; none if the convention does not have it.
     pub(crate) fn value(&self, name: &str) -> Option<f64> {
         match name {
@@ -210,6 +243,7 @@ impl Convention {
     /// Fills in what was left out, so that the record is complete. `far` stays empty without a far plane.
     pub fn resolved(self) -> Self {
         Self {
+            velocity_y: Some(self.velocity_y()),
             velocity_scale: self.velocity_scale.or(Some(1.0)),
             velocity_format: Some(self.format_of("velocity")),
             depth_format: Some(self.format_of("depth")),
@@ -242,6 +276,7 @@ mod tests {
             ("near = 1", "are for depth"),
             ("color_scale = -1", "color_scale = -1"),
             ("velocity_scale = 0", "velocity_scale = 0"),
+            ("velocity_bias = inf", "velocity_bias = inf"),
         ] {
             let convention: Convention = toml::from_str(text).unwrap();
             let refusal = convention.check().unwrap_err();

@@ -10,7 +10,9 @@ impl Convention {
     /// Converts velocity in pixels per frame to the engine's.
     pub fn convert_velocity(&self, velocity: &Vectors, exposure: f64) -> Vectors {
         let [x, y] = self.velocity_factors([velocity.width, velocity.height], exposure);
-        velocity.map(|v| [(f64::from(v[0]) * x) as f32, (f64::from(v[1]) * y) as f32])
+        let bias = self.velocity_bias.unwrap_or(0.0);
+        let convert = |value: f32, factor: f64| (f64::from(value) * factor + bias) as f32;
+        velocity.map(|v| [convert(v[0], x), convert(v[1], y)])
     }
 
     /// Converts the engine's velocity to pixels per frame.
@@ -19,12 +21,13 @@ impl Convention {
     /// A velocity becomes infinite, or all become 0; the text names keys.
     pub fn restore_velocity(&self, velocity: &Vectors, exposure: f64) -> Result<Vectors, String> {
         let [x, y] = self.velocity_factors([velocity.width, velocity.height], exposure);
-        let restored =
-            velocity.map(|v| [(f64::from(v[0]) / x) as f32, (f64::from(v[1]) / y) as f32]);
+        let bias = self.velocity_bias.unwrap_or(0.0);
+        let restore = |value: f32, factor: f64| ((f64::from(value) - bias) / factor) as f32;
+        let restored = velocity.map(|v| [restore(v[0], x), restore(v[1], y)]);
         check_restored(
             velocity,
             &restored,
-            "velocity, velocity_per and velocity_scale",
+            "velocity, velocity_per, velocity_scale and velocity_bias",
         )?;
         Ok(restored)
     }
@@ -40,7 +43,7 @@ impl Convention {
             VelocityTime::Shutter => exposure,
             VelocityTime::Second => self.frames_per_second.unwrap_or(1.0),
         };
-        let y = match self.velocity_y {
+        let y = match self.velocity_y() {
             VerticalDirection::Down => 1.0,
             VerticalDirection::Up => -1.0,
         };
@@ -169,6 +172,29 @@ mod tests {
     use frame::Raster;
 
     use super::*;
+
+    #[test]
+    fn velocity_with_a_bias_leads_back() {
+        let form = Convention {
+            velocity: VelocityUnit::Ndc,
+            velocity_scale: Some(0.5),
+            velocity_bias: Some(0.5),
+            ..Convention::default()
+        };
+        let pixels = vec![[0.0, 0.0], [40.0, -20.0], [-8.0, 4.0]];
+        let velocity = Raster {
+            width: 3,
+            height: 1,
+            pixels,
+        };
+        let stored = form.convert_velocity(&velocity, 1.0);
+        assert_eq!(stored.pixels[0], [0.5, 0.5]);
+        let restored = form.restore_velocity(&stored, 1.0).unwrap();
+        for (found, due) in restored.pixels.iter().zip(&velocity.pixels) {
+            assert!((found[0] - due[0]).abs() < 1e-4, "{:?}", restored.pixels);
+            assert!((found[1] - due[1]).abs() < 1e-4, "{:?}", restored.pixels);
+        }
+    }
 
     #[test]
     fn each_form_of_depth_has_its_planes_at_its_ends_and_leads_back() {

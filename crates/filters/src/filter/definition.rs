@@ -120,6 +120,13 @@ impl Filter {
         FURTHER_INPUTS.into_iter().filter(is_read).collect()
     }
 
+    /// Returns true if the first pass that writes the output reads it, too: it begins as a copy of the colours.
+    pub(crate) fn is_in_place(&self) -> bool {
+        let entries = self.passes.iter().map(|pass| self.entry_point(pass));
+        let mut writers = entries.filter(|entry| entry.writes.contains("output"));
+        (writers.next()).is_some_and(|entry| entry.reads.contains("output"))
+    }
+
     /// Counts the copies of a texture: two if a pass both reads and writes it.
     pub(crate) fn count_copies(&self, texture: &str) -> usize {
         let is_exchanged = self.passes.iter().any(|pass| {

@@ -17,7 +17,7 @@ mod values;
 
 pub use command::Command;
 pub use convention::{
-    Convention, DepthKind, VelocitySign, VelocityTime, VelocityUnit, VerticalDirection,
+    Convention, DepthKind, Origin, VelocitySign, VelocityTime, VelocityUnit, VerticalDirection,
 };
 pub(crate) use definition::{DEFAULT_TIME_LIMIT, FURTHER_INPUTS, INPUTS, Lines};
 pub use definition::{EXCLUSION, Filter};

@@ -43,6 +43,8 @@ impl Gpu {
             },
             loop_limit: None,
             stored_formats: list_stored_formats(chosen),
+            packs_halves: (chosen.get_downlevel_capabilities().flags)
+                .contains(wgpu::DownlevelFlags::SHADER_F16_IN_F32),
             interrupted: || false,
             opened: chosen.clone(),
             device: RwLock::new(device),

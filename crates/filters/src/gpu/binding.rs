@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use wgpu::naga::{Module, ScalarKind, ShaderStage, front};
 
 use super::device::Gpu;
+use crate::filter::Origin;
 use crate::shader::{
     EntryPoint, Role, SamplerFilter, Sampling, Shader, Variable, Varying, Wrap,
     follow_interpolation,
@@ -144,10 +145,12 @@ fn find_sample_type(kind: ScalarKind, filterable: bool) -> wgpu::TextureSampleTy
 }
 
 /// Creates the pipeline of a kernel, or of a fragment shader with its vertex stage if there is one.
+/// `origin` is the corner where the texture coordinates of the program's own triangle begin.
 pub(super) fn create_pipeline(
     gpu: &Gpu,
     stages: &[(CompiledStage, &EntryPoint)],
     targets: &[wgpu::TextureFormat],
+    origin: Origin,
 ) -> Pipeline {
     let (stage, entry) = &stages[0];
     let layouts: Vec<_> = (stages.iter().map(|(stage, _)| Some(&stage.layout))).collect();
@@ -159,7 +162,9 @@ pub(super) fn create_pipeline(
             immediate_size: 0,
         });
     if entry.is_fragment() {
-        return Pipeline::Render(create_render_pipeline(gpu, &layout, stages, targets));
+        return Pipeline::Render(create_render_pipeline(
+            gpu, &layout, stages, targets, origin,
+        ));
     }
     let pipeline = gpu
         .device()
@@ -175,8 +180,8 @@ pub(super) fn create_pipeline(
 }
 
 /// Makes the vertex stage of a triangle over the whole picture. Each location that the fragment shader reads gets texture coordinates
-/// from the top left, and then, as in Unreal, the place in clip space.
-pub(crate) fn make_triangle(read: &[Varying]) -> Module {
+/// from the origin, and then, as in Unreal, the place in clip space, where +y is up in the picture.
+pub(crate) fn make_triangle(read: &[Varying], origin: Origin) -> Module {
     let (mut members, mut values) = (String::new(), String::new());
     for varying in read {
         let location = varying.location;
@@ -189,13 +194,17 @@ pub(crate) fn make_triangle(read: &[Varying]) -> Module {
         members += &format!("@location({location}) place_{location}: {ty}, ");
         values += &format!(", place.{parts}");
     }
+    let up = match origin {
+        Origin::TopLeft => "1.0 - 2.0 * uv.y",
+        Origin::BottomLeft => "2.0 * uv.y - 1.0",
+    };
     let text = format!(
         "struct Corner {{ @builtin(position) position: vec4<f32>, {members}}}
 @vertex
 fn triangle(@builtin(vertex_index) index: u32) -> Corner {{
     let uv = vec2<f32>(f32((index << 1u) & 2u), f32(index & 2u));
-    let place = vec4<f32>(uv, 2.0 * uv.x - 1.0, 1.0 - 2.0 * uv.y);
-    return Corner(vec4<f32>(place.zw, 0.0, 1.0){values});
+    let place = vec4<f32>(uv, 2.0 * uv.x - 1.0, {up});
+    return Corner(vec4<f32>(place.z, 1.0 - 2.0 * uv.y, 0.0, 1.0){values});
 }}
 "
     );
@@ -209,6 +218,7 @@ fn create_render_pipeline(
     layout: &wgpu::PipelineLayout,
     stages: &[(CompiledStage, &EntryPoint)],
     targets: &[wgpu::TextureFormat],
+    origin: Origin,
 ) -> wgpu::RenderPipeline {
     let (stage, entry) = &stages[0];
     let triangle;
@@ -219,7 +229,10 @@ fn create_render_pipeline(
                 .device()
                 .create_shader_module(wgpu::ShaderModuleDescriptor {
                     label: Some("triangle"),
-                    source: wgpu::ShaderSource::Naga(Cow::Owned(make_triangle(&entry.inputs))),
+                    source: wgpu::ShaderSource::Naga(Cow::Owned(make_triangle(
+                        &entry.inputs,
+                        origin,
+                    ))),
                 });
             (&triangle, "triangle")
         }
@@ -262,7 +275,10 @@ fn create_sampler(gpu: &Gpu, label: &str, sampling: Sampling) -> wgpu::Sampler {
         Wrap::Clamp => wgpu::AddressMode::ClampToEdge,
         Wrap::Repeat => wgpu::AddressMode::Repeat,
         Wrap::Mirror => wgpu::AddressMode::MirrorRepeat,
+        Wrap::Border => wgpu::AddressMode::ClampToBorder,
     };
+    let border =
+        (sampling.wrap == Wrap::Border).then_some(wgpu::SamplerBorderColor::TransparentBlack);
     let filter = match sampling.filter {
         SamplerFilter::Nearest => wgpu::FilterMode::Nearest,
         SamplerFilter::Linear => wgpu::FilterMode::Linear,
@@ -278,6 +294,7 @@ fn create_sampler(gpu: &Gpu, label: &str, sampling: Sampling) -> wgpu::Sampler {
         mag_filter: filter,
         min_filter: filter,
         mipmap_filter: mip_filter,
+        border_color: border,
         ..Default::default()
     })
 }

@@ -12,7 +12,7 @@ use super::kernels::{Kernels, Specialised};
 use super::place::Place;
 use super::transfer::{row_bytes, velocity_texels};
 use super::uniforms::FrameValues;
-use crate::filter::{EXCLUSION, History};
+use crate::filter::{EXCLUSION, History, Origin};
 use crate::input::find_broken;
 use crate::{Filter, FilterError, Format, Input, Settings};
 
@@ -134,7 +134,7 @@ impl<'g> Blur<'g> {
     fn read_output(&self) -> Result<Image, FilterError> {
         let target = self.passes.target("output");
         let texels = self.gpu.download(target, self.place("read back"))?;
-        let output = Image::from_texels(&texels);
+        let output = self.origin().upright(Image::from_texels(&texels));
         match find_broken(&output) {
             None => match self.color_scale() {
                 1.0 => Ok(output),
@@ -199,7 +199,8 @@ impl<'g> Blur<'g> {
     /// of `r32uint` is the float of the same bits. Panics if the filter has no such texture.
     pub fn read_texture(&self, name: &str) -> Result<Raster<[f32; 4]>, FilterError> {
         let target = self.passes.target(name);
-        self.gpu.download(target, self.place("read back"))
+        let texels = self.gpu.download(target, self.place("read back"))?;
+        Ok(self.origin().upright(texels))
     }
 
     /// Names a pass of this filter, for errors.
@@ -243,23 +244,33 @@ impl<'g> Blur<'g> {
             self.passes.upload_frame(self.gpu, frame);
             for (texture, layer, input) in own.chain(history) {
                 let target = self.passes.target(texture);
-                self.gpu.upload(target, &texels(layer, input));
+                let texels = self.origin().order_rows(texels(layer, input), self.size[1]);
+                self.gpu.upload(target, &texels);
             }
         })
     }
 
     /// Uploads a colour, and the frame before's if the filter reads it.
     fn upload_color(&self, color: &Image, before: &Image) -> Result<(), FilterError> {
-        let upload = |name, color: &Image| {
+        let upload = |target, color: &Image| {
             let texels = color.to_texels(self.color_scale());
-            self.gpu.upload(self.passes.target(name), &texels);
+            let texels = self.origin().order_rows(texels, self.size[1]);
+            self.gpu.upload(target, &texels);
         };
         self.gpu.catch_errors(self.place("upload"), || {
-            upload("color", color);
+            upload(self.passes.target("color"), color);
+            if self.filter().is_in_place() {
+                upload(&self.passes.mark, color);
+            }
             if self.filter().history.contains(&History::Color) {
-                upload(History::Color.texture(), before);
+                upload(self.passes.target(History::Color.texture()), before);
             }
         })
+    }
+
+    /// Returns the corner where the shaders' textures begin.
+    fn origin(&self) -> Origin {
+        self.filter().convention.origin()
     }
 
     /// Returns the factor on colours that the shaders expect.

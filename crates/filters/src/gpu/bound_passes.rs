@@ -23,8 +23,10 @@ pub(super) struct BoundPasses {
     pub dispatches: Vec<Dispatch>,
     /// Loop iterations of every dispatch, if they are counted.
     pub loop_counts: Option<LoopCounts>,
-    /// Content of the output until a pass has written it.
+    /// Content of the output until a pass has written it: marks, or the colours if it is read, too.
     pub mark: Target,
+    /// The copy of the output that the first pass finds.
+    first_output: Target,
     targets: Targets,
     /// Values of the parameters by name.
     parameters: BTreeMap<String, f64>,
@@ -48,6 +50,7 @@ impl BoundPasses {
             })
         });
         let format = targets.current("output").format;
+        let first_output = targets.current("output").clone();
         let mark = gpu.catch_errors(filter.place("textures"), || create_mark(gpu, size, format))?;
         let mut binder = Binder {
             gpu,
@@ -68,6 +71,7 @@ impl BoundPasses {
             dispatches: binder.dispatches,
             loop_counts: binder.loop_counts,
             mark,
+            first_output,
             targets: binder.targets,
             parameters: settings.list_parameters(filter).collect(),
         })
@@ -77,7 +81,7 @@ impl BoundPasses {
     pub fn mark_output(&self, gpu: &Gpu, is_wanted: impl Fn(&Dispatch) -> bool) {
         let mut writers = (self.dispatches.iter()).filter(|it| it.writes("output"));
         if writers.all(is_wanted) {
-            gpu.copy(&self.mark, self.target("output"));
+            gpu.copy(&self.mark, &self.first_output);
         }
     }
 

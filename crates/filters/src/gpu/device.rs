@@ -10,11 +10,13 @@ use crate::{FilterError, Format};
 pub(super) const TIMESTAMPS: wgpu::Features =
     wgpu::Features::TIMESTAMP_QUERY.union(wgpu::Features::TIMESTAMP_QUERY_INSIDE_ENCODERS);
 
-/// Features that shaders of engines may need: samplers that interpolate 32-bit floats, and storage textures in more formats.
+/// Features that shaders of engines may need: samplers that interpolate 32-bit floats or have a border, and storage textures in more
+/// formats.
 const SHADERS_OF_ENGINES: wgpu::Features = wgpu::Features::FLOAT32_FILTERABLE
     .union(wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES)
     .union(wgpu::Features::RG11B10UFLOAT_RENDERABLE)
-    .union(wgpu::Features::SHADER_F64);
+    .union(wgpu::Features::SHADER_F64)
+    .union(wgpu::Features::ADDRESS_MODE_CLAMP_TO_BORDER);
 
 /// Features that filters use where an adapter has them.
 pub(super) const FEATURES: wgpu::Features = TIMESTAMPS.union(SHADERS_OF_ENGINES);
@@ -70,6 +72,8 @@ pub struct Gpu {
     pub loop_limit: Option<LoopLimit>,
     /// Formats in which its shaders can store textures.
     pub(super) stored_formats: Vec<Format>,
+    /// True if its shaders convert between floats of 32 and of 16 bits.
+    pub(super) packs_halves: bool,
     /// Function polled while the GPU works; work stops when it returns true. The default never does.
     pub interrupted: fn() -> bool,
     pub(super) opened: wgpu::Adapter,

@@ -178,7 +178,8 @@ fn compile_pass(
             (stage, entry)
         });
         let stages: Vec<_> = stages.collect();
-        let pipeline = create_pipeline(gpu, &stages, &list_target_formats(filter, pass));
+        let formats = list_target_formats(filter, pass);
+        let pipeline = create_pipeline(gpu, &stages, &formats, filter.convention.origin());
         let stages = stages.into_iter().map(|(stage, _)| stage).collect();
         Compiled { stages, pipeline }
     });

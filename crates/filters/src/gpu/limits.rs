@@ -1,7 +1,7 @@
 //! Limits of a device, and the check of a filter against them.
 
 use super::device::Gpu;
-use crate::shader::{EntryPoint, Role, Shader};
+use crate::shader::{EntryPoint, Role, Shader, Wrap};
 use crate::{Filter, FilterError, Format, Pass};
 
 /// The limits of a device.
@@ -14,6 +14,10 @@ pub struct Limits {
     interpolates_floats: bool,
     /// Formats in which shaders can store textures.
     stored_formats: Vec<Format>,
+    /// True if shaders convert between floats of 32 and of 16 bits.
+    packs_halves: bool,
+    /// True if samplers have a border.
+    has_border: bool,
 }
 
 impl Limits {
@@ -25,6 +29,8 @@ impl Limits {
             interpolates_floats: false,
             // Most of those that WebGPU does not promise are there.
             stored_formats: Format::ALL.to_vec(),
+            packs_halves: true,
+            has_border: false,
         }
     }
 
@@ -36,6 +42,9 @@ impl Limits {
             interpolates_floats: (gpu.device().features())
                 .contains(wgpu::Features::FLOAT32_FILTERABLE),
             stored_formats: gpu.stored_formats.clone(),
+            packs_halves: gpu.packs_halves,
+            has_border: (gpu.device().features())
+                .contains(wgpu::Features::ADDRESS_MODE_CLAMP_TO_BORDER),
         }
     }
 
@@ -85,6 +94,7 @@ impl Limits {
         let found = [
             self.find_broken_size(entry.workgroup_size),
             self.find_unstored(shader, entry),
+            self.find_lacking(shader, entry),
             self.exceed(
                 entry.usage.workgroup_bytes,
                 limits.max_compute_workgroup_storage_size,
@@ -137,6 +147,29 @@ impl Limits {
         ))
     }
 
+    /// Describes the first ability that an entry point needs and the adapter lacks.
+    fn find_lacking(&self, shader: &Shader, entry: &EntryPoint) -> Option<String> {
+        let owner = &self.owner;
+        if entry.usage.packs_halves && !self.packs_halves {
+            return Some(format!(
+                "converts to or from 16-bit floats, as pack2x16float, packHalf2x16 and f32tof16 do, not allowed by {owner}; \
+                 choose another adapter, or keep the numbers in a [[texture]] of 16-bit floats"
+            ));
+        }
+        let has_border = |index: &usize| match shader.variables[*index].role {
+            Role::Sampler(sampling) => sampling.wrap == Wrap::Border,
+            _ => false,
+        };
+        let bordered = entry.variables.iter().find(|index| has_border(index))?;
+        let name = &shader.variables[*bordered].name;
+        (!self.has_border).then(|| {
+            format!(
+                "sampler \"{name}\" has wrap = \"border\", not allowed by {owner}; choose another adapter, or take wrap = \
+                 \"clamp\" and test the coordinates in the shader"
+            )
+        })
+    }
+
     /// Describes the first limit that the size of a workgroup breaks.
     fn find_broken_size(&self, [x, y, z]: [u32; 3]) -> Option<String> {
         let limits = &self.limits;
@@ -171,6 +204,29 @@ impl Limits {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_adapter_that_cannot_pack_halves_refuses_to() {
+        let folder = tempfile::tempdir().unwrap();
+        let write =
+            |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+        let head = "name = \"packs\"\nsummary = \"Packs halves.\"\nalignment = \"centred\"\n[[pass]]\nentry = \"pack\"\n";
+        write("filter.toml", head);
+        let kernel = "@group(0) @binding(1) var output: texture_storage_2d<rgba32float, write>;\n\
+                      @compute @workgroup_size(8, 8) fn pack(@builtin(global_invocation_id) id: vec3<u32>) {\n\
+                      let packed = pack2x16float(vec2<f32>(id.xy));\n\
+                      textureStore(output, vec2<i32>(id.xy), vec4<f32>(f32(packed)));\n}\n";
+        write("packs.wgsl", kernel);
+        let filter = Filter::load(folder.path()).unwrap();
+        Limits::lowest().check(&filter).unwrap();
+        let lacking = Limits {
+            packs_halves: false,
+            ..Limits::lowest()
+        };
+        let refusal = lacking.check(&filter).unwrap_err().to_string();
+        let says = "converts to or from 16-bit floats, as pack2x16float, packHalf2x16 and f32tof16 do, not allowed by the lowest";
+        assert!(refusal.contains(says), "{refusal}");
+    }
 
     #[test]
     fn a_format_that_the_adapter_cannot_store_is_refused_with_those_that_it_can() {

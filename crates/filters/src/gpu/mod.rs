@@ -15,6 +15,7 @@ mod loop_counts;
 mod loop_probe;
 mod matrices;
 mod place;
+mod rows;
 mod targets;
 mod timer;
 mod timing;

@@ -22,7 +22,14 @@ pub(super) fn list_inputs(filter: &Filter) -> Vec<Value> {
                 "color" => json!([scaled("frame.color"), scaled("frame.color"), scaled("frame.color")]),
                 "depth" => convert_depth(convention),
                 "velocity_z" | EXCLUSION => Value::Null,
-                _ => json!([scaled("frame.velocity[0]"), scaled("frame.velocity[1]")]),
+                _ => {
+                    let bias = convention.velocity_bias.unwrap_or(0.0);
+                    let axes = ["frame.velocity[0]", "frame.velocity[1]"];
+                    json!(axes.map(|factor| match bias {
+                        0.0 => scaled(factor),
+                        bias => json!(["+", scaled(factor), bias]),
+                    }))
+                }
             };
             json!({ "name": name, "from": from, "format": convention.format_of(name), "convert": convert })
         })

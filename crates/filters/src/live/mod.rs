@@ -11,9 +11,10 @@ use std::collections::BTreeMap;
 
 use serde_json::{Value, json};
 
+use crate::filter::Origin;
 use crate::gpu::{FrameValues, output_format};
 use crate::load::read_text;
-use crate::shader::{FRAME_PREFIX, Role};
+use crate::shader::{FRAME_PREFIX, Role, Variable, Wrap};
 use crate::{Expression, Filter, Input, Parameter, Preset, Texture, Unit};
 use expressions::{describe, list_names};
 use inputs::list_inputs;
@@ -29,6 +30,9 @@ impl Filter {
     pub fn live(&self, width: u32, as_written: bool) -> Result<Value, String> {
         if self.command.is_some() {
             return Err("A browser cannot run this filter: it is a program.".into());
+        }
+        if let Some(reason) = self.find_unsupported() {
+            return Err(reason.into());
         }
         let toml = read_text(self, &self.lines.path).map_err(|error| error.to_string())?;
         let mut modules = list_modules(self)?;
@@ -64,6 +68,21 @@ impl Filter {
             "passes": passes,
             "modules": modules,
         }))
+    }
+
+    /// Says what pages lack that the filter needs.
+    fn find_unsupported(&self) -> Option<&'static str> {
+        let mut variables = self.shaders.iter().flat_map(|shader| &shader.variables);
+        let is_bordered = |variable: &Variable| matches!(variable.role, Role::Sampler(it) if it.wrap == Wrap::Border);
+        if variables.any(is_bordered) {
+            Some("A browser cannot run this filter: WebGPU's samplers have no border.")
+        } else if self.convention.origin() == Origin::BottomLeft {
+            Some("This page cannot run the filter: its pictures begin at the bottom left.")
+        } else if self.is_in_place() {
+            Some("This page cannot run the filter: it writes its picture in place.")
+        } else {
+            None
+        }
     }
 
     /// Lists the files of a folder that has the filter in WGSL, each with its text: filter.toml, then its modules.

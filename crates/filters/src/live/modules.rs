@@ -89,7 +89,8 @@ pub(super) fn describe_vertex(
         let bindings = list_bindings(shader, vertex);
         return Some(json!({ "module": pass.shaders[1], "entry": ENTRY, "bindings": bindings }));
     }
-    let triangle = translate(&make_triangle(&entry.inputs)).expect("it is valid WGSL");
+    let triangle = translate(&make_triangle(&entry.inputs, filter.convention.origin()))
+        .expect("it is valid WGSL");
     modules.push(json!({ "wgsl": triangle, "appended": "" }));
     Some(json!({ "module": modules.len() - 1, "entry": "triangle", "bindings": [] }))
 }

@@ -178,7 +178,9 @@ impl Filter {
                 [_, (_, vertex)] => check_vertex(vertex, entry).map_err(refuse)?,
                 _ => check_coordinates(entry).map_err(refuse)?,
             }
-            if let Some(name) = entry.reads.iter().find(|name| !ready.contains(&name[..])) {
+            // The output is read only in place, and begins as a copy of the colours.
+            let is_missing = |name: &&String| !ready.contains(&name[..]) && *name != "output";
+            if let Some(name) = entry.reads.iter().find(is_missing) {
                 return Err(refuse(format!(
                     "reads \"{name}\" before any pass has written it"
                 )));

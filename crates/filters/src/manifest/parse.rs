@@ -7,7 +7,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::command::read_command;
-use super::convention::read_convention;
+use super::convention::{check_origin, read_convention};
 use super::file::File;
 use super::number::{IDENTIFIER, is_identifier};
 use super::parameters::{ParameterEntry, read_parameters};
@@ -99,6 +99,7 @@ pub(crate) fn parse(path: &Path, text: &str) -> Result<Filter, FilterError> {
     filter.reach_by = manifest.reach_by.map(Spanned::into_inner);
     filter.textures = read_textures(&file, &manifest.texture, &filter)?;
     filter.passes = read_passes(&file, &manifest.pass, &filter)?;
+    check_origin(&file, manifest.convention.as_ref(), &filter)?;
     Ok(filter)
 }
 

@@ -40,8 +40,9 @@ pub(crate) struct Shader {
 }
 
 /// Capabilities of every device; kernels can `enable` nothing more.
-pub(crate) const CAPABILITIES: Capabilities =
-    Capabilities::MULTISAMPLED_SHADING.union(Capabilities::CUBE_ARRAY_TEXTURES);
+pub(crate) const CAPABILITIES: Capabilities = Capabilities::MULTISAMPLED_SHADING
+    .union(Capabilities::CUBE_ARRAY_TEXTURES)
+    .union(Capabilities::SHADER_FLOAT16_IN_FLOAT32);
 
 /// Makes a validator of shaders that engines wrote, which may compute in 64 bits.
 pub(crate) fn engine_validator() -> Validator {

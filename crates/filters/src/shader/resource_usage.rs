@@ -1,7 +1,10 @@
 //! Resources that a kernel asks of a device.
 
 use wgpu::naga::valid::{GlobalUse, ModuleInfo};
-use wgpu::naga::{AddressSpace, Block, EntryPoint, Function, Handle, Module, Statement, TypeInner};
+use wgpu::naga::{
+    AddressSpace, Block, EntryPoint, Expression, Function, Handle, MathFunction, Module, Statement,
+    TypeInner,
+};
 
 /// Bytes that the variables of one invocation may take: those of a kernel and of all functions that it calls, and
 /// `var<private>`; WGSL promises 8,192 for each of the two kinds. No value may be larger either, such as a table in a `const`.
@@ -20,6 +23,8 @@ pub(crate) struct ResourceUsage {
     pub invocation_bytes: u64,
     /// Expressions and statements of all functions with every call inlined.
     pub inlined: u64,
+    /// True if it packs 32-bit floats to 16-bit floats, unpacks those, or rounds to them.
+    pub packs_halves: bool,
 }
 
 impl ResourceUsage {
@@ -53,6 +58,7 @@ impl ResourceUsage {
             invocation_bytes: (globals(AddressSpace::Private) + locals)
                 .max(values.max().unwrap_or(0)),
             inlined: count_inlined(module, entry, &called),
+            packs_halves: (functions.iter()).any(|(function, _)| packs_halves(function)),
         }
     }
 
@@ -80,6 +86,20 @@ impl ResourceUsage {
         }
         Ok(())
     }
+}
+
+/// Returns true for a function that converts between floats of 32 and of 16 bits.
+fn packs_halves(function: &Function) -> bool {
+    let mut expressions = function.expressions.iter();
+    expressions.any(|(_, expression)| match expression {
+        Expression::Math { fun, .. } => matches!(
+            fun,
+            MathFunction::Pack2x16float
+                | MathFunction::Unpack2x16float
+                | MathFunction::QuantizeToF16
+        ),
+        _ => false,
+    })
 }
 
 /// Returns the bytes of a type, or the largest number if they do not fit.

@@ -54,4 +54,6 @@ pub(crate) enum Wrap {
     Repeat,
     /// The mirrored picture's.
     Mirror,
+    /// 0 in all components.
+    Border,
 }

@@ -13,7 +13,7 @@ use wgpu::naga::{
 use super::entry::{keep_entry_point, set_constants, validate};
 use super::members::fill_block;
 use super::module::OpenModule;
-use super::places::{explains, find_place, name_variable};
+use super::places::{explains, find_place, is_globals, name_variable};
 use super::textures::{check_texture, describe_image};
 use crate::filter::{Binding, BindingPlace, PassShader, Stage};
 use crate::shader::{
@@ -117,11 +117,12 @@ impl Binder<'_> {
             .collect();
         for (index, (handle, place)) in placed.iter().enumerate() {
             let variable = &module.global_variables[*handle];
+            let is_split = owners.contains_key(place);
             let place = owners.get(place).unwrap_or(place);
             let mut bindings = self.shader.bindings.iter();
             let binding = bindings.find(|it| explains(it, module, variable, place));
-            self.bind(module, *handle, binding)
-                .map_err(|reason| self.refuse(variable, place, binding, &reason))?;
+            self.bind(module, *handle, binding, is_split)
+                .map_err(|reason| self.refuse(module, variable, place, binding, &reason))?;
             let variable = &mut module.global_variables[*handle];
             variable.binding = Some(ResourceBinding {
                 group: u32::from(self.shader.stage == Stage::Vertex),
@@ -134,12 +135,16 @@ impl Binder<'_> {
     /// Makes an error of a variable. It names the line of filter.toml that explains the variable, or else the shader.
     fn refuse(
         &self,
+        module: &Module,
         variable: &GlobalVariable,
         place: &BindingPlace,
         binding: Option<&Binding>,
         reason: &str,
     ) -> FilterError {
-        let named = name_variable(variable, place);
+        let named = match is_globals(module, variable) {
+            true => "its uniforms outside of any block, which a [[pass.binding]] with globals = true explains".into(),
+            false => name_variable(variable, place),
+        };
         match binding {
             None => FilterError::in_file(self.path, None, format!("{named}: {reason}")),
             Some(binding) => FilterError::in_file(
@@ -150,12 +155,13 @@ impl Binder<'_> {
         }
     }
 
-    /// Adds a variable, and what filter.toml says about it.
+    /// Adds a variable, and what filter.toml says about it. `is_split` is true for one that was split from another.
     fn bind(
         &mut self,
         module: &Module,
         handle: Handle<GlobalVariable>,
         binding: Option<&Binding>,
+        is_split: bool,
     ) -> Result<(), String> {
         let variable = &module.global_variables[handle];
         let name = variable.name.clone().unwrap_or_default();
@@ -186,7 +192,10 @@ impl Binder<'_> {
                 );
             }
         };
-        check_texture(self.filter, role, &resource)?;
+        // What an image that is also written reads of the output is the content before the pass.
+        if !(is_split && resource == "output") {
+            check_texture(self.filter, role, &resource)?;
+        }
         let level = binding.and_then(|binding| binding.level.clone());
         let has_mips = (self.filter.texture(&resource)).is_some_and(|texture| texture.mips > 1);
         if level.is_some() && !has_mips {

@@ -76,14 +76,11 @@ pub(super) fn list_installed(
 
 /// Compiles a shader with one of its language's compilers: WESL to WGSL, others to SPIR-V.
 pub(super) fn compile(
-    folder: &Path,
-    text: &str,
-    language: Language,
+    sources: &Sources,
     shader: &PassShader,
     compiler: &Compiler,
 ) -> Result<Vec<u8>, FilterError> {
-    let sources = Sources::collect(folder, shader, text, language)?;
-    let words = (compiler.arguments)(shader, text);
+    let words = (compiler.arguments)(shader, sources);
     let defines = shader.defines.iter().map(|define| format!("-D{define}"));
     let words = words.split_whitespace().map(str::to_owned);
     let arguments: Vec<String> = defines.chain(words).collect();
@@ -100,13 +97,13 @@ pub(super) fn compile(
         return Ok(module.clone());
     }
     let program = compiler.program;
-    let outcome = run(program, &arguments, folder, &sources, language)
+    let outcome = run(program, &arguments, sources)
         .unwrap_or_else(|error| Outcome::Failed(None, format!("{program}: {error}")));
     let module = match outcome {
         Outcome::Module(module) => module,
         Outcome::Stopped => return Err(FilterError::Interrupted),
         Outcome::Failed(line, reason) => {
-            let path = folder.join(&shader.file);
+            let path = sources.folder.join(&shader.file);
             return Err(FilterError::in_file(&path, line, reason));
         }
     };
@@ -132,13 +129,10 @@ enum Outcome {
 }
 
 /// Runs a compiler on copies of the sources.
-fn run(
-    program: &str,
-    arguments: &[String],
-    folder: &Path,
-    sources: &Sources,
-    language: Language,
-) -> std::io::Result<Outcome> {
+fn run(program: &str, arguments: &[String], sources: &Sources) -> std::io::Result<Outcome> {
+    let Sources {
+        folder, language, ..
+    } = *sources;
     let workplace = tempfile::tempdir()?;
     let copies = workplace.path().join("sources");
     sources.write(&copies)?;

@@ -1,14 +1,16 @@
 //! Compilers of shading languages, and their command lines.
 
 use super::language::Language;
+use super::opengl::is_opengl;
+use super::sources::Sources;
 use crate::filter::{PassShader, Stage};
 
 /// A compiler of one language.
 #[derive(Debug)]
 pub(crate) struct Compiler {
     pub program: &'static str,
-    /// Makes the words that it gets for a shader and its text; `{in}`, `{out}` and `{include}` stand for files.
-    pub arguments: fn(&PassShader, &str) -> String,
+    /// Makes the words that it gets for a shader and its texts; `{in}`, `{out}` and `{include}` stand for files.
+    pub(super) arguments: fn(&PassShader, &Sources) -> String,
     /// Way to get it.
     pub way_out: &'static str,
 }
@@ -25,23 +27,27 @@ const SLANG_WAY_OUT: &str =
 static OF_GLSL: [Compiler; 1] = [Compiler {
     program: "glslangValidator",
     // GLSL has no other entry point than `main`.
-    arguments: |shader, _| {
+    arguments: |shader, sources| {
         let [short, ..] = name_stage(shader);
-        format!("-V --target-env vulkan1.1 -S {short} -o {{out}} {{in}}")
+        let relaxed = match is_opengl(sources) {
+            true => "-R --auto-map-bindings --auto-map-locations ",
+            false => "",
+        };
+        format!("-V {relaxed}--target-env vulkan1.1 -S {short} -o {{out}} {{in}}")
     },
     way_out: GLSLANG_WAY_OUT,
 }];
 
 static OF_SLANG: [Compiler; 1] = [Compiler {
     program: "slangc",
-    arguments: |shader, text| call_slangc("slang", shader, text),
+    arguments: |shader, sources| call_slangc("slang", shader, sources),
     way_out: SLANG_WAY_OUT,
 }];
 
 static OF_HLSL: [Compiler; 3] = [
     Compiler {
         program: "slangc",
-        arguments: |shader, text| call_slangc("hlsl", shader, text),
+        arguments: |shader, sources| call_slangc("hlsl", shader, sources),
         way_out: SLANG_WAY_OUT,
     },
     Compiler {
@@ -99,10 +105,10 @@ fn name_stage(shader: &PassShader) -> [&'static str; 3] {
     }
 }
 
-fn call_slangc(language: &str, shader: &PassShader, text: &str) -> String {
+fn call_slangc(language: &str, shader: &PassShader, sources: &Sources) -> String {
     let ([_, stage, _], entry) = (name_stage(shader), &shader.entry);
     // With shifts of registers, slangc ignores bindings of Vulkan.
-    let registers = match text.contains("vk::binding") {
+    let registers = match sources.text().contains("vk::binding") {
         true => "",
         false => REGISTERS,
     };

@@ -17,7 +17,7 @@ pub(crate) enum Language {
 pub(crate) const SHADER_LAB: &str = "shader";
 
 /// Endings of files.
-const ENDINGS: [(&str, Language); 11] = [
+const ENDINGS: [(&str, Language); 13] = [
     ("spv", Language::Spirv),
     ("glsl", Language::Glsl),
     ("comp", Language::Glsl),
@@ -26,6 +26,8 @@ const ENDINGS: [(&str, Language); 11] = [
     ("slang", Language::Slang),
     ("hlsl", Language::Hlsl),
     ("fx", Language::Hlsl),
+    ("usf", Language::Hlsl),
+    ("ush", Language::Hlsl),
     (SHADER_LAB, Language::Hlsl),
     ("wesl", Language::Wesl),
     ("wgsl", Language::Wgsl),

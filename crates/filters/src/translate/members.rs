@@ -27,9 +27,16 @@ pub(super) fn fill_block(
         values.map_or(0, |(_, values)| spell_out(filter, values, false).len())
     };
     let members = list_members(module, block, &find_length)?;
+    let missing = members
+        .iter()
+        .filter(|member| find_values(filter, given, member).is_none());
+    let missing: Vec<&Member> = missing.collect();
+    if !missing.is_empty() {
+        return Err(refuse_missing(filter, &missing));
+    }
     let mut numbers = Vec::new();
     for member in &members {
-        let values = find_values(filter, given, member)?;
+        let values = find_values(filter, given, member).unwrap_or_default();
         let own_name = member.name.rsplit('.').next().unwrap_or_default();
         let is_by_rows = by_rows.contains(&(own_name.to_owned(), member.own_offset));
         let values = spell_out(filter, &values, is_by_rows);
@@ -63,12 +70,35 @@ pub(super) fn fill_block(
     UniformBlock::new(module, block, numbers)
 }
 
-/// Finds the values of a member: its own, those that it is called after, or those of all others.
+/// Names all members that have no value.
+fn refuse_missing(filter: &Filter, missing: &[&Member]) -> String {
+    let names = missing.iter().map(|member| {
+        let Member {
+            name,
+            offset,
+            numbers,
+            ..
+        } = member;
+        format!("\"{name}\" ({} at byte {offset})", describe(numbers))
+    });
+    let names = names.collect::<Vec<_>>().join(", ");
+    let (whose, add) = match missing {
+        [_] => (format!("its member {names} has no value"), "add it"),
+        _ => (format!("its members {names} have no values"), "add them"),
+    };
+    format!(
+        "{whose}; {add} to `values` of its [[pass.binding]], as a number, a parameter, an expression, or one of {}; 0 for \
+         padding, and \"*\" = 0 for all others",
+        filter.list_values()
+    )
+}
+
+/// Finds the values of a member: its own, those that it is called after, or those of all others; none if it has none.
 fn find_values(
     filter: &Filter,
     given: &[(String, Vec<Expression>)],
     member: &Member,
-) -> Result<Vec<Expression>, String> {
+) -> Option<Vec<Expression>> {
     let Member {
         name,
         offset,
@@ -80,14 +110,6 @@ fn find_values(
     (find_given(given, name, *offset).map(|(_, values)| values.clone()))
         .or_else(|| is_named.then(|| vec![Expression::Name(name.clone())]))
         .or_else(|| others.map(|(_, values)| values.clone()))
-        .ok_or_else(|| {
-            format!(
-                "its member \"{name}\" ({} at byte {offset}) has no value; add it to `values` of its [[pass.binding]], as a \
-                 number, a parameter, an expression, or one of {}; 0 for padding, and \"*\" = 0 for all others",
-                describe(numbers),
-                filter.list_values()
-            )
-        })
 }
 
 /// Returns true if `values` means a member by this name: its own, its offset, or that of a struct or array around it.

@@ -11,6 +11,8 @@ use super::compile::{compile, list_installed};
 use super::compiler::Compiler;
 use super::constants::set_constants;
 use super::control_flow::check_control_flow;
+use super::depth::read_depth_as_floats;
+use super::dialects::check_dialect;
 use super::language::{Language, SHADER_LAB};
 use super::matrices::find_by_rows;
 use super::shader_lab::cut_hlsl;
@@ -59,7 +61,9 @@ pub(super) fn compile_shader(
     let is_known = |known: &&Compiler| compiler.is_some_and(|it| it.program == known.program);
     let compiler = installed.iter().copied().find(is_known);
     let compiler = compiler.unwrap_or(installed[0]);
-    compile(find_folder(filter), &text, language, shader, compiler)
+    let sources = Sources::collect(find_folder(filter), shader, &text, language)?;
+    check_dialect(&sources, shader, &filter.convention)?;
+    compile(&sources, shader, compiler)
 }
 
 /// Reads the text of a shader; of ShaderLab, only the HLSL of its pass.
@@ -141,8 +145,14 @@ pub(super) fn read(
     constants: &[(String, f64)],
 ) -> Result<OpenModule, FilterError> {
     let wgsl = || {
+        let text = String::from_utf8_lossy(compiled);
+        let module = parse_wgsl(path, &text)?;
+        let module = match read_depth_as_floats(&module, &text) {
+            Some(text) => parse_wgsl(path, &text)?,
+            None => module,
+        };
         Ok::<_, FilterError>(OpenModule {
-            module: parse_wgsl(path, &String::from_utf8_lossy(compiled))?,
+            module,
             ..OpenModule::default()
         })
     };

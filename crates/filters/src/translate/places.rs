@@ -10,12 +10,13 @@ use crate::shader::SamplerFilter;
 use crate::{Filter, FilterError};
 
 /// Names that compilers give to the block of uniforms outside of any block, or to its type.
-const GLOBALS: [&str; 5] = [
+const GLOBALS: [&str; 6] = [
     "$Global",
     "$Globals",
     "type.$Globals",
     "globalParams",
     "GlobalParams_std140",
+    "gl_DefaultUniformBlock",
 ];
 
 /// A variable of a stage that has to be bound.
@@ -143,15 +144,18 @@ pub(super) fn explains(
     variable: &GlobalVariable,
     place: &BindingPlace,
 ) -> bool {
-    let is_called = |name: &Option<String>, wanted: &str| name.as_deref() == Some(wanted);
     match &binding.place {
-        BindingPlace::Named(name) => is_called(&variable.name, name),
-        BindingPlace::Globals => {
-            let ty = &module.types[variable.ty].name;
-            (GLOBALS.iter()).any(|name| is_called(&variable.name, name) || is_called(ty, name))
-        }
+        BindingPlace::Named(name) => variable.name.as_ref() == Some(name),
+        BindingPlace::Globals => is_globals(module, variable),
         other => other == place,
     }
+}
+
+/// Returns true for the block that a compiler makes of uniforms outside of any block.
+pub(super) fn is_globals(module: &Module, variable: &GlobalVariable) -> bool {
+    let names = [&variable.name, &module.types[variable.ty].name];
+    let mut names = names.into_iter().flatten();
+    names.any(|name| GLOBALS.contains(&&name[..]))
 }
 
 /// Names a variable and its place for messages.

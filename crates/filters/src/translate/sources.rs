@@ -9,6 +9,7 @@ use super::closed::check_closed;
 use super::includes::{list_includes, make_plain};
 use super::language::Language;
 use super::packages::name_packages;
+use super::roots::{refuse_if_used, strip_root};
 use super::sections::{allow_includes, keep_section};
 use crate::FilterError;
 use crate::filter::{PassShader, Stage};
@@ -25,8 +26,8 @@ const MAX_DEPTH: usize = 8;
 /// Texts of a shader and of what it needs.
 pub(super) struct Sources<'a> {
     /// The filter's folder.
-    folder: &'a Path,
-    language: Language,
+    pub folder: &'a Path,
+    pub language: Language,
     stage: Stage,
     /// The shader itself.
     pub shader: PathBuf,
@@ -66,6 +67,11 @@ impl<'a> Sources<'a> {
             _ => sources.resolve_all(&base)?,
         }
         Ok(sources)
+    }
+
+    /// Returns the text of the shader itself.
+    pub fn text(&self) -> &str {
+        &self.texts[&self.shader]
     }
 
     /// Writes all files below a folder.
@@ -131,8 +137,7 @@ impl<'a> Sources<'a> {
                 }
                 // A condition may leave it out.
                 (None, false) => {
-                    lines[include.line - 1] =
-                        format!("#error includes \"{path}\", which is no file of this filter");
+                    lines[include.line - 1] = refuse_if_used(path);
                 }
                 (Some(lead), true) => {
                     let quoted = format!("\"{path}\"");
@@ -187,6 +192,7 @@ impl<'a> Sources<'a> {
         is_module: bool,
     ) -> Result<Option<PathBuf>, String> {
         let leads_out = || self.leads_out(path);
+        let path = strip_root(path);
         let own = folder_of(by);
         let ending = if is_module { ".slang" } else { "" };
         let named = format!("{path}{ending}");

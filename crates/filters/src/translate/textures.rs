@@ -30,7 +30,8 @@ pub(crate) fn check_texture(filter: &Filter, role: Role, texture: &str) -> Resul
             }
         )),
         (Role::Write(_), None) if texture != "output" => Err(format!(
-            "writes \"{texture}\", which is an input; allowed: output, or a [[texture]]"
+            "writes \"{texture}\", which is an input; allowed: output, or a [[texture]]; an image that is read and written is \
+             texture = \"output\", which begins as a copy of color"
         )),
         (Role::Write(Format::Rgba32Float | Format::Rgba16Float), None) => Ok(()),
         (Role::Write(found), None) => Err(format!(
@@ -61,7 +62,9 @@ pub(super) fn describe_image(inner: &TypeInner) -> String {
             class: ImageClass::Depth { .. },
             ..
         } => {
-            "is a depth texture or is sampled with a comparison; read depth through texture_2d<f32>".into()
+            "is a depth texture that is sampled with a comparison or has layers or several samples; read depth through \
+             texture_depth_2d or texture_2d<f32>"
+                .into()
         }
         _ => format!(
             "cannot be bound; allowed: two-dimensional textures of floats or of whole numbers, and storage textures of {}",
