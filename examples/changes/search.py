@@ -4,8 +4,8 @@
 
 It scores the preset and every change of one parameter with `shuttertruth tune serve`, and prints the gain in mean FLIP with its 95 %
 CI over the scenes. The best change counts if its CI excludes 0. Then it tries the best changes two at a time; a pair counts if the CI
-of its gain over the better one excludes 0. What was found is measured again on sealed variants of the scenes, which took no part in
-the choice. README.md has more.
+of its gain over the best single change excludes 0. What was found is measured again on sealed variants of the scenes, which took no
+part in the choice. README.md has more.
 """
 
 import argparse
@@ -34,18 +34,13 @@ def main():
     print(f"{manifest['name']}:{arguments.preset}, {len(start)} scenes at {arguments.size}: FLIP {fmean(start.values()):.4f}\n")
     ranked = rank(scores, singles, start)
     print_table("change", ranked)
-    found = ranked[0] if ranked and ranked[0].gain.low > 0 else None
-    if found and not own:
-        best = [own for own in ranked if own.gain.mean > 0][: arguments.best]
-        found = try_pairs(scores, best, found)
-    if not found:
+    single = ranked[0] if ranked and ranked[0].gain.low > 0 else None
+    if not single:
         print("\nsmallest change: none; no gain's CI excludes 0")
         return
-    sealed = Scores(arguments, manifest, ["--seal", str(arguments.seal)])
-    again = Gain(sealed.measure({}), sealed.measure(found.change))
-    print(f"\non {again.count} sealed scenes: `{name(found.change)}` gains {again}")
-    verdict = f"`{name(found.change)}`" if again.low > 0 else f"none; `{name(found.change)}` does not hold on sealed scenes"
-    print(f"smallest change: {verdict}")
+    best = [own for own in ranked if own.gain.mean > 0][: arguments.best]
+    pair = try_pairs(scores, best, single)
+    confirm(Scores(arguments, manifest, ["--seal", str(arguments.seal)]), single, pair)
 
 
 def parse_arguments():
@@ -204,15 +199,31 @@ def rank(scores, changes, before):
     return sorted(tried, key=lambda own: -own.gain.mean)
 
 
-def try_pairs(scores, best, found):
-    """Prints the gains of pairs over the best single change; returns the best pair if it gains more for certain."""
+def try_pairs(scores, best, single):
+    """Prints the gains of pairs over the best single change; returns the best pair if the CI of its gain excludes 0."""
     pairs = [a.change | b.change for a, b in itertools.combinations(best, 2) if not set(a.change) & set(b.change)]
-    ranked = rank(scores, pairs, found.scores)
+    ranked = rank(scores, pairs, single.scores)
     if not ranked:
-        return found
-    print(f"\nover `{name(found.change)}`:\n")
+        return None
+    print(f"\nover `{name(single.change)}`:\n")
     print_table("pair", ranked)
-    return ranked[0] if ranked[0].gain.low > 0 else found
+    return ranked[0] if ranked[0].gain.low > 0 else None
+
+
+def confirm(sealed, single, pair):
+    """Prints the gains on sealed scenes, and what holds there, too."""
+    before, after = sealed.measure({}), sealed.measure(single.change)
+    gain = Gain(before, after)
+    print(f"\non {gain.count} sealed scenes: `{name(single.change)}` gains {gain}")
+    more = Gain(after, sealed.measure(pair.change)) if pair else None
+    if more:
+        print(f"`{name(pair.change)}` gains {more} over it")
+    if gain.low <= 0:
+        print("smallest change: none; its gain does not hold on sealed scenes")
+        return
+    print(f"smallest change: `{name(single.change)}`")
+    if more and more.low > 0:
+        print(f"of two parameters: `{name(pair.change)}`")
 
 
 def name(change):
