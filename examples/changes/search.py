@@ -1,6 +1,6 @@
 """Searches the smallest change of a preset that lowers its error: one parameter first, then two.
 
-    python3 examples/changes/search.py --filter shaders/godot --preset addon --size 160x90 --samples-per-pixel 64 --out out/changes
+    python3 examples/changes/search.py --filter shaders/godot --preset addon --out out/changes > results/changes/godot_addon.md
 
 It scores the preset and every change of one parameter with `shuttertruth tune serve`, and prints the gain in mean FLIP with its 95 %
 CI over the scenes. The best change counts if its CI excludes 0. Then it tries the best changes two at a time; a pair counts if the CI
@@ -11,6 +11,7 @@ part in the choice. README.md has more.
 import argparse
 import itertools
 import json
+import shlex
 import subprocess
 import sys
 import tomllib
@@ -31,7 +32,8 @@ def main():
 
     scores = Scores(arguments, manifest)
     start = scores.measure({})
-    print(f"{manifest['name']}:{arguments.preset}, {len(start)} scenes at {arguments.size}: FLIP {fmean(start.values()):.4f}\n")
+    print_head(f"{manifest['name']}:{arguments.preset}")
+    print(f"{len(start)} scenes at {arguments.size}, {arguments.samples_per_pixel} samples per pixel: FLIP {fmean(start.values()):.4f}\n")
     ranked = rank(scores, singles, start)
     print_table("change", ranked)
     single = ranked[0] if ranked and ranked[0].gain.low > 0 else None
@@ -137,6 +139,7 @@ def t_quantile(freedom):
     """Student's t at 97.5 %, by the expansion of Abramowitz and Stegun 26.7.5: off by 0.001 at most from 5 degrees of freedom on."""
     z = NormalDist().inv_cdf(0.975)
     terms = [z, (z**3 + z) / 4, (5 * z**5 + 16 * z**3 + 3 * z) / 96, (3 * z**7 + 19 * z**5 + 17 * z**3 - 15 * z) / 384]
+    terms += [(79 * z**9 + 776 * z**7 + 1482 * z**5 - 1920 * z**3 - 945 * z) / 92160]
     return sum(term / freedom**power for power, term in enumerate(terms))
 
 
@@ -224,6 +227,12 @@ def confirm(sealed, single, pair):
     print(f"smallest change: `{name(single.change)}`")
     if more and more.low > 0:
         print(f"of two parameters: `{name(pair.change)}`")
+
+
+def print_head(preset):
+    """Prints the heading of a page, and the command without the place of the program."""
+    words = [own for before, own in zip(["", *sys.argv[1:]], sys.argv[1:]) if "--program" not in (before, own)]
+    print(f"# The smallest change of {preset}\n\nPrinted by `examples/changes/search.py {shlex.join(words)}`.\n")
 
 
 def name(change):
