@@ -51,7 +51,10 @@ fn the_search_finds_a_known_mistake_and_nothing_where_nothing_gains() {
         &format!("--preset default --change depth_scale=1000 {SIX}"),
     );
     assert_done(&output);
-    assert_contains(&stdout(&output), "smallest change: none");
+    assert_contains(
+        &stdout(&output),
+        "smallest change: none; no gain's CI excludes 0",
+    );
 }
 
 #[test]
@@ -134,16 +137,31 @@ fn kept_changes_gain_for_certain_by_their_own_tables() {
     assert!(published >= 4, "{published} changes");
 }
 
-#[test]
-fn the_quantile_of_student_s_t_is_that_of_the_tables() {
+/// Runs Python that may import the script; returns what it prints.
+fn run_python(code: &str) -> String {
     let mut command = Command::new(python_with(&["statistics"]));
     command.current_dir(root().join("examples/changes"));
-    let code = "import search; print(*(f'{search.t_quantile(n):.3f}' for n in (5, 10, 25, 100)))";
     let output = command.args(["-B", "-c", code]).output().unwrap();
-    assert_eq!(
-        stdout(&output).trim(),
-        "2.570 2.228 2.060 1.984",
-        "{}",
-        stderr(&output)
+    assert_done(&output);
+    stdout(&output)
+}
+
+#[test]
+fn the_quantile_of_student_s_t_is_that_of_the_tables() {
+    let code = "import search; print(*(f'{search.t_quantile(n):.3f}' for n in (5, 10, 25, 100)))";
+    assert_eq!(run_python(code).trim(), "2.570 2.228 2.060 1.984");
+}
+
+#[test]
+fn a_change_without_gain_on_sealed_scenes_is_none() {
+    let code = "
+import search
+from types import SimpleNamespace as Own
+scores = {str(n): 0.1 + n / 100 for n in range(6)}
+sealed = Own(measure=lambda change: scores)
+search.confirm(sealed, Own(change={'taps': 3}), None)";
+    assert_contains(
+        &run_python(code),
+        "on 6 sealed scenes: `taps=3` gains +0.0000 | smallest change: none; its gain does not hold on sealed scenes",
     );
 }
