@@ -92,7 +92,7 @@ pub fn blender(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
         return vec![own(1.0)];
     }
     let samples = match preset {
-        "compositor" | "compositor_mended" => 32,
+        "compositor" => 32,
         _ => 8,
     };
     let parts = (0..samples).flat_map(|i| {
