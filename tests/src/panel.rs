@@ -133,7 +133,7 @@ impl Shot {
 
 /// Makes the scene with a panel that moves in the picture by `speed` metres per frame.
 fn moving_scene(mover: Mover, speed: f64, degrees: f64) -> Scene {
-    let mut scene = load_scene(&crate::scenes().join("sliding_panel"), None).unwrap();
+    let mut scene = load_scene(crate::scenes().join("sliding_panel"), None).unwrap();
     let turned = DQuat::from_rotation_z(degrees.to_radians());
     let step = turned * DVec3::X * speed;
     let slide = |motion: &mut Motion, key: Key, step: DVec3| {
