@@ -100,8 +100,8 @@ fn every_engine_has_lines_of_the_commit_that_its_preset_names() {
         let (filter, preset) = ships.split_once(':').unwrap();
         let mut presets = presets.clone();
         let found = presets.find(|(name, own)| *name == filter && own["name"] == preset);
-        let source = found.expect(ships).1.get("source");
-        source.map(|source| source["commit"].as_str().expect(ships).to_owned())
+        let source = &found.expect(ships).1["source"];
+        source["commit"].as_str().map(str::to_owned)
     };
     let read = |below: &str| fs::read_to_string(root().join(below)).unwrap();
     let engines: toml::Table = read("results/engines.toml").parse().unwrap();

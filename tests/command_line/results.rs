@@ -31,13 +31,7 @@ use crate::links::find_pages;
 use crate::sandbox::Sandbox;
 
 /// Presets that are worse than no blur, the best of them first.
-const WORSE: [&str; 5] = [
-    "urp:high",
-    "urp:medium",
-    "urp:default",
-    "three:default",
-    "jimenez:o3de",
-];
+const WORSE: [&str; 1] = ["three:default"];
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../results")
