@@ -13,7 +13,6 @@ use tracer::SceneId;
 use crate::bounds::SceneBounds;
 use crate::find_sequence;
 use crate::numbers::number;
-use crate::outcome::badness_within;
 
 /// Margin, in standard deviations.
 const DEVIATIONS: f64 = 3.0;
@@ -130,7 +129,7 @@ fn propose(metric: Metric, samples: &[Sample]) -> (f64, String) {
         .collect();
     let reached: Vec<f64> = (samples.iter().zip(&badness))
         .map(|(sample, badness)| match &sample.interval {
-            Some(interval) => badness_within(ideal, interval).1.max(*badness),
+            Some(interval) => ideal.badness_within(interval).1.max(*badness),
             None => *badness,
         })
         .collect();

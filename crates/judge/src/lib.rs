@@ -42,7 +42,7 @@ use judged_score::judge_sequence;
 pub use judged_score::{JudgedScore, judge_scores};
 pub use judgement::{JUDGEMENT_FILE, Judgement, Verdict};
 pub use numbers::{number, round_to_digits};
-pub use outcome::{Decision, Outcome, badness_within};
+pub use outcome::{Decision, Outcome};
 pub use ranking::filters::{
     MAX_RANKED, RANK_RULE, RankedFilter, list_summarized, rank_for_summary,
 };

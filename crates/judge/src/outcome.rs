@@ -74,7 +74,7 @@ pub fn judge_score(
     }
     let (best, worst) = match interval {
         None => [ideal.badness(score.value); 2].into(),
-        Some(Some(interval)) => badness_within(ideal, interval),
+        Some(Some(interval)) => ideal.badness_within(interval),
         Some(None) => return Outcome::Inconclusive,
     };
     if worst <= limit {
@@ -91,17 +91,6 @@ pub(crate) fn limit_as_badness(ideal: Ideal, limit: f64) -> f64 {
     match ideal {
         Ideal::Highest => -limit,
         Ideal::Lowest | Ideal::Target(_) => limit,
-    }
-}
-
-/// Returns the smallest and the largest badness within an interval.
-pub fn badness_within(ideal: Ideal, interval: &Interval) -> (f64, f64) {
-    let [low, high] = [interval.low, interval.high].map(|end| ideal.badness(end));
-    match ideal {
-        Ideal::Target(target) if (interval.low..=interval.high).contains(&target) => {
-            (0.0, low.max(high))
-        }
-        _ => (low.min(high), low.max(high)),
     }
 }
 
@@ -145,7 +134,7 @@ mod tests {
             (Ideal::Target(2.0), (0.5, 1.25)),
             (Ideal::Target(0.5), (0.25, 1.0)),
         ] {
-            let found = badness_within(ideal, &interval(0.75, 1.5));
+            let found = ideal.badness_within(&interval(0.75, 1.5));
             assert_eq!(found, expected, "{ideal:?}");
         }
     }

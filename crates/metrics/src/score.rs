@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::Interval;
+
 /// A measured value.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Score {
@@ -78,6 +80,15 @@ impl Ideal {
             Ideal::Lowest => value,
             Ideal::Highest => -value,
             Ideal::Target(target) => (value - target).abs(),
+        }
+    }
+
+    /// Returns the smallest and the largest badness within an interval.
+    pub fn badness_within(self, interval: &Interval) -> (f64, f64) {
+        let [low, high] = [interval.low, interval.high].map(|end| self.badness(end));
+        match self {
+            Ideal::Target(target) if interval.holds(target) => (0.0, low.max(high)),
+            _ => (low.min(high), low.max(high)),
         }
     }
 

@@ -1,6 +1,6 @@
 //! A finding in words: its status, its score and the remedy.
 
-use judge::{Finding, Length, Level, MAX_SAMPLES, Outcome, badness_within, number};
+use judge::{Finding, Length, Level, MAX_SAMPLES, Outcome, number};
 use maud::{Markup, Render, html};
 use metrics::{Ideal, Interval};
 
@@ -107,7 +107,7 @@ pub fn finding_score(finding: &Finding) -> String {
     }
     if let Some(interval) = &finding.interval {
         let (low, high) = match ideal {
-            Ideal::Target(_) => badness_within(ideal, interval),
+            Ideal::Target(_) => ideal.badness_within(interval),
             _ => (interval.low, interval.high),
         };
         text += &format!(" (95 % CI {} to {})", number(low), number(high));

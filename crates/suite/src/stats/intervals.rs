@@ -189,8 +189,8 @@ fn worst_interval(
 
 /// Joins the intervals of all objects that may have the worst score.
 fn join_worst(all: &[Interval], ideal: Ideal) -> Option<Interval> {
-    let least = |own: &Interval| least_badness(ideal, own);
-    let most = |own: &Interval| f64::max(ideal.badness(own.low), ideal.badness(own.high));
+    let least = |own: &Interval| ideal.badness_within(own).0;
+    let most = |own: &Interval| ideal.badness_within(own).1;
     let certain = all.iter().map(least).fold(f64::NEG_INFINITY, f64::max);
     let mut candidates = (all.iter())
         .filter(|own| most(own) >= certain)
@@ -205,14 +205,6 @@ fn join_worst(all: &[Interval], ideal: Ideal) -> Option<Interval> {
             ..worst
         }
     }))
-}
-
-/// Returns the smallest badness of an interval's values.
-fn least_badness(ideal: Ideal, own: &Interval) -> f64 {
-    match ideal {
-        Ideal::Target(target) if own.holds(target) => 0.0,
-        _ => f64::min(ideal.badness(own.low), ideal.badness(own.high)),
-    }
 }
 
 /// Cuts off the values at the ends that are better than the least that is certain.
