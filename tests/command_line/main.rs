@@ -38,7 +38,6 @@ mod kept_cases;
 mod links;
 mod own_filter;
 mod packs;
-mod people;
 mod quotes;
 mod reference_width;
 mod refusals;

@@ -1,6 +1,5 @@
 //! Reports in a real browser: pictures, pointer and keys.
 
-mod ask;
 #[expect(dead_code, reason = "the pictures of pages need more of it")]
 mod browser;
 mod cases;

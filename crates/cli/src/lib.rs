@@ -36,7 +36,7 @@ pub use output::terminal_text;
 pub use selection::{Programs, SceneChoice, select_filters, select_scenes};
 pub use tables::{
     annotations, check_text, compare_table, junit, list_once, markdown_table, paired_table,
-    preferences_table, range_text, ranking_text, run_table, score_table, summary,
+    range_text, ranking_text, run_table, score_table, summary,
 };
 
 /// Runs the command of the command line and returns its exit code.

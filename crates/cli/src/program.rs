@@ -60,9 +60,6 @@ pub enum Command {
     /// Accept scores as a baseline, or propose bounds
     #[command(subcommand, disable_help_subcommand = true)]
     Limits(LimitsCommand),
-    /// Ask people about pictures, and read their answers
-    #[command(subcommand, disable_help_subcommand = true)]
-    People(PeopleCommand),
     /// Print completions for a shell
     #[command(hide = true)]
     Completions(description::CompletionsArgs),
@@ -133,15 +130,6 @@ pub enum LimitsCommand {
     Accept(accept::AcceptArgs),
     /// Run several times, measure how scores scatter, and propose bounds
     Calibrate(calibrate::CalibrateArgs),
-}
-
-/// The commands of `people`.
-#[derive(Debug, Subcommand)]
-pub enum PeopleCommand {
-    /// Make a page that asks which pictures of a finished run look better, or more like the truth
-    Ask(ask::AskArgs),
-    /// Turn the answers into a scale of filters, and compare scores with it
-    Preferences(preferences::PreferencesArgs),
 }
 
 impl Cli {
@@ -231,8 +219,6 @@ pub fn execute(program: &Cli) -> Result<Ending, Error> {
         Command::Truths(TruthsCommand::Verify(args)) => return verify::execute(args),
         Command::Limits(LimitsCommand::Accept(args)) => accept::execute(args),
         Command::Limits(LimitsCommand::Calibrate(args)) => calibrate::execute(args),
-        Command::People(PeopleCommand::Ask(args)) => ask::execute(args),
-        Command::People(PeopleCommand::Preferences(args)) => preferences::execute(args),
         Command::Completions(args) => description::print_completions(args, Cli::all_visible()),
         Command::Man(args) => description::write_manual(args, Cli::all_visible()),
     };

@@ -12,7 +12,6 @@ const STYLES: [&str; 10] = [
     include_str!("assets/live.css"),
     include_str!("assets/comparison.css"),
     include_str!("assets/sequence.css"),
-    include_str!("assets/ask.css"),
     include_str!("assets/media.css"),
 ];
 

@@ -1,7 +1,6 @@
-//! Pages of a run, a comparison and a tuning, and one that asks people. Each opens from disk and fetches nothing.
+//! Pages of a run, a comparison and a tuning. Each opens from disk and fetches nothing.
 
 mod address;
-mod ask;
 mod case;
 mod case_table;
 mod charts;
@@ -24,7 +23,6 @@ mod tuning;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-pub use ask::{ASK_PAGE, write_ask_folder};
 use case::case_view::CaseView;
 use case::{CaseTables, case_section};
 use case_table::CaseTable;

@@ -87,7 +87,6 @@ pub static ALL: [Target; 33] = [
         all.extend(shipped("scenes", "bounds.toml").into_iter().take(8));
         all
     }),
-    Target::new("answers", 450, Text("json"), commands::read).seeds(commands::replaced),
     Target::new("journal", 700, Text("json"), |place, input| {
         let folder = place.copy("tuned");
         let journal = place.write("tuned/journal.jsonl", input);

@@ -1,7 +1,6 @@
 //! One file per command, and their shared work.
 
 pub mod accept;
-pub mod ask;
 pub mod audit;
 pub mod bench;
 pub mod blur;
@@ -25,7 +24,6 @@ pub mod merge;
 pub mod pack;
 mod pages;
 pub mod plan;
-pub mod preferences;
 pub mod render;
 pub mod report;
 pub mod result;
