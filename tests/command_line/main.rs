@@ -37,7 +37,6 @@ mod kept;
 mod kept_cases;
 mod links;
 mod own_filter;
-mod packs;
 mod quotes;
 mod reference_width;
 mod refusals;

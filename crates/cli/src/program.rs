@@ -54,7 +54,7 @@ pub enum Command {
     /// Exchange scenes and frames with engines
     #[command(subcommand, disable_help_subcommand = true)]
     Engine(EngineCommand),
-    /// Render, join, pack and verify truths; split a run into jobs
+    /// Render and join truths; split a run into jobs
     #[command(subcommand, disable_help_subcommand = true)]
     Truths(TruthsCommand),
     /// Accept scores as a baseline, or propose bounds
@@ -116,10 +116,6 @@ pub enum TruthsCommand {
     Plan(plan::PlanArgs),
     /// Join what several machines made: replicates of truths, or runs of some of the cases
     Merge(merge::MergeArgs),
-    /// Put the truths of a finished run into one archive, so that other machines need not render
-    Pack(pack::PackArgs),
-    /// Trace random tiles of truths again, and compare them with the files byte for byte
-    Verify(verify::VerifyArgs),
 }
 
 /// The commands of `limits`.
@@ -215,8 +211,6 @@ pub fn execute(program: &Cli) -> Result<Ending, Error> {
         Command::Truths(TruthsCommand::Render(args)) => render::execute(args),
         Command::Truths(TruthsCommand::Plan(args)) => plan::execute(args, &program.given),
         Command::Truths(TruthsCommand::Merge(args)) => merge::execute(args),
-        Command::Truths(TruthsCommand::Pack(args)) => pack::execute(args),
-        Command::Truths(TruthsCommand::Verify(args)) => return verify::execute(args),
         Command::Limits(LimitsCommand::Accept(args)) => accept::execute(args),
         Command::Limits(LimitsCommand::Calibrate(args)) => calibrate::execute(args),
         Command::Completions(args) => description::print_completions(args, Cli::all_visible()),

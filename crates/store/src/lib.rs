@@ -1,7 +1,6 @@
 //! The folder of finished work: who writes there, names of rendered files, records of results with their inputs, and files
 //! from other folders and from archives.
 
-mod archive;
 mod clear;
 mod error;
 mod folder;
@@ -15,7 +14,6 @@ mod record;
 mod render_file;
 mod tracked;
 
-pub use archive::{Manifest, PACK_FORMAT, Pack, PackedFile, write_archive};
 pub use clear::clear_scene;
 pub use error::Error;
 pub use folder::{is_below, refuse_long_names, refuse_scene, scene_folder};

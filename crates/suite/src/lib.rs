@@ -12,14 +12,12 @@ mod measure;
 mod merge;
 mod monitor;
 mod named;
-mod pack;
 mod random;
 mod render;
 mod run;
 mod runner;
 mod score;
 mod stats;
-mod verify;
 
 pub use bench::{
     BASELINE, Bench, BenchPlan, CaseCost, GROWTH_FROM, REACHES, ReachCost, ReachPoint, Spread,
@@ -54,8 +52,6 @@ pub use measure::sequence::{CHANGE_PICTURE, SEQUENCE_PICTURE};
 pub use merge::earlier::{EarlierCases, find_newer_sizes, folder_for_size};
 pub use merge::{holds_run, merge_runs};
 pub use monitor::{Monitor, Step};
-pub use pack::unpacked::{Unpacked, take_pack};
-pub use pack::write_pack;
 pub use random::Random;
 pub use render::exclusion::{EXCLUSION_FILE, FilterFrame, read_exclusion};
 pub use render::ladders::{SHARP, sharp_picture};
@@ -83,10 +79,6 @@ pub use stats::parts::{Groups, MIN_REPLICATES};
 pub use stats::scene_mean::{
     MIN_SCENES, ONE_SIDED, SceneMean, TWO_SIDED, Weighted, plain_mean, scene_mean,
 };
-pub use verify::difference::TRAVERSALS;
-pub use verify::scene::{Verified, verify_scene};
-pub use verify::scene_renders::{SceneRenders, list_scene_renders};
-pub use verify::tiles::{TILE_SIDE, Verification};
 
 /// Program name and version, as recorded in files and runs.
 pub const PROGRAM: &str = concat!("shuttertruth ", env!("CARGO_PKG_VERSION"));

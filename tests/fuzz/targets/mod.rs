@@ -3,7 +3,6 @@
 mod commands;
 mod engine;
 mod filter;
-mod pack;
 mod pictures;
 mod planted;
 mod program;
@@ -17,7 +16,7 @@ use crate::target::Shape::{Bytes, CommandLine, Picture, Spirv, Text};
 use crate::target::Target;
 
 /// All targets.
-pub static ALL: [Target; 33] = [
+pub static ALL: [Target; 30] = [
     Target::new("scene", 3_500, Text("scene"), |place, input| {
         scene::load(place, "scene.toml", input).map(drop)
     })
@@ -61,7 +60,6 @@ pub static ALL: [Target; 33] = [
         commands::run(place, file, input, &[line])
     })
     .seeds(pictures::finished),
-    Target::new("verify", 150, Picture, pictures::verify).seeds(pictures::kept),
     Target::new("capture", 300, Text("capture"), engine::capture),
     Target::new("ingested", 300, Text("json"), engine::ingested),
     Target::new("filter", 2_000, Text("filter"), filter::manifest)
@@ -98,8 +96,6 @@ pub static ALL: [Target; 33] = [
     })
     .seeds(|place| made(place, "tuned", &["journal.jsonl"])),
     Target::new("tune_json", 450, Text("json"), commands::read).seeds(commands::replaced),
-    Target::new("pack_manifest", 450, Text("json"), pack::manifest),
-    Target::new("pack_archive", 450, Bytes, pack::unpack),
     Target::new("records", 50, Text("json"), program::records).seeds(|place| {
         made(
             place,

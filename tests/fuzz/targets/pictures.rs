@@ -4,12 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use filters::Convention;
-use frame::{ExrFile, Frame, Ladder, Replicate, Truth, read_exr, read_passes, write_exr};
-use suite::{
-    Monitor, TRAVERSALS, Verification, list_scene_renders, read_finished_picture, score,
-    verify_scene,
-};
-use tracer::load_scene;
+use frame::{Frame, Ladder, Replicate, Truth, read_exr, read_passes};
+use suite::{read_finished_picture, score};
 
 use crate::fixture::files;
 use crate::place::Place;
@@ -49,66 +45,6 @@ pub fn rendered(place: &Place) -> Vec<Vec<u8>> {
 pub fn finished(place: &Place) -> Vec<Vec<u8>> {
     let textures = shipped("tests/fuzz/corpus/texture", "");
     [made(place, "out", &["output.exr"]), textures].concat()
-}
-
-/// Verifies a kept render in its own place by tracing it again: a file with other attributes is never accepted.
-pub fn verify(place: &mut Place, input: &[u8]) -> Option<()> {
-    let path = place.write("input.exr", input);
-    let input = read_exr(&path).ok()?;
-    let out = place.copy("out");
-    // The file with attributes most like the input's.
-    let alike = |path: &PathBuf| {
-        let own = read_exr(path).unwrap().attributes.into_iter();
-        let same = own.filter(|(name, value)| input.attributes.get(name) == Some(value));
-        same.count()
-    };
-    let kept = list_kept(&out).into_iter().max_by_key(alike);
-    let place_of = kept.expect("a run leaves pictures");
-    let (bytes, honest) = (fs::read(&place_of).unwrap(), read_exr(&place_of).unwrap());
-    fs::copy(&path, &place_of).unwrap();
-    let scene = load_scene(place.copy("scenes").join("plate"), None).unwrap();
-    let kept = list_scene_renders(&out, &out).unwrap();
-    let verification = Verification { seed: 1, tiles: 1 };
-    let verified = verify_scene(&scene, &kept[0], &verification, Monitor::SILENT);
-    fs::write(place_of, bytes).unwrap();
-    if verified.ok()?.differences.is_empty() {
-        let own_attributes = |file: ExrFile| {
-            let mut own = file.attributes;
-            own.remove("checksum");
-            let word = own.remove("traversal");
-            assert!(word.is_some_and(|word| TRAVERSALS.contains(&&*word)));
-            own
-        };
-        let [honest, input] = [honest, input].map(own_attributes);
-        assert_eq!(honest, input, "a forged file was taken");
-    }
-    Some(())
-}
-
-/// Returns frames, truths, first replicates and rungs, each with a copy that claims to be an engine's.
-pub fn kept(place: &Place) -> Vec<Vec<u8>> {
-    let copy = place.folder.join("drawn.exr");
-    let both = |path: PathBuf| {
-        let mut drawn = read_exr(&path).unwrap();
-        drawn.set("engine", "another");
-        write_exr(&copy, &drawn).unwrap();
-        [path, copy.clone()].map(|path| fs::read(path).unwrap())
-    };
-    let mut kept = list_kept(&place.fixture.join("out"));
-    kept.retain(|path| {
-        !path.to_string_lossy().contains("replicate_00") || path.ends_with("replicate_000.exr")
-    });
-    kept.into_iter().flat_map(both).collect()
-}
-
-/// Lists the rendered files of a run, not those of filters.
-fn list_kept(out: &Path) -> Vec<PathBuf> {
-    let mut found = files(&out.join("plate"), ".exr");
-    found.retain(|path| {
-        let path = path.to_string_lossy();
-        path.ends_with("frame.exr") || path.contains("/truth_") || path.contains("/ladder_")
-    });
-    found
 }
 
 /// Returns the frame, the truth and the ladder's folder of a scene's folder.

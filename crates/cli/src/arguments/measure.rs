@@ -49,8 +49,8 @@ pub struct MeasureArgs {
     /// Frames of noise, to separate a noisy filter's noise from its other errors; 0 for none.
     #[arg(help_heading = "Filters", long, value_name = "N", default_value_t = 16, value_parser = within::<u32>(0..=1024))]
     pub jitter_frames: u32,
-    /// Pack, or folder laid out as --out, with frames, truths and ladders. Those of the same inputs are not rendered again.
-    #[arg(help_heading = "Scenes and files", long, value_name = "FILE|DIR")]
+    /// Folder laid out as --out, with frames, truths and ladders. Those of the same inputs are not rendered again.
+    #[arg(help_heading = "Scenes and files", long, value_name = "DIR")]
     pub truths: Option<PathBuf>,
     /// Remove the truths and cases of these scenes in --out first.
     #[arg(help_heading = "Scenes and files", long, conflicts_with = "truths")]

@@ -10,7 +10,6 @@ use suite::{Error, Run, RunPlan, estimate_run, measure_scenes, open_gpu, refuse_
 use tracer::{Progress, Watch};
 
 use super::expected::print_expected_time;
-use super::kept_truths::take_packed_truths;
 use super::pages::write_run;
 use super::run_plan::{lock_out, make_plan};
 use crate::arguments::{MeasureArgs, SequenceArgs, within};
@@ -124,7 +123,6 @@ fn run_all(
 ) -> Result<Vec<Run>, Error> {
     let total = adapters.len() as u64 * u64::from(args.runs);
     let seeds = list_seeds(plan.render.seed, args.runs)?;
-    let truths = plan.truths.clone();
     let mut runs: Vec<Run> = Vec::new();
     for adapter in adapters {
         let gpu = open_gpu(&plan.filters, *adapter, plan.monitor)?;
@@ -138,8 +136,6 @@ fn run_all(
             // All adapters share the truths.
             plan.out = args.measure.scenes.out.join(format!("seed_{seed}"));
             let _lock = lock_out(plan)?;
-            plan.truths.clone_from(&truths);
-            take_packed_truths(plan)?;
             let finished = measure_scenes(plan, gpu.as_ref(), std::env::args().collect())?;
             write_run(&finished, &plan.out)?;
             refuse_failures(&finished.failures)?;

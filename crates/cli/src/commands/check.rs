@@ -184,7 +184,7 @@ fn run_and_judge(args: &CheckArgs, judging: &Judging) -> Result<Judged, Error> {
         require_bounds(root, bounds.iter(), &plan.filters, plan.frames)?;
     }
     if let Some(truths) = &plan.truths {
-        let way_out = "choose a folder or a pack outside of the repository for --truths";
+        let way_out = "choose a folder outside of the repository for --truths";
         refuse_tracked(truths, way_out)?;
     }
     if !plan.no_cache {

@@ -5,7 +5,6 @@ use store::FolderLock;
 use suite::{EarlierCases, Error, Run, RunPlan, estimate_run, folder_for_size, measure_scenes};
 
 use super::expected::print_expected;
-use super::kept_truths::take_packed_truths;
 use super::run_plan::lock_out;
 use crate::output::{count_text, is_quiet, print_note};
 
@@ -24,7 +23,6 @@ pub struct MeasuredRun {
 pub fn measure(plan: &mut RunPlan, gpu: Option<&Gpu>) -> Result<MeasuredRun, Error> {
     choose_folder(plan)?;
     let lock = lock_out(plan)?;
-    take_packed_truths(plan)?;
     let earlier = EarlierCases::find(plan, gpu.map(|gpu| &gpu.adapter)).map_err(name_options)?;
     if !is_quiet() {
         print_expected(&estimate_run(plan, gpu), &plan.out);
