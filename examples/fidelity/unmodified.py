@@ -28,8 +28,7 @@ PAIRS = [
     ("bevy", "bevy:high", ["bevy_motion_blur.samples=8"]),
     ("kino", "kino:default", []),
     ("ppv2", "kino:ppv2", []),
-    ("urp", "urp:default", []),
-    ("urp", "urp:mended", ["unity_urp.intensity=0.5"]),
+    ("urp", "urp:default", ["unity_urp.intensity=0.5"]),
     ("godot_jump_flood_paper", "jump_flood:paper", []),
     ("godot_jump_flood_paper", "jump_flood:paper", ["jump_flood.map=float16"]),
     ("godot_jump_flood_july_2024", "jump_flood:july_2024", []),
@@ -37,7 +36,7 @@ PAIRS = [
     ("godot_jump_flood", "jump_flood:july_2024", []),
     ("godot_guertin", "guertin:paper", []),
     ("godot_guertin", "mcguire:paper", []),
-    ("three", "three:default", []),
+    ("three", "three:default", ["three_motion_blur.blur_amount=0.5"]),
     ("babylon", "babylon:default", []),
     ("babylon_screen", "babylon_screen:default", []),
 ]

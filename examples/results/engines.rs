@@ -1,5 +1,7 @@
 //! Engines with the presets that they ship, and their scores.
 
+use std::collections::BTreeMap;
+
 use judge::RankedFilter;
 use serde::Deserialize;
 use suite::IDENTITY;
@@ -12,14 +14,76 @@ const ENGINES: &str = include_str!("../../results/engines.toml");
 #[serde(deny_unknown_fields)]
 pub struct Engine {
     pub name: String,
-    /// Preset that equals the engine's default.
-    pub ships: String,
+    /// Preset that equals the engine's default, but for its length: 180 degrees.
+    pub shape: String,
+    /// What its own length needs.
+    pub shipped: Shipped,
+    /// Measured smear as shipped, in degrees of the frame.
+    pub length: u32,
+    /// Measured smear of `shape`, in degrees of the frame.
+    pub at_180: u32,
+    /// Its own words on that length, with their place; or `none`.
+    pub states: String,
+    /// Commit that the preset follows.
+    pub commit: String,
+    /// Date of that commit.
+    pub date: String,
+    /// Date when that commit was compared with the engine's newest.
+    pub compared: String,
+    /// What its newest has instead, if that is another blur.
+    pub moved_on: Option<String>,
+    pub default: DefaultState,
+    /// Place in its code that says so.
+    pub default_at: String,
     /// Its mistake, in one sentence.
     pub wrong: String,
     /// The smallest measured change that improves most.
     pub change: Option<Change>,
     /// Page below results/findings with its code.
     pub finding: Option<String>,
+    /// True if the preset is compared with a transcription only, since its shader runs nowhere here.
+    #[serde(default)]
+    pub transcription_alone: bool,
+}
+
+/// Whether an engine blurs without being asked to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum DefaultState {
+    /// It blurs.
+    On,
+    /// It has a switch, or a strength, that is off.
+    Off,
+    /// It blurs once someone adds the effect.
+    Added,
+}
+
+impl DefaultState {
+    /// Answers whether it is off by default.
+    pub fn text(self) -> &'static str {
+        match self {
+            Self::On => "no",
+            Self::Off => "yes",
+            Self::Added => "until added",
+        }
+    }
+}
+
+/// What the engine's own length needs on top of its preset.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Shipped {
+    /// Exposure that is handed over, in frames at 60 per second; 1 for an engine that has none.
+    pub exposure: f64,
+    /// Values of parameters.
+    #[serde(default)]
+    pub values: BTreeMap<String, String>,
+    /// True if it sees the camera's motion only.
+    #[serde(default)]
+    pub camera_moves: bool,
+    /// True if its length depends on the size of the picture.
+    #[serde(default)]
+    pub full_size: bool,
 }
 
 impl Engine {
@@ -53,31 +117,43 @@ pub fn list_engines() -> Vec<Engine> {
 /// An engine with its scores.
 pub struct Measured<'a> {
     pub engine: Engine,
-    pub shipped: &'a RankedFilter,
+    /// Scores of its shape; none if the file of results lacks them.
+    pub shape: Option<Shape<'a>>,
+}
+
+/// The scores of an engine's shape.
+pub struct Shape<'a> {
+    pub ranked: &'a RankedFilter,
     /// Mean FLIP of no blur, under the same shutter.
     pub none: f64,
     /// Mean FLIP after the change.
     pub changed: Option<f64>,
 }
 
-/// Finds the scores of the engines, the worst against no blur first.
+/// Finds the scores of the engines, the worst against no blur first, and those without at the end.
 pub fn measured(groups: &[Vec<RankedFilter>]) -> Vec<Measured<'_>> {
     let find = |name: &str| groups.iter().flatten().find(|own| own.name == name);
-    let measure = |engine: Engine| {
-        let shipped = find(&engine.ships)?;
-        let group = (groups.iter()).find(|group| group[0].alignment == shipped.alignment)?;
+    let score = |engine: &Engine| {
+        let ranked = find(&engine.shape)?;
+        let group = (groups.iter()).find(|group| group[0].alignment == ranked.alignment)?;
         let none = group.iter().find(|own| own.filter == IDENTITY)?.mean;
         let change = engine.change.as_ref();
         let changed = change.and_then(|change| Some(find(&change.preset)?.mean));
-        Some(Measured {
-            engine,
-            shipped,
+        Some(Shape {
+            ranked,
             none,
             changed,
         })
     };
-    let mut all: Vec<Measured> = list_engines().into_iter().filter_map(measure).collect();
-    let badness = |own: &Measured| own.shipped.mean / own.none;
+    let measure = |engine: Engine| Measured {
+        shape: score(&engine),
+        engine,
+    };
+    let mut all: Vec<Measured> = list_engines().into_iter().map(measure).collect();
+    let badness = |own: &Measured| {
+        let shape = own.shape.as_ref();
+        shape.map_or(f64::NEG_INFINITY, |shape| shape.ranked.mean / shape.none)
+    };
     all.sort_by(|a, b| badness(b).total_cmp(&badness(a)));
     all
 }

@@ -1,9 +1,10 @@
 //! Keeps results: puts the scores of runs of different scenes into their file below `results/`, and writes its page from all files
 //! there: `cargo run -p cli --example results -- out/run.json`. A file named `bench` and more, as pages save it, goes into its card's file
-//! below `results/bench/`. Without a file it only writes the page. With `--site FOLDER` it keeps nothing, and writes the source of the
+//! below `results/bench/`. Without a file it only writes the page. With `--lengths` it prints the lengths of engines' smears. With `--site FOLDER` it keeps nothing, and writes the source of the
 //! site with live cases of one run: `make site`.
 
 mod engines;
+mod lengths;
 mod page;
 mod site;
 
@@ -16,6 +17,7 @@ use report::{write_case_strip, write_report};
 use suite::{ACCUMULATE, Bench, Case, Error, Run};
 
 use crate::engines::list_engines;
+use crate::lengths::{Lengths, Panels};
 use crate::page::{main_results, picture_name, results_page};
 use crate::site::{Site, read};
 
@@ -28,6 +30,10 @@ fn main() -> ExitCode {
     let (benches, runs): (Vec<_>, Vec<_>) = paths.partition(|path| is_bench(path));
     let done = match &runs[..] {
         [option, folder, run] if option == Path::new("--site") => write_site(folder, run),
+        [option] if option == Path::new("--lengths") => {
+            print_lengths();
+            Ok(())
+        }
         _ => (keep(&runs).and_then(|()| keep_benches(&benches))).and_then(|()| write_page(&runs)),
     };
     match done {
@@ -36,6 +42,18 @@ fn main() -> ExitCode {
             eprintln!("{error}");
             ExitCode::from(2)
         }
+    }
+}
+
+/// Prints the measured lengths of engines' smears, for engines.toml.
+fn print_lengths() {
+    let panels = Panels::new();
+    for engine in list_engines() {
+        let Lengths { shipped, at_180 } = panels.measure(&engine, 1.0);
+        println!(
+            "{}: length = {shipped:.0}, at_180 = {at_180:.0}",
+            engine.name
+        );
     }
 }
 
@@ -94,7 +112,7 @@ fn write_pictures(all: &[Results], run: &Run, path: &Path) -> Result<(), Error> 
     }
     let folder = path.parent().unwrap_or(Path::new(""));
     let engines = list_engines().into_iter();
-    for worst in engines.filter_map(|engine| results.worst_of(&engine.ships)) {
+    for worst in engines.filter_map(|engine| results.worst_of(&engine.shape)) {
         let is_worst = |own: &&Case| own.name() == worst.name && own.scene == worst.scene;
         if let Some(case) = run.cases.iter().find(is_worst) {
             let path = Path::new(FOLDER).join("pictures").join(picture_name(worst));

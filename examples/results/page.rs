@@ -9,8 +9,9 @@ use judge::{
 use metrics::Metric;
 use store::{escape_markdown, markdown_code};
 use suite::{Bench, Error, IDENTITY};
+use tracer::SceneId;
 
-use super::engines::{Change, Engine, Measured, list_engines, measured};
+use super::engines::{Change, Engine, Measured, Shape, list_engines, measured};
 
 /// Characters of a line of the page.
 const WIDTH: usize = 135;
@@ -33,9 +34,9 @@ pub fn site_pages(all: &[Results], cards: &[Bench]) -> Result<Vec<(String, Strin
     for own in measured(&kept.groups) {
         let section = kept.section(&own);
         let table = kept.engine_table(std::slice::from_ref(&own));
-        let ships = &own.engine.ships;
+        let shape = &own.engine.shape;
         let text = format!(
-            "{section}\n{table}\n[Try it on five scenes](../../live/report.html#fan/{ships}) · [All results](../README.md)\n"
+            "{section}\n{table}\n[Try it on five scenes](../../live/report.html#fan/{shape}) · [All results](../README.md)\n"
         );
         let text = text.trim_start().replacen("###", "#", 1);
         let [findings, pictures] = ["](findings/", "](pictures/"];
@@ -123,13 +124,18 @@ impl<'a> Kept<'a> {
     fn engines(&self) -> String {
         let all = measured(&self.groups);
         let mut text = self.engine_table(&all);
+        let is_worse = |own: &&Measured| {
+            let shape = own.shape.as_ref();
+            shape.is_some_and(|shape| shape.ranked.mean > shape.none)
+        };
         let worse: Vec<&str> = (all.iter())
-            .filter(|own| own.shipped.mean > own.none)
+            .filter(is_worse)
             .map(|own| own.engine.name.as_str())
             .collect();
         if !worse.is_empty() {
             text += &format!("\nWorse than no blur: {}.\n", worse.join(", "));
         }
+        text += &unscored(&all);
         if !self.is_site {
             text.extend(all.iter().map(|own| self.section(own)));
         }
@@ -139,24 +145,35 @@ impl<'a> Kept<'a> {
     fn engine_table(&self, engines: &[Measured]) -> String {
         let number = |value: f64| Metric::FLIP.number(value);
         let row = |own: &Measured| -> Vec<String> {
-            let scores = [own.shipped.mean, own.none].map(number);
-            let name = format!(
-                "{}, {}",
-                self.link(&own.engine),
-                markdown_code(&own.engine.ships)
-            );
-            let names = [name, own.shipped.alignment.to_string()];
-            let changed = own.changed.map_or("-".to_owned(), number);
-            let time = find_time(self.bench, &own.engine.ships);
-            (names.into_iter().chain(scores).chain([changed, time])).collect()
+            let engine = &own.engine;
+            let scored = |of: &dyn Fn(&Shape) -> Option<String>| {
+                let shape = own.shape.as_ref();
+                shape.and_then(of).unwrap_or("-".to_owned())
+            };
+            vec![
+                format!("{}, {}", self.link(engine), markdown_code(&engine.shape)),
+                engine.length.to_string(),
+                escape_markdown(&engine.states),
+                scored(&|shape| Some(shape.ranked.alignment.to_string())),
+                engine.at_180.to_string(),
+                scored(&|shape| Some(number(shape.ranked.mean))),
+                scored(&|shape| Some(number(shape.none))),
+                scored(&|shape| shape.changed.map(number)),
+                find_time(self.bench, &engine.shape),
+                engine.default.text().to_owned(),
+            ]
         };
         let titles = [
             "engine ships",
+            "length",
+            "states",
             "shutter",
+            "at 180",
             "FLIP",
             "no blur",
             "after the change",
             "time",
+            "off by default",
         ];
         markdown_table(&titles, engines.iter().map(row))
     }
@@ -175,27 +192,25 @@ impl<'a> Kept<'a> {
 
     /// Describes an engine below a heading, with its worst picture.
     fn section(&self, own: &Measured) -> String {
-        let Engine {
-            name,
-            wrong,
-            change,
-            ships,
-            finding,
-        } = &own.engine;
-        let mut text = format!("\n### {name}\n\n{wrong}");
-        if let (Some(change), Some(changed)) = (change, own.changed) {
-            let [before, after] = [own.shipped.mean, changed].map(|own| Metric::FLIP.number(own));
-            let Change { by, preset } = change;
+        let engine = &own.engine;
+        let changed = own.shape.as_ref().and_then(|shape| {
+            let change = engine.change.as_ref()?;
+            Some((change, shape.ranked.mean, shape.changed?))
+        });
+        let mut text = format!("\n### {}\n\n{}", engine.name, engine.wrong);
+        if let Some((Change { by, preset }, before, after)) = changed {
+            let [before, after] = [before, after].map(|own| Metric::FLIP.number(own));
             text += &format!(" {by} (`{preset}`): {before} becomes {after}.");
         }
-        if let Some(finding) = finding {
+        if let Some(finding) = &engine.finding {
             text += &format!(" [The lines of code](findings/{finding}.md).");
         }
-        text += "\n";
-        if let Some(worst) = self.results.worst_of(ships) {
+        text += &format!("\n\n{}\n", provenance(engine));
+        if let Some(worst) = self.results.worst_of(&engine.shape) {
             let file = picture_name(worst);
             let scene = escape_markdown(&worst.scene.to_string());
-            text += &format!("\n![truth, {ships} and FLIP on {scene}](pictures/{file})\n");
+            let shape = &engine.shape;
+            text += &format!("\n![truth, {shape} and FLIP on {scene}](pictures/{file})\n");
         }
         text
     }
@@ -206,8 +221,8 @@ impl<'a> Kept<'a> {
         let engines = list_engines();
         let row = |ranked: &RankedFilter| {
             let other = sealed.iter().find(|other| other.name == ranked.name);
-            let (scene, worst) = &ranked.worst;
-            let own = engines.iter().filter(|own| own.ships == ranked.name);
+            let (scene, worst) = self.worst(ranked);
+            let own = engines.iter().filter(|own| own.shape == ranked.name);
             let links: Vec<String> = own.map(|own| self.link(own)).collect();
             let bold = if self.is_site && !links.is_empty() {
                 "**"
@@ -232,7 +247,7 @@ impl<'a> Kept<'a> {
                 format!(
                     "{} {}",
                     escape_markdown(&scene.to_string()),
-                    Metric::FLIP.number(*worst)
+                    Metric::FLIP.number(worst)
                 ),
             ]);
             if self.is_site {
@@ -242,6 +257,14 @@ impl<'a> Kept<'a> {
             row
         };
         markdown_table(&self.ranking_titles(has_effects), group.iter().map(row))
+    }
+
+    /// Finds the scene where a preset gains the least of what one frame allows, and its FLIP there; else where its FLIP is worst.
+    fn worst<'r>(&'r self, ranked: &'r RankedFilter) -> (&'r SceneId, f64) {
+        let gained = (self.results.worst_of(&ranked.name))
+            .filter(|own| own.score(Metric::SKILL).is_some())
+            .and_then(|own| Some((&own.scene, own.score(Metric::FLIP)?)));
+        gained.unwrap_or((&ranked.worst.0, ranked.worst.1))
     }
 
     /// Lists the titles of that table.
@@ -304,8 +327,15 @@ See how close each engine's motion blur comes to path-traced truth, what is wron
 Scores are FLIP where anything moves: the mean over {SCENES} scenes at {SIZE}, on {ADAPTER}. Lower is better. *No blur* is the score of
 the sharp frame. Compare scores of one shutter only. *Time* is in milliseconds per frame of {TIMED_SIZE}, on {CARD}.
 
-An engine without an exposure, such as three.js, blurs the same share of every frame's motion. Here its motion is first multiplied by
-the scene's exposure, so its own picture has a longer smear.
+*Length* is the smear of one frame's motion with everything as shipped, the camera still, at 60 frames per second and 1920x1080:
+degrees of the frame, of which 360 are the whole frame. The program measures it on the scene `sliding_panel`, as the length of the even
+smear that spreads an edge as far. *States* is what the engine's own documentation says of it. An engine that states a shutter and smears
+another length has a defect of length; one that states none has none.
+
+*FLIP* is the shape alone. It compares with a truth of 180 degrees. The engine's own setting of length is put so that the taps of a pixel
+cover 180 degrees; everything else stays as shipped. If an engine has no such setting, the motion that it gets is scaled. *At 180* is the
+smear that the program measures then. Ranks, worst scenes, pictures and changes use the shape. *Off by default*: an effect that a user
+has to add is off *until added*.
 
 ";
 
@@ -313,7 +343,8 @@ const PRESETS: &str = "
 ## All presets
 
 {RANK_RULE} *Sealed* is the rank on variants of the scenes with other speeds, directions, places and colours, which no preset was
-fitted to. `shuttertruth list three` prints a filter's source, presets and known limits.
+fitted to. *Worst scene* is where a preset gains the least of what a filter of one frame can gain over no blur, with its FLIP there.
+`shuttertruth list three` prints a filter's source, presets and known limits.
 ";
 
 const COMMANDS: &str = "
@@ -330,6 +361,40 @@ These commands make the scores, the pictures and this page. Each run announces t
 Flax's licence forbids a port, so that it has no row: [its finding](findings/flax.md). To add a filter, put its folder into `shaders/` and run them with `--filter` and its name. The JSON files next to this page hold every
 score, and [one in bench](bench/1920x1080_nvidia_h100_80gb_hbm3.json) the times; [engines.toml](engines.toml) holds the sentences about engines. [What the scores mean](../crates/metrics/README.md).
 ";
+
+/// Names the engines whose shapes have no scores, and how to make them; nothing if all have.
+fn unscored(all: &[Measured]) -> String {
+    let without = all.iter().filter(|own| own.shape.is_none());
+    let shapes: Vec<&str> = without.map(|own| own.engine.shape.as_str()).collect();
+    if shapes.is_empty() {
+        return String::new();
+    }
+    format!(
+        "\nNot measured yet: {}. The commands below make them.\n",
+        shapes.join(", ")
+    )
+}
+
+/// Names an engine's commit, and when it was compared with the newest.
+fn provenance(engine: &Engine) -> String {
+    let Engine {
+        commit,
+        date,
+        compared,
+        default_at,
+        ..
+    } = engine;
+    let mut text = format!(
+        "Commit {commit} of {date}, last compared with the newest on {compared}. Its default is at `{default_at}`."
+    );
+    if let Some(moved) = &engine.moved_on {
+        text += &format!(" The engine has moved on: {moved}.");
+    }
+    if engine.transcription_alone {
+        text += " The preset rests on a transcription alone, since its language runs nowhere here.";
+    }
+    text
+}
 
 /// Makes the table of the times that readers' browsers measured; nothing without any.
 fn times(cards: &[&Bench]) -> String {

@@ -9,6 +9,7 @@ struct Parameters {
     tile_shift: u32,
     noise: u32,
     sampling: u32,
+    draws: i32,
 }
 
 @group(0) @binding(1) var<uniform> parameters: Parameters;
@@ -123,19 +124,19 @@ fn dilate(@builtin(global_invocation_id) id: vec3<u32>) {
     textureStore(near_motion_out, tile, longest);
 }
 
-// In [0, 1). EEVEE moves it with every sample of a picture, here with the frame; the compositor's stands still.
-fn random(pixel: vec2<i32>, seed: f32) -> f32 {
+// In [0, 1). EEVEE moves it with every sample of a picture, here with the frame and the draw; the compositor's stands still.
+fn random(pixel: vec2<i32>, seed: f32, draw: i32) -> f32 {
     if parameters.noise != NOISE_PAIR {
         return interleaved_gradient_noise(vec2<f32>(pixel));
     }
-    let walk = 0.618034 * f32(frame.frame_index % 64u);
+    let walk = 0.618034 * f32((frame.frame_index * u32(parameters.draws) + u32(draw)) % 64u);
     return fract(walk + interleaved_gradient_noise(vec2<f32>(pixel) + seed * 0.695 * vec2<f32>(47.0, 17.0)));
 }
 
 // The longest motion near a pixel; noise blurs where one tile ends and the next begins.
-fn longest_near(pixel: vec2<i32>) -> vec4<f32> {
+fn longest_near(pixel: vec2<i32>, draw: i32) -> vec4<f32> {
     let quarter = 0.25 * f32(parameters.tile_size);
-    let twice = 2.0 * random(pixel, 0.0);
+    let twice = 2.0 * random(pixel, 0.0, draw);
     // The compositor lacks the brackets around `twice - 1`.
     let shift = i32(select((twice - 1.0) * quarter, twice - quarter, parameters.tile_shift == SHIFT_DOWN));
     let tile = (pixel + shift) / parameters.tile_size;
@@ -205,16 +206,26 @@ fn gather(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     let texel = vec2<i32>(pixel.x, frame.size.y - 1 - pixel.y);
+    // A running mean keeps a single draw exactly as it is.
+    var mean = vec4<f32>(0.0);
+    for (var draw = 0; draw < parameters.draws; draw++) {
+        mean += (gathered(pixel, texel, draw) - mean) / f32(draw + 1);
+    }
+    textureStore(output, texel, mean);
+}
+
+// What a pixel gathers with one draw of noise.
+fn gathered(pixel: vec2<i32>, texel: vec2<i32>, draw: i32) -> vec4<f32> {
     let here = textureLoad(color, texel, 0);
     var sums = Sums(centre(pixel), textureLoad(depth, texel, 0).x, here, here, 0.0, 0.0, 1.0);
     // Too little to be seen, unless no tap lies behind.
     sums.back_weight = 1.0 / (200.0 * f32(parameters.samples));
     let own = displacements(sums.position);
-    let near = longest_near(pixel);
-    let noise = random(pixel, 1.0);
+    let near = longest_near(pixel, draw);
+    let noise = random(pixel, 1.0, draw);
     add_side(&sums, own.xy, near.xy, noise, false);
     add_side(&sums, own.zw, near.zw, noise, true);
     // What is behind fills the rest.
     let share = sums.front_weight / sums.count;
-    textureStore(output, texel, sums.back + share * (sums.front - sums.back));
+    return sums.back + share * (sums.front - sums.back);
 }

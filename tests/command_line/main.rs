@@ -5,6 +5,7 @@ mod audit;
 mod baseline;
 #[cfg(unix)]
 mod blender;
+mod changes;
 mod check;
 mod child;
 #[cfg(unix)]
@@ -38,6 +39,7 @@ mod links;
 mod own_filter;
 mod packs;
 mod people;
+mod quotes;
 mod reference_width;
 mod refusals;
 mod report;

@@ -2,6 +2,8 @@
 
 #[path = "../../examples/results/engines.rs"]
 mod engines;
+#[path = "../../examples/results/lengths.rs"]
+mod lengths;
 #[path = "../../examples/results/page.rs"]
 mod page;
 #[path = "../../examples/results/site.rs"]
@@ -22,19 +24,14 @@ use tests::text::assert_contains;
 use tracer::{Location, SceneId, Seal, list_scenes};
 
 use self::engines::{Engine, list_engines};
+use self::lengths::Panels;
 use self::page::{main_results, picture_name, results_page};
 use self::site::{Site, as_html};
 use crate::links::find_pages;
 use crate::sandbox::Sandbox;
 
 /// Presets that are worse than no blur, the best of them first.
-const WORSE: [&str; 5] = [
-    "urp:high",
-    "urp:medium",
-    "urp:default",
-    "three:default",
-    "jimenez:o3de",
-];
+const WORSE: [&str; 1] = ["three:default"];
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../results")
@@ -114,10 +111,42 @@ fn names_of_others_are_text_on_the_page_and_on_the_site() {
 }
 
 #[test]
+fn every_engine_s_smear_is_as_long_as_the_page_says_and_a_tenth_more_is_another_length() {
+    let panels = Panels::new();
+    let mut wrong = Vec::new();
+    for engine in list_engines() {
+        let kept = [engine.length, engine.at_180].map(f64::from);
+        let [now, more] = [1.0, 1.1].map(|factor| {
+            let lengths = panels.measure(&engine, factor);
+            [lengths.shipped, lengths.at_180]
+        });
+        println!("{}: {now:.1?}, a tenth more: {more:.1?}", engine.name);
+        for ((kept, now), more) in kept.into_iter().zip(now).zip(more) {
+            // Lengths are rounded to degrees, and adapters round floats.
+            let is_kept = |length: f64| (length - kept).abs() <= (0.01 * kept).max(1.0);
+            if !is_kept(now) || is_kept(more) {
+                wrong.push(format!(
+                    "{}: {now:.1}, and engines.toml says {kept}",
+                    engine.name
+                ));
+            }
+        }
+        let (filter, preset) = engine.shape.split_once(':').unwrap();
+        let filter = Filter::builtin(filter).unwrap();
+        let mut presets = filter.presets.iter();
+        let preset = presets.find(|own| own.name == preset).unwrap();
+        let source = preset.source.as_ref().and_then(|own| own.code.as_ref());
+        let is_commit = source.is_none_or(|code| code.commit.starts_with(&engine.commit));
+        assert!(is_commit, "{}: commit {}", engine.name, engine.commit);
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
 fn the_pictures_show_what_each_engine_ships_at_its_worst() {
     let results = Results::read_all(&folder()).unwrap();
     let main = main_results(&results).unwrap();
-    let worst = |engine: Engine| main.worst_of(&engine.ships).map(picture_name).unwrap();
+    let worst = |engine: Engine| main.worst_of(&engine.shape).map(picture_name).unwrap();
     let due: BTreeSet<String> = list_engines().into_iter().map(worst).collect();
     let files = fs::read_dir(folder().join("pictures")).unwrap();
     let found = files.map(|file| file.unwrap().file_name().into_string().unwrap());

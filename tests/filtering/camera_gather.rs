@@ -105,7 +105,7 @@ fn armory_s_mode_camera_equals_its_source_in_64_bits() {
         }
         let velocity = [0, 1].map(|axis| {
             let device = 2.0 * f64::from(frame.velocity.at(x, y)[axis]) / size[axis];
-            device / 40.0 * frame.exposure
+            device / 40.0 * 2.5 * frame.exposure
         });
         let mut offset = [x, y].map(|part| f64::from(part) + 0.5);
         let mut sum = own;

@@ -76,7 +76,7 @@ pub fn place_taps(filter: &str, preset: &str, steady: &Steady, noise: f64) -> Ve
         "babylon_screen" => babylon::by_camera(steady),
         "three" => gathers::three(preset, steady),
         "centred_gather" => gathers::centred(preset, steady),
-        "realism_effects" => gathers::realism_effects(preset, steady, noise),
+        "realism_effects" => gathers::realism_effects(steady, noise),
         "jimenez" => jimenez::place_taps(preset, steady, noise),
         "kino" => kino::place_taps(preset, steady, noise),
         "urp" => gathers::urp(preset, steady, noise),

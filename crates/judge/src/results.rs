@@ -215,12 +215,13 @@ impl Results {
         scenes.map(|scores| &scores[0].scene).collect()
     }
 
-    /// Finds a preset's worst score by FLIP, among the scenes where one frame contains enough for a gain: those with a skill. Without any
-    /// of them, the worst of all; none if no FLIP is known.
+    /// Finds the scene where a preset gains the least of what one frame allows: that of the lowest skill. A scene that no blur of one frame
+    /// can mend has none. Without any skill, the scene of the worst FLIP; none if no FLIP is known.
     pub fn worst_of(&self, name: &str) -> Option<&ResultScores> {
         let error = |own: &&ResultScores| {
-            let has_skill = own.score(Metric::SKILL).is_some();
-            Some((has_skill, own.score(Metric::FLIP)?))
+            let flip = own.score(Metric::FLIP)?;
+            let skill = own.score(Metric::SKILL);
+            Some((skill.is_some(), skill.map_or(flip, |skill| -skill)))
         };
         (self.scores.iter())
             .filter(|own| own.name == name && error(own).is_some())

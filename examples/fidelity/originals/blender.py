@@ -170,19 +170,15 @@ def eevee_blur(color, velocities, depth, exposure, stored, depth_scale=100):
     return gather(color, depth, motion, near, gradient_noise(texel, 1), 8, nearest, depth_scale)[::-1]
 
 
-def compositor_blur(color, velocities, depth, exposure, brackets):
+def compositor_blur(color, velocities, depth, exposure):
     color, depth, back = turned_over(color, depth, *velocities)
     height, width = depth.shape
     scale = F(exposure / 2) * SIGNS
     tiles = reduced(back)
     noise = gradient_noise(texels(width, height), 0)
-    if brackets:
-        shift = (noise * F(2) - F(1)) * F(TILE) * F(0.25)
-    else:
-        shift = noise * F(2) - F(1) * F(TILE) * F(0.25)
+    # The original has no brackets around the first two terms.
+    shift = noise * F(2) - F(1) * F(TILE) * F(0.25)
     tile = np.trunc((texels(width, height) + np.trunc(shift)[..., None]) / TILE).astype(int)
-    if brackets:
-        tile = np.clip(tile, 0, np.array([tiles.shape[1], tiles.shape[0]]) - 1)
     near = look_up(tiles, tables(tiles * scale), tile) * scale
     motion = lambda at: linear(back, at) * scale
     return gather(color, depth, motion, near, noise, 32, linear, 100)[::-1]
@@ -197,12 +193,8 @@ def eevee_as_listed(color, velocity, depth, exposure, frame_index, parameters, v
 
 
 def compositor(color, velocity, depth, exposure, frame_index, parameters, velocity_next):
-    return compositor_blur(color, (velocity, velocity_next), depth, exposure, brackets=False)
+    return compositor_blur(color, (velocity, velocity_next), depth, exposure)
 
 
-def compositor_mended(color, velocity, depth, exposure, frame_index, parameters, velocity_next):
-    return compositor_blur(color, (velocity, velocity_next), depth, exposure, brackets=True)
-
-
-ORIGINALS = {"blender:eevee": eevee, "blender:compositor": compositor, "blender:compositor_mended": compositor_mended}
+ORIGINALS = {"blender:eevee": eevee, "blender:compositor": compositor}
 AS_LISTED = {"blender:eevee": eevee_as_listed}

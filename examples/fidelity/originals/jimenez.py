@@ -258,7 +258,7 @@ def hdrp_mirrored(color, velocity, depth, exposure, frame_index, parameters):
 # Open 3D Engine
 
 
-def o3de(color, velocity, depth, exposure, frame_index, parameters, strength=5.0):
+def o3de(color, velocity, depth, exposure, frame_index, parameters, strength=0.5):
     """Open 3D Engine at quality High.
 
     https://github.com/o3de/o3de at 06b365d77e08b3734a4a598028b0af7ede8be4d3, below
@@ -318,17 +318,12 @@ def o3de(color, velocity, depth, exposure, frame_index, parameters, strength=5.0
     return np.where(sharp[..., None], color, blurred).astype(F)
 
 
-def o3de_scaled(color, velocity, depth, exposure, frame_index, parameters):
-    """O3DE with a strength of 0.5 instead of 5."""
-    return o3de(color, velocity, depth, exposure, frame_index, parameters, strength=0.5)
-
-
 # ---------------------------------------------------------------------------------------------------------------------------------
 # Wicked Engine
 
 
-def wicked(color, velocity, depth, exposure, frame_index, parameters, whole_trails=False):
-    """Wicked Engine, strength 100 at 60 frames per second.
+def wicked(color, velocity, depth, exposure, frame_index, parameters):
+    """Wicked Engine, strength 128 times the exposure at 60 frames per second.
 
     https://github.com/turanszkij/WickedEngine at bc3ef1654778d59d3fb07eef799139b8943db16b, WickedEngine/shaders:
     motionblur_tileMaxVelocity_horizontalCS.hlsl, motionblur_tileMaxVelocity_verticalCS.hlsl,
@@ -341,7 +336,7 @@ def wicked(color, velocity, depth, exposure, frame_index, parameters, whole_trai
     height, width = depth.shape
     size = np.array([width, height], F)
     side = int(parameters.get("tile_size", 32))
-    strength = F(100.0)
+    strength = F(128.0)
     vec = -velocity.astype(F) * F(exposure) / size
 
     rows, columns = -(-height // side), -(-width // side)
@@ -392,9 +387,6 @@ def wicked(color, velocity, depth, exposure, frame_index, parameters, whole_trai
     own_len = length(own)
     steps = F(parameters.get("screen_extent", 7.5))
     pixel = steps / F(7.5) / size
-    if whole_trails:
-        # Ends half of the exposure's trail away instead of 7.5 pixels per width and height of motion.
-        pixel = F(0.5) / F(7.5) / strength
     direction = np.where((sort == 1)[..., None], own, near) * random[..., None] * pixel
     uv = np.stack([x + F(0.5), y + F(0.5)], -1).astype(F) / size
     low, high = F(0.5) / size, (size - F(0.5)) / size
@@ -425,16 +417,11 @@ def wicked(color, velocity, depth, exposure, frame_index, parameters, whole_trai
     return np.where((sort == 0)[..., None], color, blurred).astype(F)
 
 
-def wicked_scaled(color, velocity, depth, exposure, frame_index, parameters):
-    """Wicked Engine with trails of the exposure's length."""
-    return wicked(color, velocity, depth, exposure, frame_index, parameters, whole_trails=True)
-
-
 # ---------------------------------------------------------------------------------------------------------------------------------
 # kajiya
 
 
-def kajiya(color, velocity, depth, exposure, frame_index, parameters, motion_blur_scale=1.0):
+def kajiya(color, velocity, depth, exposure, frame_index, parameters, motion_blur_scale=16.0 / 7.0):
     """kajiya since its commit 4b649f1.
 
     https://github.com/EmbarkStudios/kajiya at 9fdec0f074f9f822d395f9cfd041b58749e32303, crates/lib/rust-shaders/src/motion_blur.rs
@@ -509,18 +496,10 @@ def kajiya(color, velocity, depth, exposure, frame_index, parameters, motion_blu
     return (total + (1 - weights[..., None]) * center_color).astype(F)
 
 
-def kajiya_scaled(color, velocity, depth, exposure, frame_index, parameters):
-    """kajiya with a motion_blur_scale of 16/7 instead of 1."""
-    return kajiya(color, velocity, depth, exposure, frame_index, parameters, motion_blur_scale=16.0 / 7.0)
-
-
 ORIGINALS = {
     "jimenez:hdrp": hdrp,
     "jimenez:hdrp_mirrored": hdrp_mirrored,
     "jimenez:o3de": o3de,
-    "jimenez:o3de_scaled": o3de_scaled,
     "jimenez:wicked": wicked,
-    "jimenez:wicked_scaled": wicked_scaled,
     "jimenez:kajiya": kajiya,
-    "jimenez:kajiya_scaled": kajiya_scaled,
 }

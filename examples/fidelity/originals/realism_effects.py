@@ -39,11 +39,8 @@ def blur(color, velocity, depth, exposure, delta_time):
 
 
 def default(color, velocity, depth, exposure, frame_index, parameters):
-    return blur(color, velocity, depth, exposure, 1 / 60)
+    """At 60 frames per second; the intensity is the exposure over 0.6."""
+    return blur(color, velocity, depth, exposure / 0.6, 1 / 60)
 
 
-def scaled(color, velocity, depth, exposure, frame_index, parameters):
-    return blur(color, velocity, depth, exposure, 1 / 100)
-
-
-ORIGINALS = {"realism_effects:default": default, "realism_effects:scaled": scaled}
+ORIGINALS = {"realism_effects:default": default}

@@ -1,6 +1,6 @@
 """The motion blur of Unity's URP, mode Camera And Objects, in numpy, from CameraMotionBlur.shader at 438e586.
 
-Motion vectors are now minus before in texture coordinates. The intensity is the exposure; in `mended`, half of it. The noise is
+Motion vectors are now minus before in texture coordinates. The intensity is half the exposure. The noise is
 InterleavedGradientNoise of the render pipelines' core, for frame 0. Colours are read at points.
 """
 
@@ -37,13 +37,12 @@ def blur(color, velocity, intensity, iterations):
     return total * inverse_count
 
 
-def quality(iterations, factor=1.0):
-    return lambda color, velocity, depth, exposure, frame_index, parameters: blur(color, velocity, factor * exposure, iterations)
+def quality(iterations):
+    return lambda color, velocity, depth, exposure, frame_index, parameters: blur(color, velocity, 0.5 * exposure, iterations)
 
 
 ORIGINALS = {
     "urp:default": quality(2),
     "urp:medium": quality(3),
     "urp:high": quality(4),
-    "urp:mended": quality(2, factor=0.5),
 }

@@ -2,17 +2,16 @@
 //! angles.
 
 mod outcome;
-mod panel;
 mod promised;
 mod silhouette;
 
 use frame::Alignment;
 use outcome::{Outcome, blur_shots};
-use panel::{HALF_BAND, HALF_PANEL, Shot};
 use promised::{promised_smear, stated_lengths};
 use silhouette::Light;
 use tests::kernels::{Tap, along_motion, place_taps};
 use tests::near::assert_near;
+use tests::panel::{HALF_BAND, SMALL, Shot};
 use tests::ramp::Ramp;
 
 #[test]
@@ -36,7 +35,8 @@ fn the_truth_s_smear_is_as_long_as_the_exposure_and_takes_as_much_as_it_gives() 
                 let own = profile
                     .iter()
                     .filter(|(position, _)| position * side >= 0.0);
-                let edge = own.map(|(position, value)| (position - side * HALF_PANEL, *value));
+                let edge =
+                    own.map(|(position, value)| (position - side * shot.half_panel(), *value));
                 Ramp::of(&edge.collect::<Vec<_>>())
             });
             let found = after.beyond(before);
@@ -67,7 +67,8 @@ fn fits(outcome: &Outcome) -> bool {
         true => 0.5 * outcome.shot.to_border(),
         false => f64::INFINITY,
     };
-    reach < (HALF_PANEL - 3.0).min(room) && aside + HALF_BAND < HALF_PANEL - 3.0
+    let inside = outcome.shot.half_panel() - 3.0;
+    reach < inside.min(room) && aside + HALF_BAND < inside
 }
 
 /// Compares the edge painted on the panel with the ramp that a preset's taps make of it, and its length with the filter's text.
@@ -122,7 +123,7 @@ fn measure_presets(shots: &[(f64, f64, f64)]) {
         .map(|(speed, degrees, exposure)| Shot::new(*speed, *degrees, *exposure))
         .collect();
     for shot in &shots {
-        let middle = shot.frame.velocity.at(panel::WIDTH / 2, panel::HEIGHT / 2);
+        let middle = shot.frame.velocity.at(SMALL[0] / 2, SMALL[1] / 2);
         for (found, expected) in middle.iter().zip(shot.steady().velocity) {
             // 32-bit floats of up to 48 pixels.
             assert_near(*found, expected, 1e-4);

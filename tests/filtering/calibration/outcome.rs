@@ -3,12 +3,11 @@
 use filters::Input;
 use frame::Plane;
 use tests::kernels::{Steady, expected_ramp};
+use tests::panel::{SMALL, Shot};
 use tests::picture::frame_input;
 use tests::presets::{every_preset, gain};
 use tests::ramp::Ramp;
 use tests::ready_blur;
-
-use super::panel::{HEIGHT, Shot, WIDTH};
 
 pub struct Outcome<'s> {
     pub filter: String,
@@ -27,7 +26,7 @@ pub struct Outcome<'s> {
 pub fn blur_shots(shots: &[Shot]) -> Vec<Outcome<'_>> {
     let mut outcomes = Vec::new();
     for (filter, settings) in every_preset() {
-        let mut blur = ready_blur(&filter, &settings, (WIDTH, HEIGHT));
+        let mut blur = ready_blur(&filter, &settings, SMALL.into());
         for shot in shots {
             // Colours get the same weights, so that one run blurs both.
             let color = shot.painted.zip(shot.matte(), |a, b| [*a, *b, 0.0]);

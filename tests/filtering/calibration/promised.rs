@@ -4,8 +4,6 @@ use std::ops::RangeInclusive;
 
 use tests::kernels::{Steady, along_motion, babylon_trail, jump_flood_trail, three_trail};
 
-use super::panel::HEIGHT;
-
 /// Returns the promised length of the smear in pixels: the exposure's, times the preset's factor, cut at its reach, unless the
 /// preset says otherwise.
 pub fn promised_smear(filter: &str, preset: &str, steady: &Steady) -> f64 {
@@ -16,8 +14,6 @@ pub fn promised_smear(filter: &str, preset: &str, steady: &Steady) -> f64 {
         ("identity" | "camera_gather" | "babylon_screen", _) => 0.0,
         ("three", _) => along_motion(steady, three_trail(preset, steady)).abs(),
         ("babylon", _) => along_motion(steady, babylon_trail(steady)),
-        ("realism_effects", "default") => 0.6 * trail,
-        ("urp", "default" | "medium" | "high") => 2.0 * trail,
         ("jump_flood" | "jump_flood_packed", preset) => {
             along_motion(steady, jump_flood_trail(preset, steady))
         }
@@ -33,9 +29,9 @@ pub fn promised_smear(filter: &str, preset: &str, steady: &Steady) -> f64 {
         ("godot", "addon") => trail.min(2.0 * 32.0),
         ("godot", _) => trail.min(2.0 * 64.0),
         // Two tiles of a 27th of the rows on either side.
-        ("vort", _) => trail.min(f64::from(4 * (HEIGHT / 27))),
+        ("vort", _) => trail.min(f64::from(4 * (steady.size[1] / 27))),
         // Whole pixels of 5 % of the rows on either side; nothing below 2.
-        ("kino", _) => match (0.05 * f64::from(HEIGHT)).floor() {
+        ("kino", _) => match (0.05 * f64::from(steady.size[1])).floor() {
             _ if trail < 4.0 => 0.0,
             radius => trail.min(2.0 * radius),
         },
@@ -45,13 +41,10 @@ pub fn promised_smear(filter: &str, preset: &str, steady: &Steady) -> f64 {
             let diagonal = width.hypot(height);
             trail * (200.0 / (2.0 * (x / width).hypot(y / height) * diagonal)).min(1.0)
         }
-        ("jimenez", "o3de") => 10.0 * trail,
-        // Seven steps of a sixteenth.
-        ("jimenez", "kajiya") => 7.0 / 16.0 * trail,
-        // 1500 pixels per picture width and height of motion, times noise from 0 to 1.
+        // 1920 pixels per picture width and height of motion, times noise from 0 to 1.
         ("jimenez", "wicked") => {
             let [width, height] = steady.size.map(f64::from);
-            along_motion(steady, [1500.0 * x / width, 1500.0 * y / height])
+            along_motion(steady, [1920.0 * x / width, 1920.0 * y / height])
         }
         _ => trail,
     }
@@ -82,12 +75,9 @@ pub fn stated_lengths(filter: &str, preset: &str) -> RangeInclusive<f64> {
         ("kino", "mended") => 0.775..=0.925,
         ("kino", _) => 0.72..=0.78,
         ("jimenez", "hdrp" | "hdrp_mirrored") => 1.00..=1.03,
-        ("jimenez", "kajiya") => 1.00..=1.08,
-        ("jimenez", "kajiya_scaled") => 0.99..=1.02,
-        ("jimenez", "o3de") => 0.94..=0.95,
-        ("jimenez", "o3de_scaled") => 0.72..=0.94,
+        ("jimenez", "kajiya") => 0.99..=1.02,
+        ("jimenez", "o3de") => 0.72..=0.94,
         ("jimenez", "wicked") => 0.60..=0.63,
-        ("jimenez", "wicked_scaled") => 0.61..=0.64,
         _ => 0.985..=1.025,
     }
 }

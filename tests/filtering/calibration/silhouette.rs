@@ -6,7 +6,7 @@ use frame::Plane;
 use tests::kernels::{along_motion, place_taps};
 
 use super::outcome::Outcome;
-use super::panel::{HALF_PANEL, Shot};
+use tests::panel::Shot;
 
 /// Amounts of light along the motion, in pixels' worth of the panel.
 #[derive(Clone, Copy, Debug)]
@@ -27,12 +27,12 @@ impl Light {
             own.map(|((_, before), (_, after))| after - before)
                 .sum::<f64>()
         };
-        let far = f64::INFINITY;
+        let (far, half) = (f64::INFINITY, shot.half_panel());
         Self {
-            behind: sum(-far, -HALF_PANEL),
-            lost_at_back: -sum(-HALF_PANEL, 0.0),
-            lost_at_front: -sum(0.0, HALF_PANEL),
-            ahead: sum(HALF_PANEL, far),
+            behind: sum(-far, -half),
+            lost_at_back: -sum(-half, 0.0),
+            lost_at_front: -sum(0.0, half),
+            ahead: sum(half, far),
         }
     }
 
@@ -99,7 +99,7 @@ fn expected_light(outcome: &Outcome) -> [Option<f64>; 4] {
 /// Compares the light with the preset's taps. Returns what is wrong.
 pub fn check_light(outcome: &Outcome, found: Light) -> Option<String> {
     // The smear behind the panel leaves the picture.
-    if HALF_PANEL + outcome.ramp.length >= outcome.shot.to_border() {
+    if outcome.shot.half_panel() + outcome.ramp.length >= outcome.shot.to_border() {
         return None;
     }
     let shares = (found.all()).map(|light| format!("{:.2}", light / outcome.shot.speed));

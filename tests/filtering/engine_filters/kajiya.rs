@@ -8,7 +8,7 @@ fn kajiya_lets_things_smear_twice_as_far_as_they_move() {
     // The slow object should smear 12 * 3.5 / 16 = 2.6 pixels to each side; steps are 9 / 16 pixels.
     let picture = slow_above_fast(12.0, 48.0);
     let smear = |spread: &str| {
-        let overrides = format!("pairs=16 spread={spread}");
+        let overrides = format!("strength=-1 pairs=16 spread={spread}");
         picture.blur("jimenez", "kajiya", &overrides)
     };
     // Three of 33 taps; half of them count.
@@ -23,7 +23,7 @@ fn kajiya_lets_things_smear_twice_as_far_as_they_move() {
 fn kajiya_shifts_taps_by_one_of_32_numbers() {
     // Brightness is the column, so a mean of taps is their mean position.
     let picture = Picture::new(256, 64, |x, _| white(-48.0).gray(x as f32));
-    let output = picture.blur("jimenez", "kajiya", "");
+    let output = picture.blur("jimenez", "kajiya", "strength=-1");
     let mut shifts: Vec<i32> = (64..192)
         .flat_map(|x| (0..64).map(move |y| (x, y)))
         // Taps are 3 pixels apart; the centre, one of seven, reads whole pixels.
@@ -52,7 +52,7 @@ fn kajiya_displaces_still_pixels_near_a_mover() {
     )
     .speckled(7, |_, y| y < 40);
     let changed = |overrides: &str| {
-        let output = picture.blur("jimenez", "kajiya", overrides);
+        let output = picture.blur("jimenez", "kajiya", &format!("strength=-1 {overrides}"));
         let wall = (0..38).flat_map(|y| (0..160).map(move |x| (x, y)));
         wall.filter(|(x, y)| (output.at(*x, *y)[0] - picture.color.at(*x, *y)[0]).abs() > 0.05)
             .count()
@@ -68,7 +68,7 @@ fn taps_off_the_picture_are_dropped_or_read_its_border() {
     // A white column at the border, which moves with everything else.
     let picture = Picture::new(80, 64, |x, _| white(48.0).gray((x == 0).into()));
     let seen = |border: &str| {
-        let output = picture.blur("jimenez", "kajiya", &format!("border={border}"));
+        let output = picture.blur("jimenez", "kajiya", &format!("strength=-1 border={border}"));
         column(&output, 4)
     };
     // Two of seven taps, 3 pixels apart around 4.5, are off the picture; one is in the first three columns.

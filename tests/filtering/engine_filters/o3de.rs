@@ -5,8 +5,8 @@ use tests::picture::{BLACK_WALL, Picture, column, moving_edge, white};
 
 #[test]
 fn o3de_cuts_offsets_to_whole_pixels() {
-    // Motion that it treats as 1.05 pixels to each side.
-    let picture = moving_edge(60, 64, [0.21, 0.0]);
+    // 1.05 pixels to each side.
+    let picture = moving_edge(60, 64, [2.1, 0.0]);
     let seen = |placement: &str| {
         let overrides = format!("placement={placement}");
         column(&picture.blur("jimenez", "o3de", &overrides), 29)
@@ -20,7 +20,7 @@ fn o3de_cuts_offsets_to_whole_pixels() {
 /// Makes a still white post at 60..70 in front of a black wall; from row 40 on, a black surface moves in front of both.
 fn post_above_motion() -> Picture {
     Picture::new(160, 64, |x, y| match (x, y) {
-        (_, 40..) => white(24.0).gray(0.0),
+        (_, 40..) => white(240.0).gray(0.0),
         (60..70, _) => white(0.0),
         _ => BLACK_WALL,
     })
@@ -42,7 +42,7 @@ fn o3de_mixes_the_motion_of_tiles() {
     let picture = Picture::halves(400, 200, BLACK_WALL, white(24.0)).speckled(11, |x, _| x < 200);
     let changes = |lookup: &str, x: u32| {
         let overrides = format!("tile_dither=0 tile_lookup={lookup}");
-        let output = picture.blur("jimenez", "o3de_scaled", &overrides);
+        let output = picture.blur("jimenez", "o3de", &overrides);
         (0..200).any(|y| output.at(x, y) != picture.color.at(x, y))
     };
     // The tile left of the mover knows it, and the next one does not. Mixed motion begins between their centres.

@@ -7,7 +7,7 @@ use tests::picture::{Picture, white};
 fn shifts(jitter: &str) -> Vec<f64> {
     // Brightness is the column, so a mean of taps is their mean position.
     let picture = Picture::new(240, 64, |x, _| white(24.0).gray(x as f32));
-    let output = picture.blur("realism_effects", "scaled", &format!("jitter={jitter}"));
+    let output = picture.blur("realism_effects", "default", &format!("jitter={jitter}"));
     let pixels = (90..150).flat_map(|x| (0..64).map(move |y| (x, y)));
     pixels
         .map(|(x, y)| f64::from(output.at(x, y)[0]) - f64::from(x))

@@ -10,7 +10,7 @@ fn the_smear_of_wicked_depends_on_the_width_of_the_picture() {
     for width in [240, 480] {
         println!("{width} wide");
         let picture = moving_edge(width, 64, [12.0, 0.0]);
-        let found = ramp_length(&picture.blur("jimenez", "wicked", ""));
+        let found = ramp_length(&picture.blur("jimenez", "wicked", "strength=-100"));
         // 1500 pixels per picture width of motion, scaled by noise with a mean square of a third; 16 taps at
         // (2 i - 15) / 15.
         let taps = (0..16).map(|i| ((2.0 * f64::from(i) - 15.0) / 15.0).powi(2));
@@ -25,7 +25,7 @@ fn the_smear_of_wicked_depends_on_the_width_of_the_picture() {
 fn the_kernel_of_wicked_is_peaked_and_not_a_box() {
     // 750 pixels per picture width to each side, of 24 / 480: 37.5 pixels.
     let picture = moving_edge(480, 128, [24.0, 0.0]);
-    let output = picture.blur("jimenez", "wicked", "");
+    let output = picture.blur("jimenez", "wicked", "strength=-100");
     let share = |part: f64| {
         let reach = (37.5 * part).round() as u32;
         column(&output, 240 + reach - 1) - column(&output, 240 - reach)
@@ -41,10 +41,10 @@ fn the_kernel_of_wicked_is_peaked_and_not_a_box() {
 fn wicked_lets_slow_things_smear_as_far_as_fast_ones() {
     // The fast half smears 750 * 24 / 320 = 56 pixels to each side, and the slow object should smear 11.
     let picture = slow_above_fast(4.8, 24.0);
-    let as_published = picture.blur("jimenez", "wicked", "");
+    let as_published = picture.blur("jimenez", "wicked", "strength=-100");
     assert_within(light_above(&as_published, 20..40), 1.0..);
     // Compared with the taps' distances, it ends after its own length and a step of 8 pixels. Half a pixel for fetches.
-    let by_steps = picture.blur("jimenez", "wicked", "spread=steps");
+    let by_steps = picture.blur("jimenez", "wicked", "strength=-100 spread=steps");
     assert_within(light_above(&by_steps, 1..8), 1.0..);
     assert_eq!(light_above(&by_steps, 20..40), 0.0);
 }
@@ -53,7 +53,7 @@ fn wicked_lets_slow_things_smear_as_far_as_fast_ones() {
 fn wicked_counts_motion_fully_above_a_tenth_of_the_fastest_and_not_below() {
     let light = |part: f32| {
         let picture = slow_above_fast(24.0 * part, 24.0);
-        light_above(&picture.blur("jimenez", "wicked", ""), 1..40)
+        light_above(&picture.blur("jimenez", "wicked", "strength=-100"), 1..40)
     };
     // In its unit the fastest motion is 7.5, and motions from 6.5 / 75 to 7.5 / 75 of it count in part.
     assert_eq!(light(0.08), 0.0);
@@ -67,7 +67,7 @@ fn wicked_pushes_trails_inwards_where_they_begin() {
     // Everything moves far enough for taps 2 pixels apart, which spread a white column at the border.
     let seen = |speed: f32, border: &str| {
         let picture = Picture::new(80, 64, |x, _| white(speed).gray((x == 0).into()));
-        let overrides = format!("noise=none tile_dither=0 border={border}");
+        let overrides = format!("strength=-100 noise=none tile_dither=0 border={border}");
         column(&picture.blur("jimenez", "wicked", &overrides), 2)
     };
     // Motion points back, so trails begin ahead. Seven of 16 taps around 2.5 are off the picture.

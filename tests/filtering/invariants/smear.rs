@@ -51,8 +51,6 @@ fn filters_smear_beyond_a_mover_where_they_carry_motion_and_only_there() {
         // side.
         match (filter.name.as_str(), settings.preset.as_str()) {
             ("jump_flood" | "jump_flood_packed", _) => assert_within(behind, 6.0..),
-            // Seven sixteenths of that, and noise that shortens most trails.
-            ("jimenez", "kajiya" | "wicked_scaled") => assert_within(ahead.min(behind), 0.6..),
             ("mcguire" | "guertin" | "jimenez" | "blender" | "godot", _) | ("dagor", "mended") => {
                 assert_within(ahead.min(behind), 1.5..);
             }

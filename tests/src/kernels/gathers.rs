@@ -9,8 +9,8 @@ pub fn plain(preset: &str, steady: &Steady) -> Vec<Tap> {
         "departure" => (10, 1.0),
         "coarse" | "default" => (8, 1.0),
         "fine" => (20, 1.0),
-        // The last tap is at 0.4.
-        "armory" => (9, 0.45),
+        // The last tap is at the end of the exposure.
+        "armory" => (9, 1.125),
         _ => panic!("say here how many taps {preset} has"),
     };
     let parts = (0..count).map(|i| end * f64::from(i) / f64::from(count));
@@ -92,7 +92,7 @@ pub fn blender(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
         return vec![own(1.0)];
     }
     let samples = match preset {
-        "compositor" | "compositor_mended" => 32,
+        "compositor" => 32,
         _ => 8,
     };
     let parts = (0..samples).flat_map(|i| {
@@ -113,24 +113,19 @@ pub fn three(preset: &str, steady: &Steady) -> Vec<Tap> {
     taps
 }
 
-/// Returns the trail of three.js: as shipped, motion in device coordinates, which is added to texture coordinates.
+/// Returns the trail of three.js: as shipped, upside down.
 pub fn three_trail(preset: &str, steady: &Steady) -> [f64; 2] {
     let [x, y] = steady.trail();
     match preset {
-        "default" => [2.0 * x, -2.0 * y],
+        "default" => [x, -y],
         "corrected" => [x, y],
         _ => panic!("say here what {preset} takes for motion"),
     }
 }
 
 /// Places the taps of realism-effects: the pixel itself, and a trail of seventeen that noise moves ahead on each axis.
-pub fn realism_effects(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
-    let strength = match preset {
-        "default" => 0.6,
-        "scaled" => 1.0,
-        _ => panic!("say here how long the trail of {preset} is"),
-    };
-    let trail = scaled(steady.trail(), strength);
+pub fn realism_effects(steady: &Steady, noise: f64) -> Vec<Tap> {
+    let trail = steady.trail();
     // Together they fill the square, like two independent noises.
     let noises = [noise, (617.0 * noise).fract()];
     let taps = (0..=16).flat_map(|i| {
@@ -144,13 +139,12 @@ pub fn realism_effects(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
 /// Places the taps of Unity's URP, at the nearest pixels: even steps, all shifted back by noise.
 pub fn urp(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     let pairs = match preset {
-        "default" | "mended" => 2,
+        "default" => 2,
         "medium" => 3,
         "high" => 4,
         _ => panic!("say here how many taps {preset} has"),
     };
-    let strength = if preset == "mended" { 1.0 } else { 2.0 };
-    let trail = scaled(steady.trail(), strength);
+    let trail = steady.trail();
     let parts = (1 - pairs..=pairs).map(|i| (f64::from(i) - noise) / f64::from(2 * pairs));
     at_pixels(trail, parts)
 }

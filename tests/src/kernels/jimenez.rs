@@ -10,18 +10,15 @@ pub fn place_taps(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     match preset {
         "slides_2014" => slides(steady, noise),
         "hdrp" | "hdrp_mirrored" => hdrp(steady, noise),
-        // Ships with a strength of 5; the exposure's trail extends by half of itself to each side.
-        "o3de" => o3de(steady, 5.0, noise),
-        "o3de_scaled" => o3de(steady, 0.5, noise),
-        // A direction is 100 widths and heights of motion, taken as pixels, and extends 7.5 steps to each side.
+        // The exposure's trail extends by half of itself to each side.
+        "o3de" => o3de(steady, 0.5, noise),
+        // A direction is 128 widths and heights of motion, taken as pixels, and extends 7.5 steps to each side.
         "wicked" => {
             let [width, height] = steady.size();
             let [x, y] = steady.trail();
-            wicked([750.0 * x / width, 750.0 * y / height], noise)
+            wicked([960.0 * x / width, 960.0 * y / height], noise)
         }
-        "wicked_scaled" => wicked(scaled(steady.trail(), 0.5), noise),
-        "kajiya" => kajiya(steady, 1.0, noise),
-        "kajiya_scaled" => kajiya(steady, 16.0 / 7.0, noise),
+        "kajiya" => kajiya(steady, 16.0 / 7.0, noise),
         _ => panic!("say here what {preset} averages"),
     }
 }
