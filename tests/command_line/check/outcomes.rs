@@ -121,7 +121,10 @@ fn an_undecided_bound_within_three_floors_gives_exit_code_2_and_the_strictest_bo
     // What an interval decides is certain, and so is another bound that is broken.
     sandbox.write("bounds.toml", &bound("flip_moving", 0.5 * low, "required"));
     check(&sandbox, "", 1, &["BROKEN flip_moving"]);
-    sandbox.write("bounds.toml", &bound("flip_moving", 1.01 * high, "required"));
+    sandbox.write(
+        "bounds.toml",
+        &bound("flip_moving", 1.01 * high, "required"),
+    );
     check(&sandbox, "", 0, &["1 required bound: 1 met"]);
     let label = bound("label_tv", 1e-9, "required").replace("[default]\n", "");
     let both = bound("flip_moving", middle, "required") + &label;
