@@ -25,7 +25,7 @@ run: vulkan
 site: vulkan mdbook
 	cargo build --workspace --locked --bin shuttertruth --example results
 	"$(PROGRAM)" run --scenes $(SCENES) --size 320x180 --samples-per-pixel 64 --out "$(TARGET_DIR)/site_run" \
-	    --filter "identity$$(sed -n 's/^ships = "\(.*\)"/,\1/p' results/engines.toml | tr -d '\n')"
+	    --filter "identity$$(sed -n 's/^shape = "\(.*\)"/,\1/p' results/engines.toml | tr -d '\n')"
 	rm -rf "$(TARGET_DIR)/site_source"
 	"$(dir $(PROGRAM))examples/results" --site "$(TARGET_DIR)/site_source" "$(TARGET_DIR)/site_run/run.json"
 	"$(MDBOOK)" build "$(TARGET_DIR)/site_source" --dest-dir "$(abspath $(TARGET_DIR)/site)"

@@ -11,7 +11,7 @@ use store::{escape_markdown, markdown_code};
 use suite::{Bench, Error, IDENTITY};
 use tracer::SceneId;
 
-use super::engines::{Change, Engine, Measured, Shape, list_engines, measured};
+use super::engines::{Change, Engine, Gain, Measured, Shape, list_engines, measured};
 
 /// Characters of a line of the page.
 const WIDTH: usize = 135;
@@ -39,9 +39,10 @@ pub fn site_pages(all: &[Results], cards: &[Bench]) -> Result<Vec<(String, Strin
             "{section}\n{table}\n[Try it on five scenes](../../live/report.html#fan/{shape}) · [All results](../README.md)\n"
         );
         let text = text.trim_start().replacen("###", "#", 1);
-        let [findings, pictures] = ["](findings/", "](pictures/"];
-        let text = text.replace(findings, "](../findings/");
-        let text = text.replace(pictures, "](../pictures/");
+        let from_below = |text: String, folder: &str| {
+            text.replace(&format!("]({folder}/"), &format!("](../{folder}/"))
+        };
+        let text = (["findings", "changes", "pictures"].into_iter()).fold(text, from_below);
         pages.push((own.engine.page_name(), text.replace("](engines/", "](")));
     }
     Ok(pages)
@@ -158,7 +159,9 @@ impl<'a> Kept<'a> {
                 engine.at_180.to_string(),
                 scored(&|shape| Some(number(shape.ranked.mean))),
                 scored(&|shape| Some(number(shape.none))),
-                scored(&|shape| shape.changed.map(number)),
+                engine.change.as_ref().map_or("-".to_owned(), |change| {
+                    Gain::read(&engine.shape, change).mean().to_owned()
+                }),
                 find_time(self.bench, &engine.shape),
                 engine.default.text().to_owned(),
             ]
@@ -171,7 +174,7 @@ impl<'a> Kept<'a> {
             "at 180",
             "FLIP",
             "no blur",
-            "after the change",
+            "change gains",
             "time",
             "off by default",
         ];
@@ -193,14 +196,14 @@ impl<'a> Kept<'a> {
     /// Describes an engine below a heading, with its worst picture.
     fn section(&self, own: &Measured) -> String {
         let engine = &own.engine;
-        let changed = own.shape.as_ref().and_then(|shape| {
-            let change = engine.change.as_ref()?;
-            Some((change, shape.ranked.mean, shape.changed?))
-        });
         let mut text = format!("\n### {}\n\n{}", engine.name, engine.wrong);
-        if let Some((Change { by, preset }, before, after)) = changed {
-            let [before, after] = [before, after].map(|own| Metric::FLIP.number(own));
-            text += &format!(" {by} (`{preset}`): {before} becomes {after}.");
+        if let Some(change) = &engine.change {
+            let gain = Gain::read(&engine.shape, change);
+            let Change { by, set } = change;
+            text += &format!(
+                " {by}: `{set}` alone gains {} in FLIP over {}. [The search](changes/{}).",
+                gain.text, gain.over, gain.page
+            );
         }
         if let Some(finding) = &engine.finding {
             text += &format!(" [The lines of code](findings/{finding}.md).");
@@ -334,7 +337,8 @@ another length has a defect of length; one that states none has none.
 
 *FLIP* is the shape alone. It compares with a truth of 180 degrees. The engine's own setting of length is put so that the taps of a pixel
 cover 180 degrees; everything else stays as shipped. If an engine has no such setting, the motion that it gets is scaled. *At 180* is the
-smear that the program measures then. Ranks, worst scenes, pictures and changes use the shape. *Off by default*: an effect that a user
+smear that the program measures then. Ranks, worst scenes, pictures and changes use the shape. *Change gains* is what the smallest
+change that helps takes from the FLIP, if a [search](../examples/changes/README.md) found one. *Off by default*: an effect that a user
 has to add is off *until added*.
 
 ";

@@ -113,6 +113,7 @@ impl Site {
             one("results/README.md"),
             below("results/engines/"),
             below("results/findings/"),
+            below("results/changes/"),
         ];
         let look = [
             one("live/README.md"),

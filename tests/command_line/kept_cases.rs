@@ -110,7 +110,7 @@ fn a_kept_check_keeps_its_intervals_under_any_bound() {
     let (first, before) = (run_json(&sandbox), read_times(&sandbox));
     fs::remove_file(sandbox.path(WORST)).unwrap();
     let printed = check(&sandbox);
-    assert!(printed.contains("WITHIN NOISE flip_moving"), "{printed}");
+    assert!(printed.contains("BROKEN flip_moving"), "{printed}");
     assert!(run_json(&sandbox) == first);
     assert!(sandbox.path(WORST).is_file(), "no evidence was made anew");
     assert_eq!(check(&sandbox), printed);

@@ -161,7 +161,7 @@ impl Finding {
     /// Returns the decision from this finding alone.
     pub fn decision(&self) -> Decision {
         match (self.outcome, self.level) {
-            (Outcome::TooNoisy, _) => Decision::Misconfigured,
+            (Outcome::TooNoisy, Level::Required) => Decision::Misconfigured,
             (Outcome::Broken, Level::Required) => Decision::Broken,
             (Outcome::Inconclusive, Level::Required) => Decision::Inconclusive,
             _ => Decision::Pass,

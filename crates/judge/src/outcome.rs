@@ -13,7 +13,7 @@ pub enum Outcome {
     Broken,
     /// The interval contains the limit, or the truth's parts cannot determine the score.
     Inconclusive,
-    /// The limit is stricter than three floors, the least that the truth's noise allows: neither kept nor broken.
+    /// No interval decides, and the limit is stricter than three floors: noise alone could break it.
     TooNoisy,
     /// The metric does not apply to this scene.
     NotApplicable,
@@ -69,10 +69,10 @@ pub fn judge_score(
     };
     let ideal = metric.ideal();
     let limit = limit_as_badness(ideal, limit);
-    if limit < limit_as_badness(ideal, metric.strictest_bound(score.floor)) {
-        return Outcome::TooNoisy;
-    }
+    let is_within_noise = limit < limit_as_badness(ideal, metric.strictest_bound(score.floor));
     let (best, worst) = match interval {
+        // Of a value alone, nobody knows what noise gave to it.
+        None | Some(None) if is_within_noise => return Outcome::TooNoisy,
         None => [ideal.badness(score.value); 2].into(),
         Some(Some(interval)) => ideal.badness_within(interval),
         Some(None) => return Outcome::Inconclusive,
@@ -81,6 +81,8 @@ pub fn judge_score(
         Outcome::Kept
     } else if best > limit {
         Outcome::Broken
+    } else if is_within_noise {
+        Outcome::TooNoisy
     } else {
         Outcome::Inconclusive
     }
@@ -123,6 +125,31 @@ mod tests {
         assert_eq!(judge(0.08, 0.1), Outcome::Kept);
         assert_eq!(judge(0.09, 0.11), Outcome::Inconclusive);
         assert_eq!(judge(0.11, 0.13), Outcome::Broken);
+    }
+
+    #[test]
+    fn noise_excuses_only_what_no_interval_decides() {
+        // A perfect picture has up to 0.06.
+        let measured = Measured::Score(Score {
+            value: 0.05,
+            floor: 0.02,
+        });
+        let judge = |interval: Option<Option<&Interval>>, limit| {
+            judge_score(Metric::FLIP, &measured, interval, limit)
+        };
+        for (low, high, expected) in [
+            (0.04, 0.05, Outcome::Broken),
+            (0.01, 0.03, Outcome::Kept),
+            (0.03, 0.04, Outcome::TooNoisy),
+        ] {
+            assert_eq!(judge(Some(Some(&interval(low, high))), 0.035), expected);
+        }
+        assert_eq!(judge(Some(None), 0.035), Outcome::TooNoisy);
+        assert_eq!(judge(Some(None), 0.065), Outcome::Inconclusive);
+        assert_eq!(judge(None, 0.035), Outcome::TooNoisy);
+        assert_eq!(judge(None, 0.065), Outcome::Kept);
+        let around = interval(0.06, 0.07);
+        assert_eq!(judge(Some(Some(&around)), 0.065), Outcome::Inconclusive);
     }
 
     #[test]

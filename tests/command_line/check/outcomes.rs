@@ -99,20 +99,36 @@ fn a_limit_inside_the_interval_gives_exit_code_4_and_the_samples_to_decide() {
 }
 
 #[test]
-fn a_bound_within_three_floors_gives_exit_code_2_and_the_strictest_bound() {
+fn an_undecided_bound_within_three_floors_gives_exit_code_2_and_the_strictest_bound() {
     let sandbox = make_bounded(0.9, "required");
+    // So little motion is nearly noise.
+    sandbox.write("scene.toml", &SCENE.replace("-1.6", "-0.002"));
     let found = &json(&sandbox, "--filters identity")["findings"][0];
     let [floor, strictest] = ["floor", "strictest"].map(|key| found[key].as_f64().unwrap());
     assert_eq!(strictest, 3.0 * floor);
-    write_target(&sandbox, 0.99 * strictest);
+    let [low, high] = ["low", "high"].map(|end| found["interval"][end].as_f64().unwrap());
+    let middle = f64::midpoint(low, high);
+    assert!(middle < strictest && high < strictest, "{found}");
+    sandbox.write("bounds.toml", &bound("flip_moving", middle, "required"));
     let allowed = format!("the noise floor of {floor:.5}");
     let within = "LIMIT WITHIN NOISE flip_moving";
     let words = "at the strictest | stricter than three noise floors";
     check(&sandbox, "", 2, &[within, &allowed[..20]]);
     check(&sandbox, "", 2, words);
-    // Another bound that is broken is certain.
-    let text = sandbox.text("scenes/plate/bounds.toml");
-    sandbox.write("bounds.toml", &text.replace("limit = 0.9", "limit = 0.02"));
+    // A target fails nothing.
+    write_target(&sandbox, middle);
+    check(&sandbox, "-v", 0, &["target within noise flip_moving"]);
+    // What an interval decides is certain, and so is another bound that is broken.
+    sandbox.write("bounds.toml", &bound("flip_moving", 0.5 * low, "required"));
+    check(&sandbox, "", 1, &["BROKEN flip_moving"]);
+    sandbox.write(
+        "bounds.toml",
+        &bound("flip_moving", 1.01 * high, "required"),
+    );
+    check(&sandbox, "", 0, &["1 required bound: 1 met"]);
+    let label = bound("label_tv", 1e-9, "required").replace("[default]\n", "");
+    let both = bound("flip_moving", middle, "required") + &label;
+    sandbox.write("bounds.toml", &both);
     let parts = [within, "BROKEN label_tv", "a required bound is broken"];
     check(&sandbox, "", 1, &parts);
 }

@@ -65,10 +65,12 @@ fn status(finding: &Finding) -> TestCaseStatus {
         (Outcome::Inconclusive, Level::Required) => {
             with_message(NonSuccessKind::Error, "inconclusive", message)
         }
-        (Outcome::TooNoisy, _) => {
+        (Outcome::TooNoisy, Level::Required) => {
             with_message(NonSuccessKind::Error, "limit_within_noise", message)
         }
-        (Outcome::Broken | Outcome::Inconclusive, Level::Report) => skipped(message),
+        (Outcome::Broken | Outcome::Inconclusive | Outcome::TooNoisy, Level::Report) => {
+            skipped(message)
+        }
         (Outcome::NotApplicable | Outcome::NotJudged, _) => {
             skipped(finding.reason.clone().unwrap_or_default())
         }
