@@ -1,5 +1,7 @@
 //! Kept results: files of scores, and the page made from them.
 
+#[path = "../../examples/results/change.rs"]
+mod change;
 #[path = "../../examples/results/engines.rs"]
 mod engines;
 #[path = "../../examples/results/lengths.rs"]
