@@ -171,7 +171,7 @@ fn the_gallery_has_the_scores_of_the_results() {
             let own = main
                 .scores
                 .iter()
-                .find(|own| own.scene.to_string() == scene && own.name == preset);
+                .find(|own| own.scene == scene && own.name == preset);
             let flip = own
                 .unwrap_or_else(|| panic!("{scene}: {preset}"))
                 .score(Metric::FLIP);
