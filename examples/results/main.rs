@@ -3,6 +3,7 @@
 //! below `results/bench/`. Without a file it only writes the page. With `--lengths` it prints the lengths of engines' smears. With `--site FOLDER` it keeps nothing, and writes the source of the
 //! site with live cases of one run: `make site`.
 
+mod change;
 mod engines;
 mod lengths;
 mod page;

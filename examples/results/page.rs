@@ -11,7 +11,8 @@ use store::{escape_markdown, markdown_code};
 use suite::{Bench, Error, IDENTITY};
 use tracer::SceneId;
 
-use super::engines::{Change, Engine, Gain, Measured, Shape, list_engines, measured};
+use super::change::Change;
+use super::engines::{Engine, Measured, Shape, list_engines, measured};
 
 /// Characters of a line of the page.
 const WIDTH: usize = 135;
@@ -159,9 +160,7 @@ impl<'a> Kept<'a> {
                 engine.at_180.to_string(),
                 scored(&|shape| Some(number(shape.ranked.mean))),
                 scored(&|shape| Some(number(shape.none))),
-                engine.change.as_ref().map_or("-".to_owned(), |change| {
-                    Gain::read(&engine.shape, change).mean().to_owned()
-                }),
+                (own.gain.as_ref()).map_or("-".to_owned(), |gain| gain.mean().to_owned()),
                 find_time(self.bench, &engine.shape),
                 engine.default.text().to_owned(),
             ]
@@ -197,9 +196,7 @@ impl<'a> Kept<'a> {
     fn section(&self, own: &Measured) -> String {
         let engine = &own.engine;
         let mut text = format!("\n### {}\n\n{}", engine.name, engine.wrong);
-        if let Some(change) = &engine.change {
-            let gain = Gain::read(&engine.shape, change);
-            let Change { by, set } = change;
+        if let (Some(Change { by, set }), Some(gain)) = (&engine.change, &own.gain) {
             text += &format!(
                 " {by}: `{set}` alone gains {} in FLIP over {}. [The search](changes/{}).",
                 gain.text, gain.over, gain.page

@@ -138,11 +138,10 @@ impl Site {
         text + "\n# More\n\n" + &list(below(""))
     }
 
-    /// Makes the line of a page: its heading, with those of engines and findings below results.
+    /// Makes the line of a page: its heading, with those of engines, findings and changes below results.
     fn entry(&self, path: &str) -> String {
-        let is_part = ["results/engines/", "results/findings/"]
-            .iter()
-            .any(|start| path.starts_with(start));
+        let parts = ["results/engines/", "results/findings/", "results/changes/"];
+        let is_part = parts.iter().any(|start| path.starts_with(start));
         let title = self.pages[path].lines().next().unwrap_or_default();
         let title = title.trim_start_matches("# ");
         format!("{}- [{title}]({path})\n", if is_part { "  " } else { "" })

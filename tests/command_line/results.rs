@@ -1,5 +1,7 @@
 //! Kept results: files of scores, and the page made from them.
 
+#[path = "../../examples/results/change.rs"]
+mod change;
 #[path = "../../examples/results/engines.rs"]
 mod engines;
 #[path = "../../examples/results/lengths.rs"]
@@ -151,6 +153,37 @@ fn the_pictures_show_what_each_engine_ships_at_its_worst() {
     let files = fs::read_dir(folder().join("pictures")).unwrap();
     let found = files.map(|file| file.unwrap().file_name().into_string().unwrap());
     assert_eq!(found.collect::<BTreeSet<_>>(), due);
+}
+
+#[test]
+fn the_gallery_has_the_scores_of_the_results() {
+    let results = Results::read_all(&folder()).unwrap();
+    let main = main_results(&results).unwrap();
+    let gallery = fs::read_to_string(root().join("docs/gallery/README.md")).unwrap();
+    let mut shown = 0;
+    for section in gallery.split("\n## ").skip(1) {
+        let scene = section.lines().next().unwrap();
+        // Every second part is between back quotes: a preset, followed by its score.
+        let captions = section.lines().filter(|line| line.starts_with("Shutter "));
+        let parts: Vec<&str> = captions.flat_map(|line| line.split('`').skip(1)).collect();
+        for pair in parts.chunks_exact(2) {
+            let [preset, after] = [pair[0], pair[1].trim_start()];
+            let own = main
+                .scores
+                .iter()
+                .find(|own| own.scene == scene && own.name == preset);
+            let flip = own
+                .unwrap_or_else(|| panic!("{scene}: {preset}"))
+                .score(Metric::FLIP);
+            let kept = Metric::FLIP.number(flip.unwrap());
+            assert!(
+                after.starts_with(&kept),
+                "{scene}: {preset} has {kept}, not {after}"
+            );
+            shown += 1;
+        }
+    }
+    assert_eq!(shown, 4 * main.scenes().len());
 }
 
 #[test]
