@@ -4,7 +4,7 @@
     python3 examples/growth.py out/small --scenes 100 --filters 94 --out out/growth
 
 The small run has one scene and one filter. Every copy of the scene has its references and `--filters` copies of the filter, each a
-part of its own, as `shuttertruth truths plan` makes them for a filter with one preset. Scores differ between copies by up to 20 %. Pictures of
+part of its own, as examples/snakemake makes them. Scores differ between copies by up to 20 %. Pictures of
 copies are second names of the same files (hard links). Prints the time, the processor's time and the peak memory of each command.
 """
 

@@ -2,7 +2,7 @@
 
     python3 examples/changes/search.py --filter shaders/godot --preset addon --out out/changes > results/changes/godot_addon.md
 
-It scores the preset and every change of one parameter with `shuttertruth tune serve`, and prints the gain in mean FLIP with its 95 %
+It scores the preset and every change of one parameter with `shuttertruth tune evaluate`, and prints the gain in mean FLIP with its 95 %
 CI over the scenes. The best change counts if its CI excludes 0. Then it tries the best changes two at a time; a pair counts if the CI
 of its gain over the best single change excludes 0. What was found is measured again on sealed variants of the scenes, which took no
 part in the choice. README.md has more.
@@ -14,6 +14,7 @@ import json
 import shlex
 import subprocess
 import sys
+import tempfile
 import tomllib
 from pathlib import Path
 from statistics import NormalDist, fmean, stdev
@@ -144,20 +145,14 @@ def t_quantile(freedom):
 
 
 class Scores:
-    """Scores of candidates, from one `shuttertruth tune serve`."""
+    """Scores of candidates, from `shuttertruth tune evaluate`."""
 
     def __init__(self, arguments, manifest, more=()):
-        words = [arguments.program, "tune", "serve", "--filter", str(arguments.filter), "--from", arguments.preset, "--objective", "flip"]
+        words = [arguments.program, "tune", "evaluate", "--filter", str(arguments.filter), "--from", arguments.preset, "--objective", "flip"]
         words += ["--size", arguments.size, "--samples-per-pixel", arguments.samples_per_pixel, "--scenes-dir", arguments.scenes_dir]
         words += ["--out", arguments.out, "--quiet", *(["--scenes", arguments.scenes] if arguments.scenes else []), *more]
-        self.server = subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
-        ready = self.server.stdout.readline()
-        if not ready:
-            sys.exit(f"{' '.join(words)} ended with {self.server.wait()}")
-        count = len(json.loads(ready)["scenes"])
-        if count < FEWEST_SCENES:
-            sys.exit(f"{count} scenes: a CI over scenes needs at least {FEWEST_SCENES}; name more with --scenes")
-        self.manifest, self.ids = manifest, itertools.count()
+        self.words = [*words, "--params"]
+        self.manifest = manifest
         self.width = int(arguments.size.split("x")[0])
         presets = {own["name"]: own for own in manifest["preset"]}
         self.reference = presets[arguments.preset].get("reference_width", manifest.get("reference_width"))
@@ -167,15 +162,19 @@ class Scores:
 
     def measure(self, change):
         """Returns the FLIP of each scene with a change of the preset; None if the filter refuses the change."""
-        request = {"id": next(self.ids), "params": self.scaled(self.fixed | change)}
-        print(json.dumps(request), file=self.server.stdin, flush=True)
-        for line in map(json.loads, self.server.stdout):
-            if "error" in line:
-                print(f"refused: {name(change)}: {line['error']}", file=sys.stderr)
-                return None
-            if "done" in line:
-                return {scene: scores["flip"] for scene, scores in line["done"]["scenes"].items()}
-        sys.exit("shuttertruth tune serve ended")
+        with tempfile.NamedTemporaryFile("w", suffix=".json") as file:
+            json.dump(self.scaled(self.fixed | change), file)
+            file.flush()
+            ended = subprocess.run([*self.words, file.name], capture_output=True, text=True)
+        if ended.returncode:
+            if not change:
+                sys.exit(ended.stderr)
+            print(f"refused: {name(change)}: {ended.stderr}", file=sys.stderr)
+            return None
+        scores = json.loads(ended.stdout)["scenes"]
+        if len(scores) < FEWEST_SCENES:
+            sys.exit(f"{len(scores)} scenes: a CI over scenes needs at least {FEWEST_SCENES}; name more with --scenes")
+        return {scene: own["flip"] for scene, own in scores.items()}
 
     def scaled(self, change):
         """Converts lengths to pixels of the picture, as the program does for a preset's own values."""

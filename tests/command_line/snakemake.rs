@@ -1,4 +1,4 @@
-//! Snakemake runs the jobs of a plan, also after one was killed.
+//! Snakemake measures a run in parts, also after a job was killed.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,9 +9,8 @@ use tests::text::assert_contains;
 
 use crate::sandbox::{Sandbox, python_with, split, stderr, stdout};
 
-/// Words after `plan` and `run`.
-const WORDS: &str =
-    "--quiet --size 64x32 --samples-per-pixel 16 --jitter-frames 2 --filter identity";
+/// Options of every run.
+const OPTIONS: &str = "--size 64x32 --samples-per-pixel 16 --jitter-frames 2";
 
 /// Runs the example's Snakefile with two jobs at a time.
 fn snakemake(sandbox: &Sandbox) -> Command {
@@ -21,6 +20,8 @@ fn snakemake(sandbox: &Sandbox) -> Command {
     command.args(split(words));
     command.arg(snakefile).arg("--config");
     command.arg(format!("program={}", env!("CARGO_BIN_EXE_shuttertruth")));
+    command.arg(format!("options={OPTIONS}"));
+    command.args(["scenes=plate", "filters=identity,kino:default"]);
     // It keeps files there that no test needs.
     command.env("XDG_CACHE_HOME", sandbox.path("cache"));
     command.current_dir(sandbox.path(""));
@@ -68,8 +69,6 @@ fn finish(sandbox: &Sandbox) -> String {
 #[test]
 fn a_killed_job_is_resumed_and_the_merged_run_equals_that_of_one_process() {
     let [shared, alone] = [(); 2].map(|()| Sandbox::new());
-    let plan = shared.done(&format!("truths plan {WORDS} --json"));
-    shared.put("plan.jsonl", plan);
     let folder = shared.path("").canonicalize().unwrap();
 
     let mut command = snakemake(&shared);
@@ -80,13 +79,13 @@ fn a_killed_job_is_resumed_and_the_merged_run_equals_that_of_one_process() {
     let said = stderr(&first);
     assert!(!first.status.success(), "a killed job fails:\n{said}");
     assert!(!shared.path("out/run.json").exists());
-    let written = || shared.written("out/parts/truths/plate/truth_trailing.exr");
+    let written = || shared.written("out/parts/references/plate/plate/truth_trailing.exr");
     let before = written();
 
     finish(&shared);
     assert_eq!(written(), before, "a truth was rendered again");
-    alone.done(&format!("run {WORDS}"));
-    let run = |sandbox: &Sandbox| sandbox.text("out/run.json");
+    alone.done(&format!("run {OPTIONS} --filter identity,kino:default"));
+    let run = |sandbox: &Sandbox| sandbox.read_comparable("out");
     assert_eq!(run(&shared), run(&alone));
     assert!(shared.path("out/report.html").is_file());
     assert_contains(&finish(&shared), &["Nothing to be done"]);

@@ -86,8 +86,6 @@ pub enum TuneCommand {
     Compare(compare_presets::ComparePresetsArgs),
     /// Score one set of parameters; print JSON
     Evaluate(evaluate::EvaluateArgs),
-    /// Score sets of parameters on request, by JSON lines on standard input and output
-    Serve(serve::ServeArgs),
 }
 
 /// The commands of `engine`.
@@ -110,10 +108,6 @@ pub enum EngineCommand {
 pub enum TruthsCommand {
     /// Render frames and truths only, or some replicates of them
     Render(render::RenderArgs),
-    /// Split a run into jobs for several machines
-    ///
-    /// Renders nothing; prints a table, or JSON.
-    Plan(plan::PlanArgs),
     /// Join what several machines made: replicates of truths, or runs of some of the cases
     Merge(merge::MergeArgs),
 }
@@ -202,14 +196,12 @@ pub fn execute(program: &Cli) -> Result<Ending, Error> {
         Command::Tune(TuneCommand::Sensitivity(args)) => sensitivity::execute(args),
         Command::Tune(TuneCommand::Compare(args)) => compare_presets::execute(args),
         Command::Tune(TuneCommand::Evaluate(args)) => evaluate::execute(args),
-        Command::Tune(TuneCommand::Serve(args)) => serve::execute(args),
         Command::Engine(EngineCommand::Import(args)) => import::execute(args),
         Command::Engine(EngineCommand::Export(args)) => export::execute(args),
         Command::Engine(EngineCommand::Ingest(args)) => ingest::execute(args),
         Command::Engine(EngineCommand::Audit(args)) => return audit::execute(args),
         Command::Engine(EngineCommand::Blur(args)) => blur::execute(args),
         Command::Truths(TruthsCommand::Render(args)) => render::execute(args),
-        Command::Truths(TruthsCommand::Plan(args)) => plan::execute(args, &program.given),
         Command::Truths(TruthsCommand::Merge(args)) => merge::execute(args),
         Command::Limits(LimitsCommand::Accept(args)) => accept::execute(args),
         Command::Limits(LimitsCommand::Calibrate(args)) => calibrate::execute(args),

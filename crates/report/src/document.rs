@@ -3,7 +3,7 @@
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 /// Style sheets; later ones override earlier ones.
-const STYLES: [&str; 10] = [
+const STYLES: [&str; 9] = [
     include_str!("assets/base.css"),
     include_str!("assets/tables.css"),
     include_str!("assets/charts.css"),

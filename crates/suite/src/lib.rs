@@ -40,8 +40,7 @@ pub use inputs::render_scale::RenderScale;
 pub use inputs::shutter_rule::ShutterRule;
 pub use inputs::velocity_format::VelocityFormat;
 pub use measure::estimate::{
-    JobCost, RunEstimate, SceneJobs, estimate_case_seconds, estimate_jobs, estimate_render_seconds,
-    estimate_report, estimate_run,
+    RunEstimate, estimate_case_seconds, estimate_render_seconds, estimate_run,
 };
 pub use measure::measured_filters::MEASURED_FILTERS;
 pub use measure::part::Part;

@@ -5,4 +5,3 @@ mod evidence;
 mod folder;
 #[cfg(unix)]
 mod run;
-mod service;

@@ -1,10 +1,8 @@
-//! Jobs of a plan, run one by one, against one process.
+//! Parts of a run, measured one by one and merged, against one process.
 
 use std::fs;
 
-use tests::text::assert_contains;
-
-use super::{FILTERS, QUICK, execute, list, parts, plan};
+use super::{FILTERS, QUICK, parts};
 use crate::sandbox::{Files, Sandbox, assert_same_files, read_below};
 
 /// Reads all files of a run except the jobs' own, its judgement, and pages.
@@ -18,81 +16,57 @@ fn contents(sandbox: &Sandbox) -> Files {
     files
 }
 
-/// Runs the jobs of a plan in one sandbox and the command itself in another; compares all files.
+/// Measures every filter on every scene by itself in one sandbox and all of them at once in another, with the same options; compares all
+/// files.
 #[track_caller]
-fn assert_jobs_equal_one_process(words: &str) {
-    let words = format!("{QUICK} --filter {words}");
+fn assert_parts_equal_one_process(scenes: &str, filters: &str, options: &str) {
     let [shared, alone] = [(); 2].map(|()| Sandbox::two_scenes());
-    for job in &plan(&shared, &words) {
-        execute(&shared, job);
+    let options = format!("{QUICK} {options}");
+    let mut parts = String::new();
+    for scene in scenes.split(',') {
+        let references = format!("parts/{scene}");
+        let run = format!("run {options} --common centred --scenes {scene}");
+        shared.done(&format!(
+            "{run} --part references --filter {filters} --out {references}"
+        ));
+        parts += &format!(" {references}");
+        for (index, filter) in filters.split(',').enumerate() {
+            let part = format!("parts/{scene}_{index}");
+            let own = format!("--part filters --filter {filter} --truths {references}");
+            shared.done(&format!("{run} {own} --out {part}"));
+            parts += &format!(" {part}");
+        }
     }
-    alone.done(&format!("run {words}"));
-    let whole = contents(&alone);
+    let whole = format!("run {options} --scenes {scenes} --filter {filters}");
+    let program = env!("CARGO_BIN_EXE_shuttertruth");
+    shared.done(&format!(
+        "truths merge --quiet{parts} --out out -- {program} {whole}"
+    ));
+    shared.done("report --quiet out");
+    alone.done(&whole);
     assert!(alone.path("out/run.json").is_file());
-    assert_same_files(&contents(&shared), &whole);
+    assert_same_files(&contents(&shared), &contents(&alone));
 }
 
 #[test]
-fn jobs_of_a_plan_make_the_files_of_one_process() {
-    let more = "--intervals --set velocity_gather.samples=8 --out out";
-    assert_jobs_equal_one_process(&format!("{FILTERS} {more}"));
+fn parts_of_a_run_make_the_files_of_one_process() {
+    let options = "--intervals --set velocity_gather.samples=8";
+    assert_parts_equal_one_process("plate,slow", FILTERS, options);
 }
 
 #[test]
-fn jobs_of_a_sequence_make_the_files_of_one_process() {
-    assert_jobs_equal_one_process("kino:default,identity --frames 2 --scenes plate");
+fn parts_of_a_sequence_make_the_files_of_one_process() {
+    assert_parts_equal_one_process("plate", "kino:default,identity", "--frames 2");
 }
 
 #[test]
-fn jobs_of_frame_rates_make_the_files_of_one_process() {
+fn parts_of_frame_rates_make_the_files_of_one_process() {
     let rates = "--frame-rate 24 --shutter-time 1/48 --input rule=in_frames";
-    assert_jobs_equal_one_process(&format!("identity {rates} --scenes plate"));
+    assert_parts_equal_one_process("plate", "identity", rates);
 }
 
 #[test]
-fn jobs_of_a_calibration_leave_nothing_to_measure() {
-    let words = format!("{QUICK} --filter identity --scenes plate --runs 2 --metrics flip_moving");
-    let [shared, alone] = [(); 2].map(|()| Sandbox::new());
-    let jobs = plan(&shared, &words);
-    let (last, others) = jobs.split_last().unwrap();
-    for job in others {
-        execute(&shared, job);
-    }
-    let written = || shared.written("out/seed_2/plate/identity_default/case.json");
-    let before = written();
-    let printed = execute(&shared, last);
-    assert_eq!(written(), before, "a case was measured again");
-    assert_eq!(printed, alone.done(&format!("limits calibrate {words}")));
-}
-
-#[test]
-fn a_plan_is_a_table_or_one_line_per_job() {
-    let sandbox = Sandbox::two_scenes();
-    let words = format!("{QUICK} --filter {FILTERS}");
-    let jobs = plan(&sandbox, &words);
-    let names: Vec<&str> = (jobs.iter())
-        .map(|job| job["job"].as_str().unwrap())
-        .collect();
-    let due = "truths/SCENE references/SCENE filters/SCENE/velocity_gather filters/SCENE/kino";
-    let due = ["plate", "slow"].map(|scene| due.replace("SCENE", scene));
-    let due = format!("{} merge report", due.join(" "));
-    assert_eq!(names.join(" "), due);
-    let seconds = |name: &str| {
-        let mut own = jobs.iter().zip(&names).filter(|(_, own)| **own == name);
-        let job = own.next().unwrap().0;
-        assert!(job["memory"].as_u64().unwrap() > 50 << 20, "{job}");
-        job["cpu_seconds"].as_f64().unwrap()
-    };
-    // Two presets take longer than one, and eight references longer still.
-    let one = seconds("filters/plate/kino");
-    assert!(seconds("filters/plate/velocity_gather") > one);
-    assert!(seconds("references/plate") > one);
-    assert_contains(&sandbox.done(&format!("truths plan {words}")), &names);
-    assert!(!sandbox.path("out").exists(), "a plan writes nothing");
-}
-
-#[test]
-fn parts_made_by_hand_are_joined_without_a_plan() {
+fn scenes_measured_by_themselves_are_joined() {
     let sandbox = parts();
     let printed = sandbox.done("truths merge plate slow --out both");
     assert_eq!(printed, "both/run.json (16 cases of 2 parts)\n");
@@ -140,25 +114,5 @@ fn a_part_holds_its_references_or_its_filters_and_has_no_report() {
         let mut cases = run.cases.iter();
         assert!(cases.all(|case| case.is_reference == has_references));
         assert!(!sandbox.path(part).join("report.html").exists());
-    }
-}
-
-#[test]
-fn a_plan_of_a_user_s_own_files_names_them() {
-    let sandbox = Sandbox::new();
-    tests::filter_folder::copy_shipped_filter("velocity_gather", &sandbox.path("my_blur"));
-    fs::create_dir(sandbox.path("kept")).unwrap();
-    let words = "--scenes ./scenes/plate --filter my_blur:fine --truths kept";
-    let jobs = plan(&sandbox, &format!("{QUICK} {words}"));
-    let find = |name: &str| jobs.iter().find(|job| job["job"] == name);
-    assert!(find("truths/plate").is_none(), "they are kept");
-    let own = find("filters/plate/velocity_gather").unwrap();
-    assert!(list(own, "arguments").contains(&"./my_blur:fine".to_owned()));
-    let inputs = list(own, "inputs");
-    for file in ["./scenes/plate/scene.toml", "./my_blur/filter.toml"] {
-        assert!(inputs.contains(&file.to_owned()), "{file}: {inputs:?}");
-    }
-    for job in &jobs {
-        execute(&sandbox, job);
     }
 }

@@ -16,7 +16,7 @@ use crate::target::Shape::{Bytes, CommandLine, Picture, Spirv, Text};
 use crate::target::Target;
 
 /// All targets.
-pub static ALL: [Target; 30] = [
+pub static ALL: [Target; 28] = [
     Target::new("scene", 3_500, Text("scene"), |place, input| {
         scene::load(place, "scene.toml", input).map(drop)
     })
@@ -104,6 +104,5 @@ pub static ALL: [Target; 30] = [
         )
     }),
     Target::new("command_line", 350, CommandLine, program::command_line),
-    Target::new("serve", 300, Text("serve"), program::serve),
     Target::new("planted", 0, Bytes, planted::fail),
 ];

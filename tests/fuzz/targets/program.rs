@@ -43,20 +43,6 @@ pub fn records(place: &mut Place, input: &[u8]) -> Option<()> {
     commands::run(place, file, input, &[line])
 }
 
-/// Writes lines to the standard input of `serve`, then a request that is refused at once: its answer means that all lines are read.
-pub fn serve(place: &mut Place, input: &[u8]) -> Option<()> {
-    place.copy("scenes");
-    place.copy("out");
-    let last = "\n{\"id\": 123456789, \"params\": {}, \"scenes\": [\"none\"]}\n";
-    let lines = place.write("lines", [input, last.as_bytes()].concat());
-    let line = format!("tune serve {RENDER} --filter velocity_gather --objective flip --out out");
-    shuttertruth(place, &split(&line), fs::File::open(lines).unwrap().into());
-    let answers = fs::read(place.folder.join("stdout")).unwrap_or_default();
-    let is_answered = String::from_utf8_lossy(&answers).contains("\"id\":123456789");
-    assert!(is_answered, "serve ended, or reads no more");
-    Some(())
-}
-
 /// Runs a line of the program, and returns its code.
 pub fn run_line(place: &Place, line: &str) -> i32 {
     shuttertruth(place, &split(line), Stdio::null())

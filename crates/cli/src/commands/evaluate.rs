@@ -46,7 +46,7 @@ fn read_params(path: &Path, choice: &FilterChoice) -> Result<Settings, Error> {
 }
 
 /// Replaces some of the preset's values.
-pub fn change_settings(
+fn change_settings(
     choice: &FilterChoice,
     values: BTreeMap<String, Value>,
 ) -> Result<Settings, filters::FilterError> {

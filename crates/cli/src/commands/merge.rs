@@ -19,7 +19,7 @@ pub struct MergeArgs {
     /// Folder for the whole, as one machine would have written it.
     #[arg(short, long, value_name = "DIR", default_value = "out")]
     pub out: PathBuf,
-    /// Command line that run.json records; `truths plan` prints the whole run's [default: this command's].
+    /// Command line that run.json records [default: this command's].
     #[arg(last = true, value_name = "COMMAND")]
     pub command: Vec<String>,
 }

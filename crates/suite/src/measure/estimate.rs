@@ -1,4 +1,4 @@
-//! Rough estimates of the time, disk space and memory of a run and of its possible jobs. Times are off by a factor of two or three: scenes
+//! Rough estimates of the time, disk space and memory of a run. Times are off by a factor of two or three: scenes
 //! differ by a factor of six.
 
 use std::convert::Infallible;
@@ -13,9 +13,7 @@ use super::plan::RunPlan;
 use super::planned_case::PlannedCase;
 use crate::render::ladders::needed_rungs;
 
-/// Threads in the measurements of the times below: means over the shipped scenes, on two cores of a server with llvmpipe.
-const CORES: f64 = 2.0;
-/// CPU time in seconds to prepare a scene for rays, and of a sample.
+/// CPU time in seconds to prepare a scene for rays, and of a sample: means over the shipped scenes, on two cores of a server with llvmpipe.
 const SCENE: f64 = 0.2;
 const SAMPLE: f64 = 0.9e-6;
 /// Samples of a whole ladder, relative to its truth: only pixels near motion need it.
@@ -26,8 +24,6 @@ const CASE_PIXEL: f64 = 6e-6;
 const REPORT_PIXEL: f64 = 0.45e-6;
 /// Time of a case with intervals, relative to one without; with a ladder, counts of sub-frames have intervals.
 const INTERVALS: f64 = 2.0;
-/// Cases that need as much time as the start of a process and its truth.
-const START_CASES: f64 = 2.0;
 /// Bytes on disk per pixel of a picture: a frame, a replicate, or a case with its part of the report.
 const PICTURE_BYTES: u64 = 22;
 /// Pictures with the disk space of a truth and its ladder, without replicates.
@@ -46,40 +42,6 @@ pub struct RunEstimate {
     pub cases: usize,
     /// Number of cases that were measured before, with the same inputs.
     pub read_back: usize,
-}
-
-/// Expected cost of a job, on any number of cores: a truth may need three times as long, references a fifth.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct JobCost {
-    /// Time on one core, in seconds.
-    pub cpu_seconds: f64,
-    /// Peak memory in bytes.
-    pub memory: u64,
-}
-
-/// Costs of the jobs of one scene of a plan.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SceneJobs {
-    /// Frames, truths and ladders; none for an engine's scene.
-    pub render: Option<JobCost>,
-    /// Number of all references.
-    pub references: usize,
-    /// Number of cases of each filter preset.
-    pub inputs: usize,
-    /// CPU time of each case, in seconds.
-    case_seconds: f64,
-    /// Peak memory in bytes.
-    memory: u64,
-}
-
-impl SceneJobs {
-    /// Returns the cost of a process that measures some cases of the scene.
-    pub fn cases(&self, count: usize) -> JobCost {
-        JobCost {
-            cpu_seconds: (START_CASES + count as f64) * self.case_seconds,
-            memory: self.memory,
-        }
-    }
 }
 
 /// Estimates a run: cases and truths in the folder need no time. Does not read their pictures, and measures nothing.
@@ -114,41 +76,6 @@ pub fn estimate_run(plan: &RunPlan, gpu: Option<&Gpu>) -> RunEstimate {
     let Ok(()) = visited;
     estimate.seconds += estimate.cases as f64 * pixels * REPORT_PIXEL;
     estimate
-}
-
-/// Estimates the jobs of every scene if nothing is rendered yet. Measures nothing, so that a plan is the same each time.
-pub fn estimate_jobs(plan: &RunPlan) -> Vec<SceneJobs> {
-    let frames = f64::from(plan.frames.count);
-    let alignments = plan.alignments();
-    let ladders = count_ladders(plan, &alignments);
-    let truths = alignments.len();
-    let cpu_seconds = frames * render_cpu_seconds(&plan.render, true, truths, ladders);
-    let all = plan.all_scenes().into_iter();
-    let jobs = all.map(|scene| {
-        let memory = scene.memory(&plan.render, plan.measured(truths));
-        let planned = PlannedCase::all(plan, scene);
-        SceneJobs {
-            render: (scene.traced()).map(|_| JobCost {
-                cpu_seconds,
-                memory,
-            }),
-            references: (planned.iter().filter(|case| case.id.is_reference)).count(),
-            inputs: plan.inputs.len(),
-            case_seconds: frames * CORES * case_seconds(plan),
-            memory,
-        }
-    });
-    jobs.collect()
-}
-
-/// Estimates the page of a run with this many cases.
-pub fn estimate_report(plan: &RunPlan, cases: usize) -> JobCost {
-    let scenes = plan.all_scenes().into_iter();
-    let memory = scenes.map(|scene| scene.memory(&plan.render, plan.measured(1)));
-    JobCost {
-        cpu_seconds: CORES * cases as f64 * count_pixels(&plan.render) * REPORT_PIXEL,
-        memory: memory.max().unwrap_or(0),
-    }
 }
 
 /// Estimates the time to render a scene's frame and some truths, in seconds.

@@ -22,17 +22,6 @@ pub(crate) fn truth_files(
         .chain(rungs)
 }
 
-/// Advises to remove a truth and its folder of replicates: no run renders replicates again whose
-/// truth it can read.
-pub(crate) fn remove_truth(replicates: &Path) -> String {
-    let truth = replicates.with_extension("exr");
-    format!(
-        "remove {} and the folder {}, and ",
-        truth.display(),
-        replicates.display()
-    )
-}
-
 impl Rendering<'_> {
     /// Lists the scene's frame, and each alignment's [`truth_files`], with the hashes of their inputs.
     pub(crate) fn list_wanted(&self, alignments: &[Alignment], ladders: bool) -> Vec<Wanted> {

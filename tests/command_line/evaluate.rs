@@ -1,82 +1,30 @@
-//! `serve` and `evaluate`: searches driven by other programs.
+//! `tune evaluate`: searches driven by other programs.
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
-use std::process::{ChildStdin, Command, Stdio};
+use std::process::{Command, Stdio};
 
-use serde_json::{Value, json};
-use tests::text::assert_contains;
+use serde_json::Value;
 
 use crate::child::wait_until;
 use crate::sandbox::{Sandbox, python_with, read_table, split, stderr, stdout};
 
-pub const SERVE: &str = "tune serve --quiet --filter jump_flood --objective flip --size 64x32 \
-    --samples-per-pixel 16 --out out";
-
-/// Sends the lines one by one and reads all answers.
-fn converse(sandbox: &Sandbox, lines: &[Value]) -> Vec<Value> {
-    let mut command = sandbox.command(&split(SERVE));
-    command.stdin(Stdio::piped()).stdout(Stdio::piped());
-    let mut child = command.spawn().unwrap();
-    let mut input: ChildStdin = child.stdin.take().unwrap();
-    for line in lines {
-        match line {
-            Value::String(text) => writeln!(input, "{text}").unwrap(),
-            json => writeln!(input, "{json}").unwrap(),
-        }
-    }
-    drop(input);
-    let output = BufReader::new(child.stdout.take().unwrap());
-    let heard = output.lines().map(Result::unwrap);
-    let heard: Vec<Value> = heard
-        .map(|line| serde_json::from_str(&line).unwrap())
-        .collect();
-    assert!(child.wait().unwrap().success());
-    heard
-}
+const EVALUATE: &str =
+    "tune evaluate --quiet --filter jump_flood --size 64x32 --samples-per-pixel 16 --out out";
 
 #[test]
-fn requests_get_answers_and_bad_or_cancelled_ones_none() {
-    let requests = [
-        json!({"id": 7, "params": {"samples": 12}}),
-        json!("samples = 3"),
-        json!({"id": 1, "params": {"sample": 3}}),
-        json!({"id": 4, "params": {"samples": 0}}),
-        json!({"id": 5, "params": {}, "scenes": ["fan"]}),
-        json!({"id": 6, "params": {}, "scenes": []}),
-        json!({"cancel": 2}),
-        json!({"id": 2, "params": {"samples": 3}}),
-        // JSON has only one kind of number: a whole one is also a real one.
-        json!({"id": 3, "params": {"samples": 4, "match_threshold": 1}}),
-    ];
-    let heard = converse(&Sandbox::new(), &requests);
-    assert_eq!(heard[0]["ready"], true);
-    assert_eq!(heard[0]["scenes"], json!(["plate"]));
-    let of = |id: u64| -> Vec<&Value> { heard.iter().filter(|line| line["id"] == id).collect() };
-    // One answer per scene, and then a summary.
-    let [scene, summary] = of(7)[..] else {
-        panic!("one scene: {heard:?}");
-    };
-    assert_eq!(scene["scene"], "plate");
-    let done = &summary["done"];
-    assert_eq!(done["values"]["samples"], 12);
-    assert_eq!(done["scenes"]["plate"]["flip"], scene["flip"]);
-    let error = done["error"].as_f64().unwrap();
-    assert!(error != 0.0, "it differs from the start");
-
-    let errors = heard.iter().filter_map(|line| line["error"].as_str());
-    let errors: Vec<&str> = errors.collect();
-    let parts = "allowed are {\"id\": 7|sample|from 1 to 64|allowed: plate|name at least one";
-    let parts: Vec<&str> = parts.split('|').collect();
-    assert_eq!(errors.len(), parts.len(), "{heard:?}");
-    for (error, part) in errors.iter().zip(parts) {
-        assert_contains(error, &[part]);
-    }
-    assert_eq!(of(2), [&json!({"id": 2, "cancelled": true})]);
-    let last = &of(3).pop().unwrap()["done"];
-    assert_eq!(last["values"]["match_threshold"], 1.0);
+fn a_file_of_parameters_is_scored_on_every_scene() {
+    let sandbox = Sandbox::new();
+    // JSON has only one kind of number: a whole one is also a real one.
+    sandbox.put("p.json", "{\"samples\": 12, \"match_threshold\": 1}");
+    let printed = sandbox.done(&format!("{EVALUATE} --objective flip --params p.json"));
+    let scores: Value = serde_json::from_str(&printed).unwrap();
+    assert_eq!(scores["values"]["samples"], 12);
+    assert_eq!(scores["values"]["match_threshold"], 1.0);
+    let flip = scores["scenes"]["plate"]["flip"].as_f64().unwrap();
+    assert!(flip > 0.0 && flip < 1.0, "{flip}");
+    assert_ne!(scores["error"], 0.0, "it differs from the start");
 }
 
 #[test]
@@ -102,13 +50,13 @@ fn optuna(sandbox: &Sandbox, more: &[&str]) -> Command {
     command.arg(example).args(more);
     let folder = program.parent().unwrap().display();
     command.env("PATH", format!("{folder}:{path}"));
-    let words = SERVE.replace("flip ", "flip,bleed ");
-    command.args(&split(&words)[2..]);
+    command.args(&split(EVALUATE)[2..]);
+    command.args(["--objective", "flip,bleed"]);
     command
 }
 
 #[test]
-fn optuna_finds_something_better_through_the_service() {
+fn optuna_finds_something_better() {
     let sandbox = Sandbox::new();
     let output = optuna(&sandbox, &[]).output().unwrap();
     assert!(output.status.success(), "{}", stderr(&output));
