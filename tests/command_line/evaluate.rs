@@ -50,7 +50,7 @@ fn optuna(sandbox: &Sandbox, more: &[&str]) -> Command {
     command.arg(example).args(more);
     let folder = program.parent().unwrap().display();
     command.env("PATH", format!("{folder}:{path}"));
-    command.args(&split(EVALUATE)[2..]);
+    command.args(&split(EVALUATE)[3..]);
     command.args(["--objective", "flip,bleed"]);
     command
 }
