@@ -188,14 +188,14 @@ fn phrases(engine: &Engine) -> Vec<String> {
             vec![format!("{tiles} tiles of {} pixels", number("tile_size"))]
         }
         "mcguire:g3d" => {
-            // The filter's own text, and the line that results/findings/shipped.md quotes.
+            // The filter's own text, which `filtering calibration` measures.
             let text = &preset.filter.cannot;
             let grows = text.split_once("grows on each side").unwrap().1;
             let grows = grows.split_once("(g3d ").unwrap().1;
             let grows = grows.split_once(',').unwrap().0;
             vec![
                 format!("gains {grows} of its trail"),
-                "m_cameraMotionInfluence = 0.5".to_owned(),
+                format!("m_cameraMotionInfluence = {}", number("camera_influence")),
             ]
         }
         _ => Vec::new(),
@@ -423,9 +423,10 @@ fn finding_phrases(page: &str) -> Vec<String> {
             let setting = Setting::find("urp:default");
             let half = short(setting.at(HALF_FRAME));
             let clamp = number("urp:camera_only", "longest_camera_motion");
+            let preset = Preset::new("urp:default").text();
+            assert!(preset.contains("by default 0,"), "{preset}");
             vec![
                 format!("clamp of camera motion at {clamp}"),
-                // Its most, 1, is a fraction of what MotionBlur.cs allows: off is none of it.
                 "intensity of 0,".to_owned(),
                 format!("intensity of {} smears over two", setting.shipped),
                 format!("intensity of {half} is a shutter of 180 degrees"),
