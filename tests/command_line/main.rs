@@ -39,6 +39,7 @@ mod links;
 mod own_filter;
 mod packs;
 mod people;
+mod pictures;
 mod quotes;
 mod reference_width;
 mod refusals;
