@@ -3,10 +3,13 @@
 use std::fs;
 
 use filters::{Filter, Settings, Value};
+use judge::Results;
+use metrics::Metric;
 use tests::kernels::{Steady, place_taps};
 use tests::root;
 
 use super::engines::{Engine, list_engines};
+use super::page::main_results;
 
 /// Exposure of a shutter of 180 degrees, in frames.
 const HALF_FRAME: f64 = 0.5;
@@ -365,6 +368,30 @@ fn settings_of_length_are_what_the_pages_say() {
         let slack = if shape == "jimenez:o3de" { 0.15 } else { 0.015 };
         let off = measured * at_180 / shipped - 1.0;
         assert!(off.abs() < slack, "{shape}: {measured}, {shipped}/{at_180}");
+    }
+}
+
+#[test]
+fn eevee_is_scored_by_a_mean_of_its_samples_which_is_better_than_one() {
+    let engines = list_engines();
+    let eevee = engines.iter().find(|own| own.name.contains("EEVEE"));
+    let eevee = eevee.unwrap();
+    let mean = Preset::new(&eevee.shape);
+    let [draws, one] = [&mean, &Preset::new("blender:eevee")].map(|own| own.number("draws"));
+    assert_eq!(one, 1.0);
+    let own = format!("the mean of {draws} of its 64 samples");
+    assert!(mean.text().contains(&own), "{}", mean.text());
+    assert!(eevee.name.ends_with("64 samples"), "{}", eevee.name);
+    let results = Results::read_all(&root().join("results")).unwrap();
+    let main = main_results(&results).unwrap();
+    for scene in main.scenes() {
+        let [mean, one] = [&*eevee.shape, "blender:eevee"].map(|name| {
+            let mut scores = main.scores.iter();
+            let own = scores.find(|own| own.scene == *scene && own.name == name);
+            own.unwrap().score(Metric::FLIP).unwrap()
+        });
+        // One sample of noise is no truer anywhere that is certain.
+        assert!(mean < one + 0.001, "{scene}: {mean}, one sample {one}");
     }
 }
 
