@@ -53,7 +53,11 @@ fn every_picture_is_in_the_recipe_and_on_a_page() {
         .map(|path| path.strip_prefix(&top).unwrap().display().to_string())
         .collect();
     let shown: BTreeSet<String> = list_shown().into_keys().collect();
-    assert_eq!(files, shown, "left: files; right: pictures on pages");
+    let odd: Vec<&String> = files.symmetric_difference(&shown).collect();
+    assert!(
+        odd.is_empty(),
+        "pictures on no page, or without a file: {odd:#?}"
+    );
 
     let recipe = Recipe::read();
     let mut known: BTreeSet<String> = read_record(&top).into_keys().collect();
@@ -66,9 +70,10 @@ fn every_picture_is_in_the_recipe_and_on_a_page() {
         assert!(is_made, "{RECORD}: no run of pictures.toml makes {path}");
     }
     known.extend(recipe.by_hand.into_iter().map(|own| own.file));
-    assert_eq!(
-        files, known,
-        "left: files; right: {RECORD}, and by_hand in pictures.toml"
+    let odd: Vec<&String> = files.symmetric_difference(&known).collect();
+    assert!(
+        odd.is_empty(),
+        "neither in {RECORD} nor by_hand in pictures.toml, or without a file: {odd:#?}"
     );
 }
 
@@ -103,7 +108,7 @@ fn every_picture_shows_the_scores_of_its_page_or_of_the_results() {
     let record = read_record(&root());
     let mut wrong = String::new();
     for (path, shown) in &record {
-        let bytes = fs::read(root().join(path)).unwrap();
+        let bytes = fs::read(root().join(path)).unwrap_or_default();
         if hash(&bytes) != shown.hash {
             wrong += &format!("{path}: not the picture of {RECORD}\n");
         }
@@ -166,9 +171,10 @@ fn the_picture_of_the_report_has_the_ranking_of_the_readme() {
         wrong.is_empty(),
         "make it again: make pictures RUNS=report\n{wrong:#?}"
     );
-    let older = readme
-        .replace("0.098 0.000 0.023!", "0.097 0.000 0.023!")
-        .replace("1-2 godot:mended", "1-2 godot:addon")
-        .replace("shows all 5", "shows all 6");
-    assert_eq!(find_other_ranking(lines, &older).len(), 3);
+    let changed = lines.iter().map(|line| line.replace(" 0.0", " 0.9"));
+    let changed: Vec<String> = changed
+        .map(|line| line.replace("5 scenes", "4 scenes"))
+        .collect();
+    let wrong = find_other_ranking(&changed, &readme);
+    assert!(wrong.len() > 4, "{wrong:#?}");
 }
