@@ -8,7 +8,7 @@
 # shaders in GLSL. `make prove` needs Blender and mdBook, too.
 # On macOS and Windows plain cargo commands work.
 
-.PHONY: run site test prove breadth guides fuzz mutants growth archive action image publish vulkan software_vulkan python chromium node glslang blender mdbook
+.PHONY: run site pictures test prove breadth guides fuzz mutants growth archive action image publish vulkan software_vulkan python chromium node glslang blender mdbook
 
 # Mesa complains on every start where a login session has not set it, as in containers; nothing is written there.
 export XDG_RUNTIME_DIR ?= /tmp
@@ -30,14 +30,24 @@ site: vulkan mdbook
 	"$(dir $(PROGRAM))examples/results" --site "$(TARGET_DIR)/site_source" "$(TARGET_DIR)/site_run/run.json"
 	"$(MDBOOK)" build "$(TARGET_DIR)/site_source" --dest-dir "$(abspath $(TARGET_DIR)/site)"
 
+# Makes the pictures of the pages, or with CHECK=1 compares them with what the program makes now; `make pictures RUNS=fan,report`
+# takes two of the runs of examples/pictures/pictures.toml.
+pictures: software_vulkan chromium
+	cargo build --workspace --locked --bin shuttertruth --example results --example pictures
+	$(SOFTWARE) "$(dir $(PROGRAM))examples/pictures" $(if $(CHECK),--check) $(RUNS)
+
 # Tests compare numbers, which graphics cards round in their own ways. They run on Mesa's software driver, or on VK_DRIVER_FILES.
-TEST = VK_DRIVER_FILES="$${VK_DRIVER_FILES:-$$(ls /usr/share/vulkan/icd.d/lvp_icd*.json 2>/dev/null | head -n 1)}" cargo test --workspace --locked
+SOFTWARE = VK_DRIVER_FILES="$${VK_DRIVER_FILES:-$$(ls /usr/share/vulkan/icd.d/lvp_icd*.json 2>/dev/null | head -n 1)}"
+TEST = $(SOFTWARE) cargo test --workspace --locked
 
 test: software_vulkan python chromium node glslang
 	$(TEST)
 
 # Runs every part, even after one that fails. Prints at the end how long each took: `make prove PARTS=guides`.
-PARTS ?= breadth guides fuzz mutants growth
+PARTS ?= breadth guides pictures fuzz mutants growth
+
+# Pictures that `make prove` compares; the others take an hour.
+PROVED = report,first_ten_minutes,fan,camera_only
 
 # Minutes of the fuzzer, and of the mutants in `make prove`.
 MINUTES ?= 10
@@ -46,7 +56,7 @@ prove:
 	@failed=0; took=""; \
 	for part in $(PARTS); do \
 	    echo "prove: $$part" >&2; start=$$(date +%s); end=passed; \
-	    $(MAKE) --no-print-directory $$part MINUTES=$(MINUTES) || { end=FAILED; failed=1; }; \
+	    $(MAKE) --no-print-directory $$part MINUTES=$(MINUTES) CHECK=1 RUNS=$(PROVED) || { end=FAILED; failed=1; }; \
 	    took="$$took$$(printf 'prove: %-8s %5d s %s' $$part $$(($$(date +%s) - start)) $$end)\n"; \
 	done; \
 	printf "$$took"; exit $$failed

@@ -38,6 +38,7 @@ mod kept;
 mod kept_cases;
 mod links;
 mod own_filter;
+mod pictures;
 mod quotes;
 mod reference_width;
 mod refusals;

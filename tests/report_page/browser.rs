@@ -198,7 +198,8 @@ impl Browser {
         self.picture_at([0.0, 0.0, width, height.min(most)])
     }
 
-    fn picture_at(&mut self, [x, y, width, height]: [f64; 4]) -> Vec<u8> {
+    /// Takes a PNG of a part of the page: left, top, width and height.
+    pub fn picture_at(&mut self, [x, y, width, height]: [f64; 4]) -> Vec<u8> {
         let clip = json!({"x": x, "y": y, "width": width, "height": height, "scale": 1});
         let words = json!({"clip": clip, "captureBeyondViewport": true});
         let shot = self.call("Page.captureScreenshot", words);

@@ -34,6 +34,7 @@ pub use finding_text::{
 use frame::write_atomically;
 pub use gallery::{write_case_strip, write_gallery};
 use judge::{Finding, Verdict};
+pub use label::label;
 use live::LiveFiles;
 use live::scene::scene_json;
 use maud::{Markup, PreEscaped};

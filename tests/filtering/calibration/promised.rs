@@ -65,7 +65,7 @@ pub fn stated_lengths(filter: &str, preset: &str) -> RangeInclusive<f64> {
         ("mcguire", "tuned") => 0.86..=1.04,
         ("guertin", _) => 0.65..=0.87,
         ("dagor", "default") => 0.77..=1.11,
-        ("godot", "addon") => 0.88..=1.025,
+        ("godot", "addon" | "mended") => 0.88..=1.025,
         ("three", _) => 1.03..=1.05,
         ("centred_gather", "armory") => 1.07..=1.09,
         ("centred_gather", "spartan_2024") => 0.98..=1.00,

@@ -129,6 +129,7 @@ pub fn check_growth(outcome: &Outcome, light: Light) -> Option<String> {
         ("mcguire" | "guertin", _) if speed == 24.0 => {
             let grown = match preset {
                 "tuned" => 0.11..0.125,
+                "g3d" => 0.195..0.215,
                 _ => 0.13..0.25,
             };
             grown.contains(&(light.behind / speed)) && light.lost_at_back / speed < 0.02
