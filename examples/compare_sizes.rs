@@ -55,9 +55,10 @@ fn print_tables(paths: &[String]) -> Result<(), Error> {
 
 /// Reads a run.json, or a file of results.
 fn read(path: &Path) -> Result<Results, Error> {
-    match path.ends_with("run.json") {
-        true => Results::from_runs(&[Run::read(path)?]),
-        false => Results::read(path),
+    if path.ends_with("run.json") {
+        Results::from_runs(&[Run::read(path)?])
+    } else {
+        Results::read(path)
     }
 }
 

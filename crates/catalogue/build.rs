@@ -52,9 +52,10 @@ fn find_files(root: &Path) -> Vec<PathBuf> {
 
 fn collect(folder: &Path, found: &mut Vec<PathBuf>) {
     for path in list_folder(folder) {
-        match path.is_dir() {
-            true => collect(&path, found),
-            false => found.push(path),
+        if path.is_dir() {
+            collect(&path, found)
+        } else {
+            found.push(path)
         }
     }
 }

@@ -182,13 +182,14 @@ impl<'a> Kept<'a> {
 
     /// Names an engine, with a link to its page if it has one.
     fn link(&self, engine: &Engine) -> String {
-        match self.is_site {
-            true => format!(
+        if self.is_site {
+            format!(
                 "[{}]({})",
                 escape_markdown(&engine.name),
                 engine.page_name()
-            ),
-            false => escape_markdown(&engine.name),
+            )
+        } else {
+            escape_markdown(&engine.name)
         }
     }
 

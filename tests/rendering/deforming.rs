@@ -71,14 +71,18 @@ fn shifting_shapes_equal_a_translation() {
 fn a_stretching_panel_covers_and_moves_as_its_edges_do() {
     // The left edge stays; the right one moves, and reverses at a key inside the shutter.
     let panel = rectangle(10.0, 400.0);
-    let right = |time: f64| match time < -0.2 {
-        true => 5.0 + 10.0 * time,
-        false => 3.0 - 5.0 * (time + 0.2),
+    let right = |time: f64| {
+        if time < -0.2 {
+            5.0 + 10.0 * time
+        } else {
+            3.0 - 5.0 * (time + 0.2)
+        }
     };
     let stretched = deforming_mesh(panel, &[-1.0, -0.2, 0.5], |place, time| {
-        match place.x > 0.0 {
-            true => Vec3::new(right(time) as f32, place.y, 0.0),
-            false => place,
+        if place.x > 0.0 {
+            Vec3::new(right(time) as f32, place.y, 0.0)
+        } else {
+            place
         }
     });
     let scene = scene_of(stretched, placed);
@@ -96,9 +100,10 @@ fn a_stretching_panel_covers_and_moves_as_its_edges_do() {
     let velocities = render_velocities(&scene, VelocityKind::Instantaneous);
     for (pixel, [across, down]) in velocities.into_iter().enumerate() {
         let x = pixel_corner(pixel as u32 % WIDTH, 0).x + 0.5;
-        let expected = match (-5.0..2.0).contains(&x) {
-            true => -5.0 * (x + 5.0) / 7.0,
-            false => 0.0,
+        let expected = if (-5.0..2.0).contains(&x) {
+            -5.0 * (x + 5.0) / 7.0
+        } else {
+            0.0
         };
         // Vertices are rounded to f32.
         assert!((f64::from(across) - expected).abs() < 1e-4 && down.abs() < 1e-4);

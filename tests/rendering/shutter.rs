@@ -70,9 +70,12 @@ fn braking_inside_a_gradual_shutter_follows_its_parabola() {
     let [(efficiency, weight), ..] = curves();
     scene.shutter_profile.efficiency = efficiency;
     // Before the first key the motion is a line of the same slope.
-    let along = |time: f64| match time < -0.7 {
-        true => parabola(-0.7) + (time + 0.7) * (-2.0 + 40.0 * 0.7),
-        false => parabola(time),
+    let along = |time: f64| {
+        if time < -0.7 {
+            parabola(-0.7) + (time + 0.7) * (-2.0 + 40.0 * 0.7)
+        } else {
+            parabola(time)
+        }
     };
     expect_coverage("braking", &scene, Alignment::Trailing, |pixel, shutter| {
         weighted_mean(shutter, weight, |time| area(pixel, normal, along(time)))

@@ -314,8 +314,9 @@ pub fn address_of(page: &Path) -> String {
     let path = page.to_str().unwrap().to_owned();
     let escaped =
         (escapes.iter()).fold(path, |path, (letter, escape)| path.replace(*letter, escape));
-    match escaped.starts_with("http:") {
-        true => escaped,
-        false => format!("file://{escaped}"),
+    if escaped.starts_with("http:") {
+        escaped
+    } else {
+        format!("file://{escaped}")
     }
 }

@@ -26,16 +26,22 @@ fn picture(formula: Formula, scale: f32) -> Image {
 
 const RAMP: Formula = |x, y, c| (x * (c + 2) + y * 3) % 257;
 const SHIFTED_RAMP: Formula = |x, y, c| RAMP(x + 2, y, c);
-const CHECKS: Formula = |x, y, c| match (x / 6 + y / 5).is_multiple_of(2) {
-    true => 200 - 30 * c,
-    false => 40 + 20 * c,
+const CHECKS: Formula = |x, y, c| {
+    if (x / 6 + y / 5).is_multiple_of(2) {
+        200 - 30 * c
+    } else {
+        40 + 20 * c
+    }
 };
 const SMEARED_CHECKS: Formula = |x, y, c| (0..4).map(|tap| CHECKS(x + tap, y, c)).sum::<u32>() / 4;
 const FLAT: Formula = |_, _, _| 128;
 const FLAT_WITH_DOT: Formula = |x, y, _| if (x, y) == (30, 20) { 256 } else { 128 };
-const DISC: Formula = |x, y, c| match x.abs_diff(25).pow(2) + y.abs_diff(20).pow(2) < 150 {
-    true => 220 - 60 * c,
-    false => 0,
+const DISC: Formula = |x, y, c| {
+    if x.abs_diff(25).pow(2) + y.abs_diff(20).pow(2) < 150 {
+        220 - 60 * c
+    } else {
+        0
+    }
 };
 const MOVED_DISC: Formula = |x, y, c| DISC(x.saturating_sub(4), y.saturating_sub(1), c);
 const SCATTER: Formula = |x, y, c| (x * 7919 + y * 104_729 + c * 1_299_709) % 251;

@@ -93,9 +93,10 @@ impl Picture {
         let mut random = Random::new(seed);
         self.color = Raster::from_fn(self.color.width, self.color.height, |x, y| {
             let gray = random.real(0.0, 1.0);
-            match is_speckled(x, y) {
-                true => [gray; 3],
-                false => *self.color.at(x, y),
+            if is_speckled(x, y) {
+                [gray; 3]
+            } else {
+                *self.color.at(x, y)
             }
         });
         self

@@ -134,9 +134,10 @@ impl Scene {
     /// Renders the truth of a trailing shutter, twice.
     pub fn truth(&self, samplings: [Sampling; 2]) -> Truth {
         let first = self.render(&Blur::TRUE, samplings[0]);
-        let halves = match samplings[0] == samplings[1] {
-            true => [first.clone(), first],
-            false => [first, self.render(&Blur::TRUE, samplings[1])],
+        let halves = if samplings[0] == samplings[1] {
+            [first.clone(), first]
+        } else {
+            [first, self.render(&Blur::TRUE, samplings[1])]
         };
         let mut motion = Raster::filled(self.width, self.height, 0.0);
         for (object, index) in self.objects.iter().zip(1..) {
@@ -251,9 +252,12 @@ impl Scene {
 
     /// Poses the objects for a blur, with their ids; still ones are not blurred.
     fn posed(&self, blur: &Blur) -> Vec<(usize, Posed)> {
-        let pose = |object: &Object| match object.moves() {
-            true => Posed::new(object, blur),
-            false => Posed::new(object, &Blur::IDENTITY),
+        let pose = |object: &Object| {
+            if object.moves() {
+                Posed::new(object, blur)
+            } else {
+                Posed::new(object, &Blur::IDENTITY)
+            }
         };
         (1..).zip(self.objects.iter().map(pose)).collect()
     }

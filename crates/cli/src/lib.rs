@@ -51,12 +51,13 @@ pub fn run_program() -> ExitCode {
         Ok(Ending::Done) => ExitCode::SUCCESS,
         Ok(Ending::Failed(error)) => ExitCode::from(exit_code(&error)),
         Err(error) => {
-            match error.is_interruption() {
-                true => print_error(INTERRUPTED_TEXT),
-                false => match way_out(&error) {
+            if error.is_interruption() {
+                print_error(INTERRUPTED_TEXT)
+            } else {
+                match way_out(&error) {
                     Some(way_out) => print_failure(&Error::Usage(format!("{error}; {way_out}"))),
                     None => print_failure(&error),
-                },
+                }
             }
             ExitCode::from(exit_code(&error))
         }

@@ -140,17 +140,19 @@ impl Parser<'_> {
                 arguments.push(self.operation(0)?);
             }
             self.close()?;
-            return match arguments.len() == *count {
-                true => Ok(Expression::Apply(function, arguments)),
-                false => Err(format!(
+            return if arguments.len() == *count {
+                Ok(Expression::Apply(function, arguments))
+            } else {
+                Err(format!(
                     "has {word} of {} values; allowed: {count}",
                     arguments.len()
-                )),
+                ))
             };
         }
-        match (self.is_known)(word) {
-            true => Ok(Expression::Name(word.to_owned())),
-            false => Err(format!("holds the unknown name \"{word}\"")),
+        if (self.is_known)(word) {
+            Ok(Expression::Name(word.to_owned()))
+        } else {
+            Err(format!("holds the unknown name \"{word}\""))
         }
     }
 

@@ -42,11 +42,12 @@ const MAX_FLIP_EXPOSURES: u32 = 128;
 
 /// Refuses more stops than can be shown or compared.
 fn check_stops(what: &str, stops: f32) -> Result<(), String> {
-    match stops.abs() <= MAX_STOPS {
-        true => Ok(()),
-        false => Err(format!(
+    if stops.abs() <= MAX_STOPS {
+        Ok(())
+    } else {
+        Err(format!(
             "{what} = {stops}; allowed: stops from -{MAX_STOPS} to {MAX_STOPS}"
-        )),
+        ))
     }
 }
 
@@ -61,11 +62,12 @@ impl FlipExposures {
         }
         check_stops("flip start", *start)?;
         check_stops("flip stop", *stop)?;
-        match start < stop {
-            true => Ok(()),
-            false => Err(format!(
+        if start < stop {
+            Ok(())
+        } else {
+            Err(format!(
                 "flip starts at {start} and stops at {stop}; stop must be above start"
-            )),
+            ))
         }
     }
 }

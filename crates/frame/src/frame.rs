@@ -197,11 +197,12 @@ pub fn read_frame_rate(file: &ExrFile) -> Result<Option<f64>, FileError> {
         return Ok(None);
     }
     let rate: f64 = file.get(NAME)?;
-    match rate.is_finite() && rate > 0.0 {
-        true => Ok(Some(rate)),
-        false => Err(file.foreign(format!(
+    if rate.is_finite() && rate > 0.0 {
+        Ok(Some(rate))
+    } else {
+        Err(file.foreign(format!(
             "attribute \"{NAME}\" holds {rate}; allowed: a finite number above 0"
-        ))),
+        )))
     }
 }
 
@@ -209,11 +210,12 @@ pub fn read_frame_rate(file: &ExrFile) -> Result<Option<f64>, FileError> {
 fn read_guard_band(file: &ExrFile) -> Result<u32, FileError> {
     let band: u32 = file.get("guard_band")?;
     let least = file.width.min(file.height);
-    match band.checked_mul(2).is_some_and(|both| both < least) {
-        true => Ok(band),
-        false => Err(file.foreign(format!(
+    if band.checked_mul(2).is_some_and(|both| both < least) {
+        Ok(band)
+    } else {
+        Err(file.foreign(format!(
             "attribute \"guard_band\" holds {band}; allowed: less than half of {}x{} pixels",
             file.width, file.height
-        ))),
+        )))
     }
 }

@@ -41,9 +41,10 @@ fn add_evidence_of_truth(
     let file = rung(FEW_SUBFRAMES);
     // An engine may have drawn too few sub-frames for it, or it is of an earlier truth: a check renders only the first rung.
     let hash = |file: &Path| read_attribute(file, "content_hash");
-    let few_subframes = match file.exists() && hash(&file) == hash(&rung(SHARP)) {
-        true => Some(Ladder::read_rung(&file, FEW_SUBFRAMES)?),
-        false => None,
+    let few_subframes = if file.exists() && hash(&file) == hash(&rung(SHARP)) {
+        Some(Ladder::read_rung(&file, FEW_SUBFRAMES)?)
+    } else {
+        None
     };
     let mean = truth.mean();
     let few_subframes = few_subframes.map(|ladder| ladder.rungs[0].picture(&mean));

@@ -102,9 +102,12 @@ impl Scores {
             let (_, score) = self.worst_object(Metric::Object(bleed))?;
             Some((bleed, score))
         });
-        found.reduce(|largest, other| match other.1.value > largest.1.value {
-            true => other,
-            false => largest,
+        found.reduce(|largest, other| {
+            if other.1.value > largest.1.value {
+                other
+            } else {
+                largest
+            }
         })
     }
 

@@ -4,9 +4,10 @@ use suite::{CaseId, FilterId};
 
 /// Formats a filter's unique name as a part of an address: `bevy:high`, `identity@trailing`.
 pub fn anchor(filter: &FilterId) -> String {
-    match filter.is_reference {
-        true => format!("{}@{}", escape(&filter.name), filter.alignment),
-        false => escape(&filter.name),
+    if filter.is_reference {
+        format!("{}@{}", escape(&filter.name), filter.alignment)
+    } else {
+        escape(&filter.name)
     }
 }
 

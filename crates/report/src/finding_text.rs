@@ -149,9 +149,10 @@ pub fn worst_frame_text(finding: &Finding) -> Option<String> {
 /// Formats `95 % CI 0.05198 to 0.05332, measured 0.05364`; the measured value only if the truth's noise moved it out of the interval.
 pub fn interval_text(interval: &Interval, measured: f64) -> String {
     let [low, high] = [interval.low, interval.high].map(number);
-    let raw = match interval.holds(measured) {
-        true => String::new(),
-        false => format!(", measured {}", number(measured)),
+    let raw = if interval.holds(measured) {
+        String::new()
+    } else {
+        format!(", measured {}", number(measured))
     };
     format!("95 % CI {low} to {high}{raw}")
 }

@@ -19,9 +19,12 @@ const DOT_WIDTH: u32 = 160;
 pub fn label(picture: &Image, text: &str) -> Image {
     let dot = (picture.width / DOT_WIDTH).max(1);
     let bar = PITCH[1] * dot;
-    Raster::from_fn(picture.width, picture.height + bar, |x, y| match y < bar {
-        true => [f32::from(u8::from(is_ink(text, x / dot, y / dot))); 3],
-        false => *picture.at(x, y - bar),
+    Raster::from_fn(picture.width, picture.height + bar, |x, y| {
+        if y < bar {
+            [f32::from(u8::from(is_ink(text, x / dot, y / dot))); 3]
+        } else {
+            *picture.at(x, y - bar)
+        }
     })
 }
 

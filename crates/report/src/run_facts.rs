@@ -38,13 +38,15 @@ pub fn facts(run: &Run) -> Vec<(&'static str, String)> {
         None => "none: every filter is a program".to_owned(),
     };
     let render = &run.render;
-    let rendered = match run.cases.iter().any(|case| case.drawn.is_some()) {
-        true => "; not where an engine drew them",
-        false => "",
+    let rendered = if run.cases.iter().any(|case| case.drawn.is_some()) {
+        "; not where an engine drew them"
+    } else {
+        ""
     };
-    let sky = match render.options.sky_velocity {
-        true => "with a velocity",
-        false => "without velocity",
+    let sky = if render.options.sky_velocity {
+        "with a velocity"
+    } else {
+        "without velocity"
     };
     let pictures = format!("{}x{} pixels", render.width, render.height);
     let truth = format!(

@@ -83,9 +83,10 @@ pub fn run_page(run: &Run, content: &PageContent, html: &Path) -> String {
             (script_data("colors", &colors()))
         },
         scripts: &SCRIPTS,
-        siblings: match content.has_siblings() {
-            true => Siblings::Scripts,
-            false => Siblings::None,
+        siblings: if content.has_siblings() {
+            Siblings::Scripts
+        } else {
+            Siblings::None
         },
     };
     document.render()
@@ -109,11 +110,10 @@ fn failures(run: &Run) -> Markup {
 
 /// Describes what needs scripts.
 fn script_note(has_tables: bool) -> &'static str {
-    match has_tables {
-        true => "The numbers need no script; pictures, sorting and keys do.",
-        false => {
-            "The tables of cases need scripts: there are too many for one page. Those of the overview need none."
-        }
+    if has_tables {
+        "The numbers need no script; pictures, sorting and keys do."
+    } else {
+        "The tables of cases need scripts: there are too many for one page. Those of the overview need none."
     }
 }
 

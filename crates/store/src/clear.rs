@@ -38,9 +38,10 @@ pub fn clear_scene(folder: &Path) -> Result<(), Error> {
 
 /// Returns whether a file below a scene's folder is a rendered one, or a record.
 fn is_made(below: &Path) -> bool {
-    let rendered = match below.extension() == Some(OsStr::new("json")) {
-        true => below.with_extension("exr"),
-        false => below.to_owned(),
+    let rendered = if below.extension() == Some(OsStr::new("json")) {
+        below.with_extension("exr")
+    } else {
+        below.to_owned()
     };
     below.ends_with(CASE_RECORD) || RenderFile::parse(&rendered).is_some()
 }

@@ -20,12 +20,13 @@ pub fn scene_folder(out: &Path, scene: &Scene) -> PathBuf {
 
 /// Refuses a folder that contains a scene: our pictures may have the names of its textures.
 pub fn refuse_scene(folder: &Path) -> Result<(), Error> {
-    match folder.join("scene.toml").exists() {
-        false => Ok(()),
-        true => Err(Error::Refused(format!(
+    if folder.join("scene.toml").exists() {
+        Err(Error::Refused(format!(
             "{} holds a scene, and its files would be overwritten; allowed: an output folder that holds none, such as out",
             folder.display()
-        ))),
+        )))
+    } else {
+        Ok(())
     }
 }
 

@@ -12,12 +12,13 @@ const CONTINUED: &str = "  | ";
 /// Puts text on one line: control characters, line breaks among them, and characters that change the direction of writing
 /// become escapes such as `\n` and `\u001b`, as in JSON. Other text stays as it is.
 pub fn printable(text: &str) -> Cow<'_, str> {
-    match text.chars().any(is_hidden) {
-        false => Cow::Borrowed(text),
-        true => Cow::Owned(text.chars().fold(String::new(), |mut line, letter| {
+    if text.chars().any(is_hidden) {
+        Cow::Owned(text.chars().fold(String::new(), |mut line, letter| {
             push(&mut line, letter);
             line
-        })),
+        }))
+    } else {
+        Cow::Borrowed(text)
     }
 }
 

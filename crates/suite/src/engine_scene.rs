@@ -92,9 +92,10 @@ impl EngineScene {
     pub fn find_lacking(&self, choice: &FilterChoice) -> Option<&'static str> {
         let is_there = |name: &&str| self.further_inputs.iter().any(|own| own == name);
         let mut further = choice.filter.further_inputs().into_iter();
-        match choice.filter.reads_camera(&choice.settings) {
-            true => Some("the camera"),
-            false => further.find(|name| !is_there(name)),
+        if choice.filter.reads_camera(&choice.settings) {
+            Some("the camera")
+        } else {
+            further.find(|name| !is_there(name))
         }
     }
 
@@ -132,15 +133,16 @@ impl EngineScene {
 
     /// Refuses a run with pictures of another size.
     pub fn check_size(&self, (width, height): (u32, u32)) -> Result<(), Error> {
-        match self.size == [width, height] {
-            true => Ok(()),
-            false => Err(Error::Usage(format!(
+        if self.size == [width, height] {
+            Ok(())
+        } else {
+            Err(Error::Usage(format!(
                 "{}: was drawn at {}x{} pixels, and the pictures of this run are to have {width}x{height}; scenes of one run \
                  have one size: run it apart, or at its own size",
                 self.folder.display(),
                 self.size[0],
                 self.size[1]
-            ))),
+            )))
         }
     }
 
@@ -171,12 +173,13 @@ impl EngineScene {
         hash: &str,
         (width, height): (u32, u32),
     ) -> Result<(), Error> {
-        match provenance.content_hash == hash && self.size == [width, height] {
-            true => Ok(()),
-            false => Err(Error::Usage(format!(
+        if provenance.content_hash == hash && self.size == [width, height] {
+            Ok(())
+        } else {
+            Err(Error::Usage(format!(
                 "{}: is of another capture than {INGESTED_FILE} next to it; ingest the capture again",
                 self.folder.join(file.path()).display()
-            ))),
+            )))
         }
     }
 

@@ -64,9 +64,10 @@ impl FilterChoice {
     /// Returns the parameters of any preset of the filter, for pictures `width` pixels wide.
     pub fn preset_at(&self, preset: &str, width: u32) -> Result<Settings, FilterError> {
         let settings = self.filter.settings(Some(preset))?;
-        Ok(match self.as_written {
-            true => settings.as_written(),
-            false => settings.scaled_to(&self.filter, width),
+        Ok(if self.as_written {
+            settings.as_written()
+        } else {
+            settings.scaled_to(&self.filter, width)
         })
     }
 }

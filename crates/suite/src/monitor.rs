@@ -39,9 +39,10 @@ impl Monitor {
         let step = (self.begin)(label);
         work(&|progress| {
             step.advance(progress);
-            match (self.interrupted)() {
-                true => ControlFlow::Break(()),
-                false => ControlFlow::Continue(()),
+            if (self.interrupted)() {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
             }
         })
     }

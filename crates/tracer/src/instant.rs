@@ -234,9 +234,10 @@ pub fn trace_motion_on(
     settings.check_instant(scene)?;
     let canvas = check_canvas(settings, grid)?;
     // Objects stand still if they do over the interval of the motion.
-    let from = match motion.through_walls {
-        true => motion.seen_at - motion.over,
-        false => motion.seen_at,
+    let from = if motion.through_walls {
+        motion.seen_at - motion.over
+    } else {
+        motion.seen_at
     };
     let stage = Stage::try_new(scene, from, motion.seen_at)?;
     PointLayers::new(scene, &sample_points(&stage, canvas, settings, motion))
@@ -299,9 +300,10 @@ fn sample_points(
             |poses, pixel| {
                 let centre = canvas.place(pixel, [0.5; 2]);
                 let ray = view.ray(centre[0], centre[1]);
-                let hit = match motion.through_walls {
-                    true => find_mover(stage, poses.at(motion.seen_at), &ray),
-                    false => None,
+                let hit = if motion.through_walls {
+                    find_mover(stage, poses.at(motion.seen_at), &ray)
+                } else {
+                    None
                 };
                 let hit = hit.or_else(|| {
                     stage.closest_in_sight(poses.at(motion.seen_at), &ray, Sight::Buffers)

@@ -108,12 +108,11 @@ impl Location {
         let found = self.name_in(bundle).and_then(|name| (bundle.unpack)(&name));
         let missing = || FileError::io(&self.path, "read", io::ErrorKind::NotFound.into());
         let bytes = found.ok_or_else(missing)?;
-        match bytes.len() as u64 <= limit {
-            true => Ok(bytes),
-            false => {
-                let reason = format!("has {} bytes; allowed: up to {limit}", bytes.len());
-                Err(FileError::foreign(&self.path, reason))
-            }
+        if bytes.len() as u64 <= limit {
+            Ok(bytes)
+        } else {
+            let reason = format!("has {} bytes; allowed: up to {limit}", bytes.len());
+            Err(FileError::foreign(&self.path, reason))
         }
     }
 
@@ -132,12 +131,13 @@ impl Location {
 
 /// Lists the paths of files below a folder of a bundle, relative to that folder.
 fn below<'a>(bundle: &Bundle, folder: &'a str) -> impl Iterator<Item = &'static str> + use<'a> {
-    (bundle.list)()
-        .into_iter()
-        .filter_map(move |path| match folder.is_empty() {
-            true => Some(path),
-            false => path.strip_prefix(folder)?.strip_prefix('/'),
-        })
+    (bundle.list)().into_iter().filter_map(move |path| {
+        if folder.is_empty() {
+            Some(path)
+        } else {
+            path.strip_prefix(folder)?.strip_prefix('/')
+        }
+    })
 }
 
 impl fmt::Display for Location {

@@ -18,9 +18,10 @@ impl Progress {
     /// Reports how many pieces of work are done; an error if the watcher asks to stop.
     pub fn report(watch: Watch, done: usize, total: usize) -> Result<(), TraceError> {
         let [done, total] = [done, total].map(|count| count as u64);
-        match watch(Self { done, total }).is_break() {
-            true => Err(TraceError::Cancelled),
-            false => Ok(()),
+        if watch(Self { done, total }).is_break() {
+            Err(TraceError::Cancelled)
+        } else {
+            Ok(())
         }
     }
 }

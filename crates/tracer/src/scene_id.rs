@@ -113,11 +113,12 @@ impl FromStr for SceneId {
         let is_name = !["", ".", ".."].contains(&id.name.as_str())
             && !text.contains(|letter| letter == '\\' || is_hidden(letter));
         let written = id.to_string();
-        match is_name && written == text {
-            true => Ok(id),
-            false => Err(format!(
+        if is_name && written == text {
+            Ok(id)
+        } else {
+            Err(format!(
                 "scene \"{text}\": allowed: names of a folder, such as fan, fan@fast, fan@seal7@24fps or fan/0003"
-            )),
+            ))
         }
     }
 }

@@ -32,9 +32,10 @@ impl<'a> Candidate<'a> {
 
     /// Blurs a scene's frame; its mattes too if `bleed` is to be measured.
     pub fn blur(&mut self, frame: &FilterFrame, bleed: bool) -> Result<Blurred, FilterError> {
-        let mattes = match bleed {
-            true => pack_planes(&frame.coverage),
-            false => Vec::new(),
+        let mattes = if bleed {
+            pack_planes(&frame.coverage)
+        } else {
+            Vec::new()
         };
         let color: Vec<&Image> = std::iter::once(&frame.color).chain(&mattes).collect();
         let outputs = self.runner.run(&filter_input(frame, &color))?;

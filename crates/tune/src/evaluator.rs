@@ -225,10 +225,11 @@ fn memory_key(settings: &Settings) -> String {
 fn check_finite(scene: &str, color: &Image, mattes: Option<&[Plane]>) -> Result<(), Error> {
     let mattes = mattes.unwrap_or_default().iter().flat_map(|it| &it.pixels);
     let mut values = color.pixels.as_flattened().iter().chain(mattes);
-    match values.all(|value| value.is_finite()) {
-        true => Ok(()),
-        false => Err(Error::Usage(format!(
+    if values.all(|value| value.is_finite()) {
+        Ok(())
+    } else {
+        Err(Error::Usage(format!(
             "{scene}: the filter's picture holds values that are infinite or no numbers"
-        ))),
+        )))
     }
 }

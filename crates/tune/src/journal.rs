@@ -32,9 +32,10 @@ impl Journal {
             std::fs::create_dir_all(folder).map_err(|error| fail("write", error))?;
         }
         // Read before it is opened for writing: a FIFO would block, and /dev/zero never ends.
-        let text = match path.exists() {
-            true => read_text(path)?,
-            false => String::new(),
+        let text = if path.exists() {
+            read_text(path)?
+        } else {
+            String::new()
         };
         let mut options = OpenOptions::new();
         let mut file = (options.write(true).create(true).truncate(false))

@@ -99,9 +99,10 @@ fn measure_trial(
             None => evaluator.measure_cost(settings, 0)?,
         };
     }
-    let limits = match trials.is_empty() {
-        true => ChoiceLimits::default(),
-        false => options.choice_limits(&trials[0]),
+    let limits = if trials.is_empty() {
+        ChoiceLimits::default()
+    } else {
+        options.choice_limits(&trials[0])
     };
     trial.loss = error
         + bounds_penalty(excess)

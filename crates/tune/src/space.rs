@@ -121,9 +121,10 @@ fn narrow(kind: &Kind, range: &str) -> Result<Kind, String> {
         (Kind::Choice { .. }, _) => return Err("a choice has no range; name it alone".to_owned()),
         _ => return refuse("no range within the parameter's own"),
     }
-    match can_vary(&narrowed) {
-        true => Ok(narrowed),
-        false => refuse("the range is empty"),
+    if can_vary(&narrowed) {
+        Ok(narrowed)
+    } else {
+        refuse("the range is empty")
     }
 }
 

@@ -100,9 +100,12 @@ impl Trial {
             return Err(format!("trial {}, expected {number}", self.trial));
         }
         if !self.values.keys().eq(header.vary.keys()) {
-            let names = |names: Vec<String>| match names.is_empty() {
-                true => "nothing".to_owned(),
-                false => names.join(", "),
+            let names = |names: Vec<String>| {
+                if names.is_empty() {
+                    "nothing".to_owned()
+                } else {
+                    names.join(", ")
+                }
             };
             return Err(format!(
                 "it changes {}, and this tuning {}",
@@ -125,15 +128,16 @@ impl Trial {
             TrialOutcome::Dropped => number > 0 && !self.scenes.is_empty() && self.error.is_some(),
             TrialOutcome::Failed { .. } => number > 0,
         };
-        match is_whole {
-            true => Ok(()),
-            false => Err(format!(
+        if is_whole {
+            Ok(())
+        } else {
+            Err(format!(
                 "it has {} of {} scenes, and {} error; a trial that is done has all, one that was dropped some, and the \
                  first is done",
                 self.scenes.len(),
                 header.scenes.len(),
                 if self.error.is_some() { "an" } else { "no" }
-            )),
+            ))
         }
     }
 

@@ -27,12 +27,11 @@ pub(crate) fn files() -> Files {
 /// Linear radiance of a texel; `y` counts from the zenith.
 fn radiance(x: u32, y: u32) -> [f32; 3] {
     let height = 0.5 * PI - PI * (f64::from(y) + 0.5) / f64::from(AROUND / 2);
-    let clear = match height > 0.0 {
-        true => {
-            let up = (height / CLOUDS[1]).min(1.0);
-            [0.75 - 0.5 * up, 0.85 - 0.4 * up, 1.0 - 0.1 * up]
-        }
-        false => [0.22, 0.21, 0.2],
+    let clear = if height > 0.0 {
+        let up = (height / CLOUDS[1]).min(1.0);
+        [0.75 - 0.5 * up, 0.85 - 0.4 * up, 1.0 - 0.1 * up]
+    } else {
+        [0.22, 0.21, 0.2]
     };
     let [low, high] = CLOUDS;
     let belt = ((height - low) / 0.06)

@@ -49,9 +49,12 @@ impl<'a> Capture<'a> {
         let [x, y] = [2.0 / WIDTH as f32, -2.0 / HEIGHT as f32];
         let axes = [(0, x), (1, y)];
         let velocity = axes.map(|(axis, by)| frame.velocity.map(|motion| motion[axis] * by));
-        let reversed = frame.depth.map(|depth| match *depth == FAR_DEPTH {
-            true => 0.0,
-            false => NEAR / depth,
+        let reversed = frame.depth.map(|depth| {
+            if *depth == FAR_DEPTH {
+                0.0
+            } else {
+                NEAR / depth
+            }
         });
         for (name, planes) in [("velocity.exr", &velocity[..]), ("depth.exr", &[reversed])] {
             let mut file = ExrFile::new(WIDTH, HEIGHT);

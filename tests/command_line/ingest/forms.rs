@@ -102,9 +102,10 @@ fn dump(planes: &[Plane], is_half: bool) -> Vec<u8> {
         let y = if is_half { row } else { HEIGHT - 1 - row };
         for (x, plane) in (0..WIDTH).flat_map(|x| planes.iter().map(move |plane| (x, plane))) {
             let value = *plane.at(x, y);
-            match is_half {
-                true => bytes.extend(f16::from_f32(value).to_le_bytes()),
-                false => bytes.extend(value.to_le_bytes()),
+            if is_half {
+                bytes.extend(f16::from_f32(value).to_le_bytes())
+            } else {
+                bytes.extend(value.to_le_bytes())
             }
         }
     }
@@ -119,9 +120,10 @@ fn raw_dumps_give_the_same_frame_and_need_their_layout() {
     let mut described = DESCRIPTION.to_owned();
     for (planes, (name, _)) in take_buffers(&capture).iter().zip(BUFFERS) {
         let is_half = name == "color";
-        let form = match is_half {
-            true => "type = \"f16\"",
-            false => "type = \"f32\"\nfirst_row = \"bottom\"",
+        let form = if is_half {
+            "type = \"f16\""
+        } else {
+            "type = \"f32\"\nfirst_row = \"bottom\""
         };
         let count = planes.len();
         described +=

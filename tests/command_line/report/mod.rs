@@ -43,9 +43,10 @@ fn panel<'a>(page: &'a str, metric: &str) -> &'a str {
 
 /// Returns the address of a case: `plate/bevy:high`, `plate/identity@trailing`.
 fn address(case: &suite::Case) -> String {
-    let reference = match case.is_reference {
-        true => format!("@{}", case.alignment),
-        false => String::new(),
+    let reference = if case.is_reference {
+        format!("@{}", case.alignment)
+    } else {
+        String::new()
     };
     format!("{}/{}{reference}", case.scene, case.name())
 }

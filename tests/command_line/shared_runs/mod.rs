@@ -105,9 +105,10 @@ fn nothing_behind_a_link_is_taken() {
     sandbox.put("secret", "mine");
     let link = |link: &str, target: &str| {
         let path = sandbox.path(link);
-        match path.is_dir() {
-            true => fs::remove_dir_all(&path).unwrap(),
-            false => fs::remove_file(&path).unwrap(),
+        if path.is_dir() {
+            fs::remove_dir_all(&path).unwrap()
+        } else {
+            fs::remove_file(&path).unwrap()
         }
         std::os::unix::fs::symlink(sandbox.path(target), path).unwrap();
     };

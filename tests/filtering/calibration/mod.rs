@@ -63,9 +63,10 @@ fn fits(outcome: &Outcome) -> bool {
     // A rotated trail also leaves the panel at the side of the band.
     let aside = farthest(&|[x, y]| along_motion(steady, [-y, x]));
     let pushes = outcome.filter == "jimenez" && outcome.preset.starts_with("wicked");
-    let room = match pushes {
-        true => 0.5 * outcome.shot.to_border(),
-        false => f64::INFINITY,
+    let room = if pushes {
+        0.5 * outcome.shot.to_border()
+    } else {
+        f64::INFINITY
     };
     let inside = outcome.shot.half_panel() - 3.0;
     reach < inside.min(room) && aside + HALF_BAND < inside

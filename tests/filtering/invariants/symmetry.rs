@@ -10,9 +10,12 @@ use crate::fields::Field;
 
 fn mirror(field: &Field, horizontal: bool) -> Field {
     fn turn<T: Copy>(raster: &Raster<T>, horizontal: bool) -> Raster<T> {
-        Raster::from_fn(raster.width, raster.height, |x, y| match horizontal {
-            true => *raster.at(raster.width - 1 - x, y),
-            false => *raster.at(x, raster.height - 1 - y),
+        Raster::from_fn(raster.width, raster.height, |x, y| {
+            if horizontal {
+                *raster.at(raster.width - 1 - x, y)
+            } else {
+                *raster.at(x, raster.height - 1 - y)
+            }
         })
     }
     let velocity = turn(&field.velocity, horizontal);

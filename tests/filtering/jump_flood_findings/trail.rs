@@ -65,9 +65,10 @@ fn reach(preset: &str, vertical: bool, speed: f32, exposure: f64) -> u32 {
     picture.exposure = exposure;
     let output = picture.blur("jump_flood", preset, "jitter=none");
     let lit = |distance: &u32| {
-        let pixel = match vertical {
-            true => output.at(20, 72 - distance),
-            false => output.at(128 - distance, 20),
+        let pixel = if vertical {
+            output.at(20, 72 - distance)
+        } else {
+            output.at(128 - distance, 20)
         };
         pixel[0] > 0.0
     };

@@ -42,9 +42,10 @@ impl Reference<'_> {
         let misplaced = POSITION + noise_error * length * trail_x.hypot(trail_y);
         // A share moves only the read of colours, not the tap.
         let mut misread = misplaced;
-        let (mut sum, mut weights) = match start_offset {
-            true => ([0.0; 3], 0.0),
-            false => (self.color(p), 1.0),
+        let (mut sum, mut weights) = if start_offset {
+            ([0.0; 3], 0.0)
+        } else {
+            (self.color(p), 1.0)
         };
         for i in u32::from(!start_offset)..self.paper.samples {
             let even = f64::from(i) / (n - 1.0).max(1.0);

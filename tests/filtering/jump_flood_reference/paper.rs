@@ -102,9 +102,10 @@ impl<'f> Reference<'f> {
     /// Samples like a linear, clamp-to-edge sampler, or reads the nearest texel.
     pub fn sample(&self, uv: Vec2, nearest: bool, texel: impl Fn(i64, i64) -> f64) -> f64 {
         let place = self.pixels(uv);
-        match nearest {
-            true => texel(place[0].floor() as i64, place[1].floor() as i64),
-            false => sample_linear(place, texel),
+        if nearest {
+            texel(place[0].floor() as i64, place[1].floor() as i64)
+        } else {
+            sample_linear(place, texel)
         }
     }
 
@@ -128,17 +129,19 @@ impl<'f> Reference<'f> {
 
     /// Converts UV to the space in which paths are measured.
     pub fn to_path_space(&self, uv: Vec2) -> Vec2 {
-        match self.paper.pixel_metric {
-            true => self.pixels(uv),
-            false => uv,
+        if self.paper.pixel_metric {
+            self.pixels(uv)
+        } else {
+            uv
         }
     }
 
     /// Rounds a UV like the map: 11 binary digits, towards zero.
     pub fn round_as_stored(&self, uv: Vec2) -> Vec2 {
-        match self.paper.half_map {
-            true => uv.map(|c| f64::from_bits(c.to_bits() & !((1 << 42) - 1))),
-            false => uv,
+        if self.paper.half_map {
+            uv.map(|c| f64::from_bits(c.to_bits() & !((1 << 42) - 1)))
+        } else {
+            uv
         }
     }
 
@@ -148,9 +151,10 @@ impl<'f> Reference<'f> {
             return f64::INFINITY;
         }
         let largest = (1 << (self.paper.passes - 1)) * self.paper.step_multiplier;
-        let side = match self.paper.pixel_metric {
-            true => 1,
-            false => self.size[0].max(self.size[1]),
+        let side = if self.paper.pixel_metric {
+            1
+        } else {
+            self.size[0].max(self.size[1])
         };
         let r = factor * largest as f64 / side as f64;
         let v = self.to_path_space(v);

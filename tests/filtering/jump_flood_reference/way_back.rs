@@ -47,9 +47,10 @@ impl Reference<'_> {
         let v = self.velocity(s);
         let tau = self.fitness(p, s).0;
         // Only the gather has the doubled reach.
-        let factor = match self.paper.reach_factor.is_infinite() {
-            true => f64::INFINITY,
-            false => 1.0,
+        let factor = if self.paper.reach_factor.is_infinite() {
+            f64::INFINITY
+        } else {
+            1.0
         };
         let g = tau.min(self.cut(v, factor));
         let enough = match self.paper.third_match {
@@ -103,12 +104,13 @@ impl Reference<'_> {
         let mut sources: Vec<Source> = Vec::new();
         for (right, down) in [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)] {
             let [width, height] = self.size.map(|side| side as f64);
-            let near = match self.paper.half_map {
-                true => [
+            let near = if self.paper.half_map {
+                [
                     uv[0] + right * STORED / width,
                     uv[1] + down * STORED / height,
-                ],
-                false => uv,
+                ]
+            } else {
+                uv
             };
             let position = self.pixels(self.round_as_stored(near));
             if sources.iter().all(|source| source.position != position) {
@@ -159,9 +161,10 @@ impl Reference<'_> {
             }
         };
         let corners = [at(-1.0, -1.0), at(1.0, -1.0), at(-1.0, 1.0), at(1.0, 1.0)];
-        match corners.iter().all(|corner| *corner == corners[0]) {
-            true => corners[0],
-            false => Answer::Either,
+        if corners.iter().all(|corner| *corner == corners[0]) {
+            corners[0]
+        } else {
+            Answer::Either
         }
     }
 

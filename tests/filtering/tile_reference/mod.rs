@@ -196,9 +196,10 @@ fn expect_pictures(filter: &str, reference: Reference) {
             // m.
             run.assert_color(pixel, expected, 1e-3 + error);
             compared += 1;
-            match expected == color(run, pixel) {
-                true => unblurred += 1,
-                false => blurred += 1,
+            if expected == color(run, pixel) {
+                unblurred += 1
+            } else {
+                blurred += 1
             }
         }
         // Up to 35 taps, each with a chance of 2 x 1.5e-3 per axis to be undecided. A sixth of the pixels may be as near to one border of a

@@ -208,9 +208,10 @@ fn assert_motions_named(scenes: &[Scene]) {
                 // Without parents, an object's own motion is all of its motion.
                 let own = finding.object.is_some() && cause == Cause::ObjectMotionMissing;
                 let is_same = |it: &Cause| *it == cause || own && *it == Cause::OwnMotionMissing;
-                let is_named = match is_clock {
-                    true => finding.found.cause == cause,
-                    false => names(finding, is_same),
+                let is_named = if is_clock {
+                    finding.found.cause == cause
+                } else {
+                    names(finding, is_same)
                 };
                 assert!(is_named, "{}, {cause:?}: {finding:#?}", scene.id);
             }

@@ -114,9 +114,12 @@ fn the_object_whose_depth_is_wrong_is_named() {
     let scene = load_small(None);
     let disc = id_of(&scene, "disc");
     let ids = draw(&scene, 0.0).object_id.unwrap();
-    let (scaled, _) = audit_depth(&scene, |at, depth| match ids.pixels[at] == disc {
-        true => 1.1 * depth,
-        false => depth,
+    let (scaled, _) = audit_depth(&scene, |at, depth| {
+        if ids.pixels[at] == disc {
+            1.1 * depth
+        } else {
+            depth
+        }
     });
     for capture in [without_ids(&scaled), scaled] {
         let found = audit(&scene, &capture);

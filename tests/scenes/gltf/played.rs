@@ -143,9 +143,10 @@ impl Keys {
         let after = after.clamp(1, last.max(1)).min(last);
         let before = after.saturating_sub(1);
         let duration = self.times[after] - self.times[before];
-        let part = match duration > 0.0 {
-            true => (seconds - self.times[before]) / duration,
-            false => 0.0,
+        let part = if duration > 0.0 {
+            (seconds - self.times[before]) / duration
+        } else {
+            0.0
         };
         let vector = |key: usize, which: usize, of: usize| {
             let start = (key * of + which) * parts;

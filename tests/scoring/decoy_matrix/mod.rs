@@ -135,9 +135,12 @@ fn list_decoys(columns: &[Column]) -> Vec<&'static str> {
 fn format_table(columns: &[Column]) -> String {
     let mut text =
         "| wrong blur | scenes | breaks on all | on some |\n|---|---|---|---|\n".to_owned();
-    let cell = |bounds: &[String]| match bounds.is_empty() {
-        true => "-".to_owned(),
-        false => bounds.join(", "),
+    let cell = |bounds: &[String]| {
+        if bounds.is_empty() {
+            "-".to_owned()
+        } else {
+            bounds.join(", ")
+        }
     };
     for decoy in list_decoys(columns) {
         let rows: Vec<_> = columns
@@ -150,9 +153,10 @@ fn format_table(columns: &[Column]) -> String {
         }
         let (mut everywhere, mut somewhere) = (Vec::new(), Vec::new());
         for (bound, count) in counts {
-            match count == rows.len() {
-                true => everywhere.push(bound),
-                false => somewhere.push(format!("{bound} ({count})")),
+            if count == rows.len() {
+                everywhere.push(bound)
+            } else {
+                somewhere.push(format!("{bound} ({count})"))
             }
         }
         let (all, some) = (cell(&everywhere), cell(&somewhere));

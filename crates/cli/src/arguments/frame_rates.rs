@@ -51,9 +51,10 @@ impl FrameRateArgs {
         if rates.is_empty() {
             return Ok(names);
         }
-        let names = match names.is_empty() {
-            true => vec!["*".to_owned()],
-            false => names,
+        let names = if names.is_empty() {
+            vec!["*".to_owned()]
+        } else {
+            names
         };
         let mut all = Vec::new();
         for name in names {

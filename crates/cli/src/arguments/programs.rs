@@ -16,9 +16,10 @@ pub struct ProgramArgs {
 impl ProgramArgs {
     /// Returns the permission for selecting filters.
     pub fn programs(self) -> Programs {
-        match self.allow_commands {
-            true => Programs::Allowed,
-            false => Programs::Refused,
+        if self.allow_commands {
+            Programs::Allowed
+        } else {
+            Programs::Refused
         }
     }
 }

@@ -97,9 +97,10 @@ impl SceneArgs {
                 "--seal: {name} is a variant; allowed: scenes in their default variant, which sealed ones are made of"
             );
         }
-        Ok(match self.scenes.is_empty() {
-            true => vec![sealed("*", seed)],
-            false => (self.scenes.iter().map(|name| sealed(name, seed))).collect(),
+        Ok(if self.scenes.is_empty() {
+            vec![sealed("*", seed)]
+        } else {
+            (self.scenes.iter().map(|name| sealed(name, seed))).collect()
         })
     }
 

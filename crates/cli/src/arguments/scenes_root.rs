@@ -21,17 +21,19 @@ pub struct RootArgs {
 /// Finds the default folder of scenes: `scenes`, or the program's own if there is no such folder.
 fn default_scenes_root() -> Location {
     let folder = PathBuf::from(DEFAULT);
-    match folder.exists() {
-        true => folder.into(),
-        false => Location::of_bundle(&catalogue::SCENES),
+    if folder.exists() {
+        folder.into()
+    } else {
+        Location::of_bundle(&catalogue::SCENES)
     }
 }
 
 /// Finds the folder that `--scenes-dir` names: the program's own scenes, or a path.
 fn scenes_root(path: PathBuf) -> Location {
-    match path.to_str() == Some(catalogue::SCENES.name) {
-        true => Location::of_bundle(&catalogue::SCENES),
-        false => path.into(),
+    if path.to_str() == Some(catalogue::SCENES.name) {
+        Location::of_bundle(&catalogue::SCENES)
+    } else {
+        path.into()
     }
 }
 

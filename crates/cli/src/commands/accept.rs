@@ -44,9 +44,10 @@ pub fn execute(args: &AcceptArgs) -> Result<(), Error> {
     let path = args.out.join("run.json");
     let run = Run::read(&path)?;
     refuse_failures(&run.failures)?;
-    let old = match args.baseline.exists() {
-        true => Some(Baseline::read(&args.baseline)?),
-        false => None,
+    let old = if args.baseline.exists() {
+        Some(Baseline::read(&args.baseline)?)
+    } else {
+        None
     };
     let acceptance = Acceptance {
         only: args.only.as_ref(),

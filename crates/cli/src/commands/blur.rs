@@ -229,9 +229,10 @@ impl Buffers {
         };
         let restore_velocity =
             |velocity: &Vectors| (convention.restore_velocity(velocity, exposure)).map_err(refuse);
-        let reprojection = match has("reprojection") {
-            true => Some(Reprojection::from_exr(&file)?.moved(f64::from(guard_band))),
-            false => None,
+        let reprojection = if has("reprojection") {
+            Some(Reprojection::from_exr(&file)?.moved(f64::from(guard_band)))
+        } else {
+            None
         };
         Ok(Self {
             color: convention.read_color(&mut file)?,

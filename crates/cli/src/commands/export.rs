@@ -53,11 +53,12 @@ pub fn execute(args: &ExportArgs) -> Result<(), Error> {
 
 /// Names the unlit variant of a scene.
 fn unlit_name(name: &str) -> Result<String, Error> {
-    match name.contains('@') {
-        false => Ok(format!("{name}@unlit")),
-        true => refuse!(
+    if name.contains('@') {
+        refuse!(
             "--unlit: {name} is a variant; allowed: scenes in their default variant, which `unlit` is a variant of"
-        ),
+        )
+    } else {
+        Ok(format!("{name}@unlit"))
     }
 }
 

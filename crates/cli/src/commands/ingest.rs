@@ -60,12 +60,13 @@ pub fn execute(args: &IngestArgs) -> Result<(), Error> {
 fn choose_folder(args: &IngestArgs) -> Result<PathBuf, Error> {
     let out = name_folder(&args.capture, args.out.as_ref(), "out/engine")?;
     let capture = args.capture.canonicalize().ok();
-    match out.canonicalize().is_ok_and(|out| Some(out) == capture) {
-        true => refuse!(
+    if out.canonicalize().is_ok_and(|out| Some(out) == capture) {
+        refuse!(
             "--out {}: is the capture itself, and its files would be overwritten; name another folder",
             out.display()
-        ),
-        false => Ok(out),
+        )
+    } else {
+        Ok(out)
     }
 }
 

@@ -50,9 +50,10 @@ pub fn execute(args: &ListArgs) -> Result<(), Error> {
     }
     if args.what == ["inputs"] {
         let kinds = InputFormat::kinds();
-        return match args.json {
-            true => print_json(&kinds),
-            false => print(&inputs_text(&kinds)),
+        return if args.json {
+            print_json(&kinds)
+        } else {
+            print(&inputs_text(&kinds))
         };
     }
     let is_brief = args.filters.is_empty()
@@ -99,9 +100,10 @@ fn print_notes(listing: &SceneListing) -> Result<(), Error> {
 /// Lists the named scenes and filters, or all. Tries out the user's own filters.
 fn find_named(args: &ListArgs) -> Result<(Vec<SceneListing>, Vec<Filter>), Error> {
     let builtin = Filter::builtin_names();
-    let asked = match args.what.is_empty() && args.filters.is_empty() {
-        true => vec!["scenes".to_owned(), "filters".to_owned()],
-        false => args.what.clone(),
+    let asked = if args.what.is_empty() && args.filters.is_empty() {
+        vec!["scenes".to_owned(), "filters".to_owned()]
+    } else {
+        args.what.clone()
     };
     let folder = &args.root.scenes_dir;
     // Built-in filters can be listed without any scenes.

@@ -26,9 +26,10 @@ pub struct MergeArgs {
 
 /// Joins runs if every part is one, or else replicates; prints the run or the truths.
 pub fn execute(args: &MergeArgs) -> Result<(), Error> {
-    match args.parts.iter().all(|part| holds_run(part)) {
-        true => join_runs(args),
-        false => join_replicates(args),
+    if args.parts.iter().all(|part| holds_run(part)) {
+        join_runs(args)
+    } else {
+        join_replicates(args)
     }
 }
 

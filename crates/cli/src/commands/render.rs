@@ -132,9 +132,10 @@ fn scene_settings(args: &RenderArgs, scene: &Scene) -> Result<RenderSettings, Er
 
 /// Renders a scene's frame, with the velocities that are asked for.
 fn render_frame(args: &RenderArgs, rendering: Rendering) -> Result<(), Error> {
-    match args.further_velocities {
-        true => rendering.write_further_inputs(),
-        false => rendering.frame().map(drop),
+    if args.further_velocities {
+        rendering.write_further_inputs()
+    } else {
+        rendering.frame().map(drop)
     }
 }
 

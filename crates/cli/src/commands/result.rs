@@ -31,8 +31,9 @@ pub fn write_result(
     as_json: bool,
 ) -> Result<(), Error> {
     let json = write_json(path, result)?;
-    match as_json {
-        true => print(&format!("{json}\n")),
-        false => print(&format!("{table}\nwritten: {}\n", printable_path(path))),
+    if as_json {
+        print(&format!("{json}\n"))
+    } else {
+        print(&format!("{table}\nwritten: {}\n", printable_path(path)))
     }
 }

@@ -68,22 +68,22 @@ pub fn execute(args: &RunArgs) -> Result<(), Error> {
     } else {
         (String::new(), Vec::new())
     };
-    print(&match args.json {
-        true => whole.text() + "\n",
-        false => {
-            scores
-                + &failures_text(&run.failures)
-                + &closing_text(&run, &pages, &plan.out, began.elapsed())
-        }
+    print(&if args.json {
+        whole.text() + "\n"
+    } else {
+        scores
+            + &failures_text(&run.failures)
+            + &closing_text(&run, &pages, &plan.out, began.elapsed())
     })?;
     refuse_failures(&run.failures)
 }
 
 /// Formats the ranking or the table, and its subject.
 fn scores_text(run: &Run, as_table: bool) -> String {
-    let scores = match as_table {
-        true => run_table(run),
-        false => ranking_text(&run.cases),
+    let scores = if as_table {
+        run_table(run)
+    } else {
+        ranking_text(&run.cases)
     };
     let scaling = run.scaling_note();
     let scaling = scaling.map_or(String::new(), |note| legend_text(&note));

@@ -25,9 +25,10 @@ pub fn make_plan(args: &MeasureArgs, out: PathBuf) -> Result<(RunPlan, RunBounds
     if let Some(scene) = engine_scenes.first() {
         refuse_render_options(&args.scenes, scene)?;
     }
-    let scenes = match engine_scenes.is_empty() || !names.is_empty() {
-        true => load_scenes(scenes_dir, &names, args.size)?,
-        false => Vec::new(),
+    let scenes = if engine_scenes.is_empty() || !names.is_empty() {
+        load_scenes(scenes_dir, &names, args.size)?
+    } else {
+        Vec::new()
     };
     let mut bounds: RunBounds = (scenes.iter())
         .map(|(scene, bounds)| (scene.id.clone(), bounds.clone()))
@@ -104,14 +105,15 @@ fn leave_out_filters(
         };
         engine_scenes.iter().any(can_blur)
     });
-    match filters.is_empty() {
-        false => Ok(filters),
-        true => refuse!(
+    if filters.is_empty() {
+        refuse!(
             "--filter: no filter is left that {} can be measured with; allowed: filters with a {} shutter that need no \
              camera motion and no other input that the capture does not have",
             engine_scenes[0].id,
             engine_scenes[0].alignment
-        ),
+        )
+    } else {
+        Ok(filters)
     }
 }
 
@@ -215,9 +217,10 @@ fn read_scene_bounds(
     id: &SceneId,
     size: Option<(u32, u32)>,
 ) -> Result<SceneBounds, Error> {
-    match id.seal.is_some() || id.rate.is_some() {
-        true => read_bounds_beside_scenes(root, size),
-        false => read_bounds(root, folder, size),
+    if id.seal.is_some() || id.rate.is_some() {
+        read_bounds_beside_scenes(root, size)
+    } else {
+        read_bounds(root, folder, size)
     }
 }
 
@@ -227,8 +230,9 @@ pub type Margins = BTreeMap<Metric, Margin>;
 /// Reads the score differences that matter (margins); none if the folder has no bounds.
 pub fn read_margins(root: &Location) -> Result<Margins, Error> {
     let file = root.join(BOUNDS_FILE);
-    match file.exists() {
-        true => Ok(read_bounds_file(&file)?.margins),
-        false => Ok(BTreeMap::new()),
+    if file.exists() {
+        Ok(read_bounds_file(&file)?.margins)
+    } else {
+        Ok(BTreeMap::new())
     }
 }

@@ -70,12 +70,13 @@ pub fn execute(args: &ScoreArgs) -> Result<(), Error> {
 /// Refuses a file of a different scene than the truth's.
 pub fn check_scene(path: &Path, provenance: &Provenance, truth: &Truth) -> Result<(), Error> {
     let (own, scene) = (&provenance.scene, &truth.provenance.scene);
-    match own == scene {
-        true => Ok(()),
-        false => refuse!(
+    if own == scene {
+        Ok(())
+    } else {
+        refuse!(
             "{}: was rendered from the scene {own}, the truth from {scene}; render both from one",
             path.display()
-        ),
+        )
     }
 }
 
@@ -92,9 +93,10 @@ fn scores_text(args: &ScoreArgs, truth: &Truth, Scored { scores, notes }: &Score
         let names: Vec<String> = metrics.iter().map(|metric| metric.name()).collect();
         let is_of_ladder = |metric| matches!(metric, Metric::Equivalent(_) | Metric::Skill(_));
         let is_lacking = args.ladder.is_none() && reason.contains("ladder");
-        let way_out = match is_lacking && metrics.into_iter().any(is_of_ladder) {
-            true => "; give one with --ladder: `run` writes it next to the truth",
-            false => "",
+        let way_out = if is_lacking && metrics.into_iter().any(is_of_ladder) {
+            "; give one with --ladder: `run` writes it next to the truth"
+        } else {
+            ""
         };
         text += &format!("not available: {}: {reason}{way_out}\n", names.join(", "));
     }

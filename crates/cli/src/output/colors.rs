@@ -38,9 +38,10 @@ pub fn doubtful(text: &str) -> String {
 const END: char = '\u{fdd0}';
 
 fn paint(mark: char, text: &str) -> String {
-    match text.is_empty() {
-        true => String::new(),
-        false => format!("{mark}{text}{END}"),
+    if text.is_empty() {
+        String::new()
+    } else {
+        format!("{mark}{text}{END}")
     }
 }
 

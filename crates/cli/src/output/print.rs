@@ -42,9 +42,10 @@ pub fn print_failure(error: &Error) {
 
 /// Writes lines to standard error, wrapped on a terminal.
 fn print_wrapped(text: &str) {
-    match std::io::stderr().is_terminal() {
-        true => print_error(wrap_lines(text).trim_end()),
-        false => print_error(text),
+    if std::io::stderr().is_terminal() {
+        print_error(wrap_lines(text).trim_end())
+    } else {
+        print_error(text)
     }
 }
 

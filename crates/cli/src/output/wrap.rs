@@ -53,9 +53,10 @@ pub fn wrap_lines(text: &str) -> String {
     let mut wrapped = String::new();
     for line in text.lines() {
         let words = line.trim_start_matches(' ');
-        match words.is_empty() || line.contains(['┌', '│']) {
-            true => wrapped += &format!("{line}\n"),
-            false => push_wrapped(&mut wrapped, line.len() - words.len(), words),
+        if words.is_empty() || line.contains(['┌', '│']) {
+            wrapped += &format!("{line}\n")
+        } else {
+            push_wrapped(&mut wrapped, line.len() - words.len(), words)
         }
     }
     wrapped

@@ -30,9 +30,10 @@ pub fn select_filters(
     programs: Programs,
 ) -> Result<Vec<FilterChoice>, Error> {
     refuse_empty_names("--filter", names)?;
-    let names = match names.is_empty() {
-        true => Filter::builtin_names(),
-        false => names.to_vec(),
+    let names = if names.is_empty() {
+        Filter::builtin_names()
+    } else {
+        names.to_vec()
     };
     let mut choices: Vec<FilterChoice> = Vec::new();
     for text in &names {

@@ -61,11 +61,12 @@ pub fn find_twin<T: PartialEq>(all: &[T]) -> Option<&T> {
 
 /// Refuses a list with an empty name, from a superfluous comma.
 pub fn refuse_empty_names(option: &str, names: &[String]) -> Result<(), Error> {
-    match names.iter().any(String::is_empty) {
-        false => Ok(()),
-        true => refuse!(
+    if names.iter().any(String::is_empty) {
+        refuse!(
             "{option}: one of its names is empty; leave out a comma too many, or leave the option out to take all"
-        ),
+        )
+    } else {
+        Ok(())
     }
 }
 

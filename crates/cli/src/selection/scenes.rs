@@ -97,9 +97,10 @@ fn find_folders(root: &Location, name: &str, known: &[String]) -> Result<Vec<Loc
 /// Explains how to get a built-in scene that another folder of scenes hides.
 fn suggest_built_in(root: &Location, name: &str) -> &'static str {
     let built_in = Location::of_bundle(&catalogue::SCENES).join(name);
-    match root.bundle.is_none() && built_in.is_dir() {
-        true => " The program brings one along: --scenes-dir built-in.",
-        false => "",
+    if root.bundle.is_none() && built_in.is_dir() {
+        " The program brings one along: --scenes-dir built-in."
+    } else {
+        ""
     }
 }
 

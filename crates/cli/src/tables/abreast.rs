@@ -107,18 +107,24 @@ pub fn twins_text(cases: &[Case], ranked: &[Vec<RankedFilter>]) -> String {
     let drawn = || full.iter().filter(|case| twin(case).is_some());
     let scenes = list_once(drawn().filter_map(|case| twin(case)));
     let engines = list_once(drawn().filter_map(|case| case.scene.variant.clone()));
-    let is_row = |case: &Case| match case.is_reference {
-        true => case.filter == suite::IDENTITY,
-        false => (ranked.iter().flatten()).any(|own| own.name == case.name()),
+    let is_row = |case: &Case| {
+        if case.is_reference {
+            case.filter == suite::IDENTITY
+        } else {
+            (ranked.iter().flatten()).any(|own| own.name == case.name())
+        }
     };
     let mut rows = list_once((drawn().filter(|case| is_row(case))).map(|case| case.filter_id()));
     if rows.is_empty() {
         return String::new();
     }
     let mean = |row: &FilterId, column: &String| {
-        let is_in = |case: &Case| match column == OURS {
-            true => case.drawn.is_none() && scenes.contains(&case.scene),
-            false => twin(case).is_some() && case.scene.variant.as_ref() == Some(column),
+        let is_in = |case: &Case| {
+            if column == OURS {
+                case.drawn.is_none() && scenes.contains(&case.scene)
+            } else {
+                twin(case).is_some() && case.scene.variant.as_ref() == Some(column)
+            }
         };
         let own = full.iter().filter(|case| is_in(case));
         let own = own.filter(|case| case.filter_id() == *row);

@@ -27,9 +27,10 @@ pub fn audit_table(audit: &CaptureAudit) -> String {
         table.push(&own.object, shown.into_iter().chain(errors));
     }
     let pixels = f64::from(width) * f64::from(height);
-    let basis = match audit.has_ids {
-        true => "their ids",
-        false => "their depth",
+    let basis = if audit.has_ids {
+        "their ids"
+    } else {
+        "their depth"
     };
     let mut text = format!(
         "{} drawn by {}, {width}x{height}: {:.1} % of the pixels show what the scene shows, by {}\nvelocity in pixels per frame, compared at {:.1} % of them\n\n",

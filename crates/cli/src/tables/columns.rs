@@ -9,9 +9,10 @@ pub type Column = (&'static str, Metric);
 
 /// Puts the names of references, which are not filters, into brackets.
 pub fn bracket_name(name: &str, is_reference: bool) -> String {
-    match is_reference {
-        true => format!("[{name}]"),
-        false => name.to_owned(),
+    if is_reference {
+        format!("[{name}]")
+    } else {
+        name.to_owned()
     }
 }
 

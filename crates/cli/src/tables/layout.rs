@@ -81,9 +81,10 @@ impl Table {
             let others: usize = widths[1..].iter().map(|width| width + gap).sum();
             columns.saturating_sub(INDENT + others)
         };
-        let gap = match room(GAPS[0]) >= widths[0] {
-            true => GAPS[0],
-            false => GAPS[1],
+        let gap = if room(GAPS[0]) >= widths[0] {
+            GAPS[0]
+        } else {
+            GAPS[1]
         };
         let name = widths[0].min(room(gap));
         let titles = self.row_text(&self.titles, (INDENT + name, 0, gap), &widths);
@@ -110,16 +111,18 @@ impl Table {
     ) -> String {
         let mut text = " ".repeat(indent) + &cells[0];
         let own = width(&cells[0]);
-        match own <= name {
-            true => text += &" ".repeat(name - own),
-            false => text += &format!("\n{}", " ".repeat(indent + name)),
+        if own <= name {
+            text += &" ".repeat(name - own)
+        } else {
+            text += &format!("\n{}", " ".repeat(indent + name))
         }
         for (column, cell) in cells.iter().enumerate().skip(1) {
             let space = " ".repeat(widths[column].saturating_sub(width(cell)));
             text += &" ".repeat(gap);
-            match self.left.contains(&column) {
-                true => text += &(cell.clone() + &space),
-                false => text += &(space + cell),
+            if self.left.contains(&column) {
+                text += &(cell.clone() + &space)
+            } else {
+                text += &(space + cell)
             }
         }
         text.truncate(text.trim_end_matches(' ').len());

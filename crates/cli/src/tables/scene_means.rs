@@ -74,12 +74,13 @@ fn fewer_scenes_note(overall: &[Overall]) -> String {
         (skill < flip).then(|| format!("{skill} of {flip} {alignment}"))
     });
     let counted: Vec<String> = counted.collect();
-    match counted.is_empty() {
-        true => String::new(),
-        false => legend_text(&format!(
+    if counted.is_empty() {
+        String::new()
+    } else {
+        legend_text(&format!(
             "Scenes that skill applies to: {}. On the others the oracle gains no more than noise makes.",
             counted.join(", ")
-        )),
+        ))
     }
 }
 

@@ -79,9 +79,10 @@ pub fn audit_capture(
     let shows_other_view = is_view(Buffer::Picture)
         || is_view(Buffer::ObjectId)
         || is_view(Buffer::Depth) && ids.is_none();
-    let missed = match shows_other_view {
-        true => Vec::new(),
-        false => word_missed(&shown, ids.is_some()),
+    let missed = if shows_other_view {
+        Vec::new()
+    } else {
+        word_missed(&shown, ids.is_some())
     };
     let mut wrong = Vec::new();
     // All other differences follow from another view or another subject.
@@ -140,9 +141,10 @@ fn word_missed(shown: &Shown, has_ids: bool) -> Vec<Defect> {
         let found = Explanation::by(Cause::OtherView, 1.0 - part);
         Defect::new(Buffer::Picture, object, found).with(text)
     };
-    let by = match has_ids {
-        true => "by its ids",
-        false => "by its depth, as the convention has it; object.exr would show more",
+    let by = if has_ids {
+        "by its ids"
+    } else {
+        "by its depth, as the convention has it; object.exr would show more"
     };
     let missed = shown.objects.iter().filter(|object| object.is_missed());
     if missed.clone().next().is_some() && shown.alike < LEAST_ALIKE {

@@ -160,16 +160,22 @@ impl<'a> DepthPair<'a> {
             (pairs.map(|it| it.map(f64::from))).partition(|[_, right]| is_far(*right as f32));
         let metres = median(background.iter().map(|[found, _]| *found));
         let of_surfaces = |depth: &dyn Fn(f64) -> f64| {
-            right.map(|right| match is_far(*right) {
-                true => f32::NAN,
-                false => depth(f64::from(*right)) as f32,
+            right.map(|right| {
+                if is_far(*right) {
+                    f32::NAN
+                } else {
+                    depth(f64::from(*right)) as f32
+                }
             })
         };
         let mut causes = Vec::new();
         if metres.is_finite() {
-            let plane = right.map(|right| match is_far(*right) {
-                true => metres as f32,
-                false => *right,
+            let plane = right.map(|right| {
+                if is_far(*right) {
+                    metres as f32
+                } else {
+                    *right
+                }
             });
             causes.push((Cause::DepthOfBackground(metres), plane));
         }

@@ -142,9 +142,10 @@ fn find_steps(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Option<Cand
     // Numbers already nearest on the grid explain themselves.
     let nearest = found.zip(right, |found, right| {
         let is_near = |axis: usize| f64::from((found[axis] - right[axis]).abs()) <= 0.6 * step;
-        match is_near(0) && is_near(1) {
-            true => *found,
-            false => *right,
+        if is_near(0) && is_near(1) {
+            *found
+        } else {
+            *right
         }
     });
     (step > TOLERANCE).then_some((Cause::Steps(step), nearest))

@@ -87,9 +87,10 @@ fn count_shown(
     // Pixels of each object that agree, and all.
     let mut counts = vec![[0; 2]; names.len()];
     for (at, object) in right.pixels.iter().enumerate() {
-        let is_shown = match is_inside(right, at) {
-            true => shows(at, at),
-            false => neighbours(right, at).any(|from| shows(from, at)),
+        let is_shown = if is_inside(right, at) {
+            shows(at, at)
+        } else {
+            neighbours(right, at).any(|from| shows(from, at))
         };
         add(&mut counts[*object as usize], is_shown);
     }

@@ -155,9 +155,10 @@ fn tally_colors(found: &Image, right: &View, view: &View) -> Tally {
     });
     let decided = |tally: &Tally| tally.part(tally.right.max(tally.other)).unwrap_or(0.0);
     let [whole, objects] = tallies;
-    match decided(&whole) > decided(&objects) {
-        true => whole,
-        false => objects,
+    if decided(&whole) > decided(&objects) {
+        whole
+    } else {
+        objects
     }
 }
 

@@ -219,9 +219,10 @@ fn take_objects(file: &ExrFile, name: &str) -> Result<Raster<u32>, Error> {
 
 /// Refuses a picture of another size than the colour's.
 pub fn check_size<T>(path: &Path, raster: &Raster<T>, color: &Image) -> Result<(), Error> {
-    match raster.same_size(color) {
-        true => Ok(()),
-        false => refuse!(
+    if raster.same_size(color) {
+        Ok(())
+    } else {
+        refuse!(
             path,
             "has {}x{} pixels, the colour {}x{}; all pictures of a capture have one size: save them from one camera, \
                  without scaling",
@@ -229,7 +230,7 @@ pub fn check_size<T>(path: &Path, raster: &Raster<T>, color: &Image) -> Result<(
             raster.height,
             color.width,
             color.height
-        ),
+        )
     }
 }
 
@@ -246,14 +247,15 @@ fn open(path: &Path, description: &CaptureDescription, buffer: &str) -> Result<E
 }
 
 fn check_sides(path: &Path, (width, height): (u32, u32)) -> Result<(), Error> {
-    match SIDES.contains(&width) && SIDES.contains(&height) {
-        true => Ok(()),
-        false => refuse!(
+    if SIDES.contains(&width) && SIDES.contains(&height) {
+        Ok(())
+    } else {
+        refuse!(
             path,
             "has {width}x{height} pixels; allowed: {} to {} columns and rows",
             SIDES.start(),
             SIDES.end()
-        ),
+        )
     }
 }
 

@@ -115,14 +115,15 @@ impl RawLayout {
             ..
         } = self;
         let is_side = |side| SIDES.contains(side);
-        match is_side(width) && is_side(height) && (1..=CHANNELS.len()).contains(components) {
-            true => Ok(()),
-            false => Err(format!(
+        if is_side(width) && is_side(height) && (1..=CHANNELS.len()).contains(components) {
+            Ok(())
+        } else {
+            Err(format!(
                 "{width}x{height} pixels of {components} components; allowed: {} to {} columns and rows, 1 to {} components",
                 SIDES.start(),
                 SIDES.end(),
                 CHANNELS.len()
-            )),
+            ))
         }
     }
 

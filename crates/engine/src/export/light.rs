@@ -20,9 +20,10 @@ const SIZE: (u32, u32) = (512, 256);
 /// Describes the sun as a directional light. Its intensity, in lux there, is the irradiance on a surface that faces it.
 pub fn sun_light(sun: &Sun) -> Value {
     let strength = sun.irradiance.max_element();
-    let color = match strength > 0.0 {
-        true => sun.irradiance / strength,
-        false => sun.irradiance,
+    let color = if strength > 0.0 {
+        sun.irradiance / strength
+    } else {
+        sun.irradiance
     };
     json!({
         "color": color.to_array().map(widen),

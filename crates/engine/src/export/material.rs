@@ -108,12 +108,13 @@ fn is_filter(translucency: Translucency) -> bool {
 
 /// Refuses a translucent material that is neither a film without absorption nor clear.
 fn check_translucency(material: &Material) -> Result<(), Error> {
-    match material.translucency.is_some_and(is_filter) && !is_clear(material) {
-        false => Ok(()),
-        true => Err(Error::Usage(format!(
+    if material.translucency.is_some_and(is_filter) && !is_clear(material) {
+        Err(Error::Usage(format!(
             "material {}: opacity {} beside glass or a filter, which glTF 2.0 has no words for; it can say: glass or a filter of \
              opacity 0 without a texture of opacity, and a film without a filter; give the print on the glass a material of its own",
             material.name, material.opacity
-        ))),
+        )))
+    } else {
+        Ok(())
     }
 }

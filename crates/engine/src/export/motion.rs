@@ -132,9 +132,10 @@ fn follow_turns(
         let step = (span[1] - span[0]) / f64::from(steps);
         for index in 0..steps {
             let from = span[0] + f64::from(index) * step;
-            let to = match index + 1 == steps {
-                true => span[1],
-                false => from + step,
+            let to = if index + 1 == steps {
+                span[1]
+            } else {
+                from + step
             };
             refine(rotation, from, to, MAX_HALVINGS, &mut keys);
         }

@@ -69,13 +69,14 @@ fn refuse_zoom(scene: &Scene, timeline: &Timeline) -> Result<(), Error> {
     let times = timeline.cut(scene.camera.vertical_fov.iter().map(|(time, _)| *time));
     let own = scene.camera.vertical_fov_at(0.0);
     let is_other = |time: &f64| (scene.camera.vertical_fov_at(*time) - own).abs() > 1e-9;
-    match times.iter().any(is_other) {
-        true => Err(Error::Usage(format!(
+    if times.iter().any(is_other) {
+        Err(Error::Usage(format!(
             "scene {}: the camera's field of view changes between frames {} and {}, which glTF 2.0 cannot animate; \
              export a scene or variant with one field of view",
             scene.id, -timeline.reach, timeline.reach
-        ))),
-        false => Ok(()),
+        )))
+    } else {
+        Ok(())
     }
 }
 

@@ -68,11 +68,12 @@ fn check_new(out: &Path) -> Result<(), Error> {
     }
     let name = out.file_name().unwrap_or_default().to_string_lossy();
     let is_allowed = |letter: char| letter.is_ascii_alphanumeric() || "_-".contains(letter);
-    match !name.is_empty() && name.chars().all(is_allowed) {
-        true => Ok(()),
-        false => refuse!(
+    if !name.is_empty() && name.chars().all(is_allowed) {
+        Ok(())
+    } else {
+        refuse!(
             out,
             "the folder's name becomes the scene's name; allowed are letters, digits, _ and -"
-        ),
+        )
     }
 }

@@ -58,16 +58,15 @@ impl Model {
         let path = (path.canonicalize()).map_err(|source| FileError::io(path, "read", source))?;
         let name = path.file_name().unwrap_or_default();
         let copy = folder.join(name);
-        let loaded = match plain {
-            true => {
-                write_plain(&path, &copy)?;
-                // Line numbers are unchanged.
-                load(scene, &copy).map_err(|error| SceneError {
-                    path: path.clone(),
-                    ..error
-                })?
-            }
-            false => load(scene, &path).map_err(|error| suggest_plain(error, &path, scene))?,
+        let loaded = if plain {
+            write_plain(&path, &copy)?;
+            // Line numbers are unchanged.
+            load(scene, &copy).map_err(|error| SceneError {
+                path: path.clone(),
+                ..error
+            })?
+        } else {
+            load(scene, &path).map_err(|error| suggest_plain(error, &path, scene))?
         };
         if !plain {
             copy_all(&loaded.files, &path, &folder)?;
@@ -170,15 +169,16 @@ fn suggest_plain(error: SceneError, path: &Path, scene: &Path) -> SceneError {
     let copy = scene.join("plain.obj");
     let helps = write_plain(path, &copy).is_ok() && load(scene, &copy).is_ok();
     let _ = fs::remove_file(&copy);
-    match helps {
-        true => SceneError {
+    if helps {
+        SceneError {
             reason: format!(
                 "{}; or import the model plain: the shape alone, in grey",
                 error.reason
             ),
             ..error
-        },
-        false => error,
+        }
+    } else {
+        error
     }
 }
 

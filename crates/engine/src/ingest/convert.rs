@@ -137,12 +137,13 @@ fn median_ratio(picture: &Image, other: &Image, left_out: &Raster<bool>) -> Opti
 
 /// Refuses a folder with another frame, such as a run's folder of a scene.
 fn refuse_other_files(out: &Path) -> Result<(), Error> {
-    match out.join(RenderFile::Frame.path()).exists() && !EngineScene::is_in(out) {
-        false => Ok(()),
-        true => Err(Error::Usage(format!(
+    if out.join(RenderFile::Frame.path()).exists() && !EngineScene::is_in(out) {
+        Err(Error::Usage(format!(
             "{}: holds a frame that was not ingested, which would be overwritten; name a new folder",
             out.display()
-        ))),
+        )))
+    } else {
+        Ok(())
     }
 }
 

@@ -123,11 +123,12 @@ fn check_count(capture: &Capture) -> Result<(), Error> {
 
 /// Checks a number of sub-frames; names the allowed ones if it is none of them.
 pub fn check_subframe_count(count: usize) -> Result<(), String> {
-    match count.is_multiple_of(2) && (MIN_SUBFRAMES..=MAX_SUBFRAMES).contains(&count) {
-        true => Ok(()),
-        false => Err(format!(
+    if count.is_multiple_of(2) && (MIN_SUBFRAMES..=MAX_SUBFRAMES).contains(&count) {
+        Ok(())
+    } else {
+        Err(format!(
             "even numbers from {MIN_SUBFRAMES} to {MAX_SUBFRAMES}"
-        )),
+        ))
     }
 }
 

@@ -39,14 +39,15 @@ pub fn name_objects(capture: &Capture, known: Option<Vec<String>>) -> Result<Vec
             })
             .collect(),
     };
-    match largest < named.len() && named.len() <= MAX_OBJECTS + 1 {
-        true => Ok(named),
-        false => refuse!(
+    if largest < named.len() && named.len() <= MAX_OBJECTS + 1 {
+        Ok(named)
+    } else {
+        refuse!(
             capture.folder,
             "object.exr and {SUBFRAMES} hold ids up to {largest}; allowed: up to {}, as the scene's manifest.json numbers its \
                  objects; draw these ids, or leave object.exr out",
             named.len().min(MAX_OBJECTS + 1) - 1
-        ),
+        )
     }
 }
 

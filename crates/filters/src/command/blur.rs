@@ -62,9 +62,10 @@ impl CommandBlur {
         let [frame, out] = ["frame.exr", "out.exr"].map(|name| place.join(name));
         write_exr(&frame, &make_frame_file(color, input))
             .map_err(|error| self.refuse_frame_file(error))?;
-        let mut process = Process::new(match self.is_in_folder() {
-            true => self.command().folder.join(self.program()),
-            false => PathBuf::from(self.program()),
+        let mut process = Process::new(if self.is_in_folder() {
+            self.command().folder.join(self.program())
+        } else {
+            PathBuf::from(self.program())
         });
         process
             .args(self.arguments(input, &frame, &out))
@@ -176,9 +177,10 @@ impl CommandBlur {
                 kind_of(&found)
             ));
         }
-        match found.len() <= self.max_bytes() {
-            true => Ok(()),
-            false => Err(self.describe_too_large()),
+        if found.len() <= self.max_bytes() {
+            Ok(())
+        } else {
+            Err(self.describe_too_large())
         }
     }
 

@@ -34,9 +34,12 @@ pub(crate) fn collect_environment(named: &[String]) -> Vec<(OsString, OsString)>
     let known: Vec<&str> = known.chain(named.iter().map(String::as_str)).collect();
     let is_passed = |name: &str| {
         name.starts_with("LC_")
-            || known.iter().any(|known| match cfg!(windows) {
-                true => known.eq_ignore_ascii_case(name),
-                false => *known == name,
+            || known.iter().any(|known| {
+                if cfg!(windows) {
+                    known.eq_ignore_ascii_case(name)
+                } else {
+                    *known == name
+                }
             })
     };
     std::env::vars_os()

@@ -59,9 +59,10 @@ fn list_stored_formats(adapter: &wgpu::Adapter) -> Vec<Format> {
     let features = adapter.features() & FEATURES;
     let is_open = features.contains(wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES);
     let is_stored = |format: &Format| {
-        let granted = match is_open {
-            true => adapter.get_texture_format_features(format.wgpu()),
-            false => format.wgpu().guaranteed_format_features(features),
+        let granted = if is_open {
+            adapter.get_texture_format_features(format.wgpu())
+        } else {
+            format.wgpu().guaranteed_format_features(features)
         };
         (granted.allowed_usages).contains(wgpu::TextureUsages::STORAGE_BINDING)
     };

@@ -98,9 +98,10 @@ fn create_layout(
     let used = entry.variables.iter().map(|index| {
         let variable = &shader.variables[*index];
         let ty = match variable.role {
-            Role::Block(block) => buffer(match shader.blocks[block].is_storage {
-                true => wgpu::BufferBindingType::Storage { read_only: true },
-                false => wgpu::BufferBindingType::Uniform,
+            Role::Block(block) => buffer(if shader.blocks[block].is_storage {
+                wgpu::BufferBindingType::Storage { read_only: true }
+            } else {
+                wgpu::BufferBindingType::Uniform
             }),
             Role::Read(kind) => wgpu::BindingType::Texture {
                 sample_type: find_sample_type(kind, entry.interpolated.contains(index)),
@@ -112,9 +113,10 @@ fn create_layout(
                 format: format.wgpu(),
                 view_dimension: wgpu::TextureViewDimension::D2,
             },
-            Role::Sampler(sampling) => wgpu::BindingType::Sampler(match sampling.interpolates() {
-                false => wgpu::SamplerBindingType::NonFiltering,
-                true => wgpu::SamplerBindingType::Filtering,
+            Role::Sampler(sampling) => wgpu::BindingType::Sampler(if sampling.interpolates() {
+                wgpu::SamplerBindingType::Filtering
+            } else {
+                wgpu::SamplerBindingType::NonFiltering
             }),
         };
         (variable.binding, ty)

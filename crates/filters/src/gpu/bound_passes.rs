@@ -157,9 +157,10 @@ impl Binder<'_> {
                 entry: pass.entry.clone(),
                 pipeline: compiled.pipeline.clone(),
                 attachments: attachments.collect(),
-                copies: match entry.keeps_unwritten {
-                    true => targets.list_exchanged(entry),
-                    false => Vec::new(),
+                copies: if entry.keeps_unwritten {
+                    targets.list_exchanged(entry)
+                } else {
+                    Vec::new()
                 },
                 blocks,
                 groups,
@@ -209,9 +210,10 @@ fn count_workgroups(targets: &Targets, filter: &Filter, pass: &Pass, levels: &Le
     let entry = filter.entry_point(pass);
     let [width, height] = targets.size(over, levels.of_written(over));
     // Texels that one workgroup covers.
-    let [x, y] = match pass.workgroup_per_texel || entry.is_fragment() {
-        true => [1, 1],
-        false => [entry.workgroup_size[0], entry.workgroup_size[1]],
+    let [x, y] = if pass.workgroup_per_texel || entry.is_fragment() {
+        [1, 1]
+    } else {
+        [entry.workgroup_size[0], entry.workgroup_size[1]]
     };
     [width.div_ceil(x), height.div_ceil(y)]
 }
@@ -236,9 +238,10 @@ fn sum_bytes(targets: &Targets, filter: &Filter, pass: &Pass, levels: &Levels) -
 /// Creates a buffer for each uniform block.
 fn create_blocks(gpu: &Gpu, blocks: &[UniformBlock]) -> Vec<(UniformBlock, wgpu::Buffer)> {
     let create = |block: &UniformBlock| {
-        let usage = match block.is_storage {
-            true => wgpu::BufferUsages::STORAGE,
-            false => wgpu::BufferUsages::UNIFORM,
+        let usage = if block.is_storage {
+            wgpu::BufferUsages::STORAGE
+        } else {
+            wgpu::BufferUsages::UNIFORM
         };
         let usage = usage | wgpu::BufferUsages::COPY_DST;
         let bytes = block.buffer_bytes() as u64;

@@ -61,12 +61,13 @@ impl LoopCounts {
     fn refuse(&self, gpu: &Gpu, place: Place, count: u32) -> FilterError {
         let LoopLimit { iterations, lanes } = self.limit;
         let adapter = &gpu.adapter.name;
-        let found = match count >= iterations {
-            true => "its loops were ended early, so the picture is wrong".to_owned(),
-            false => format!(
+        let found = if count >= iterations {
+            "its loops were ended early, so the picture is wrong".to_owned()
+        } else {
+            format!(
                 "one invocation takes {count} loop iterations, and {lanes} that run in step share the limit, so the \
                  picture may be wrong"
-            ),
+            )
         };
         place.refuse(format!(
             "{found}: adapter \"{adapter}\" ends all loops of an invocation after {iterations} iterations in total; \

@@ -175,12 +175,13 @@ impl Targets {
 
     /// Returns the texture that the kernel writes by that name.
     pub fn written(&self, entry: &EntryPoint, name: &str) -> &Target {
-        match entry
+        if entry
             .exchanged_textures()
             .any(|exchanged| exchanged == name)
         {
-            true => &self.0[name][1],
-            false => self.current(name),
+            &self.0[name][1]
+        } else {
+            self.current(name)
         }
     }
 

@@ -71,9 +71,10 @@ pub fn try_out(gpu: &Gpu, filter: &Filter) -> Result<(), FilterError> {
             break;
         }
     }
-    match failures.is_empty() {
-        true => Ok(()),
-        false => Err(FilterError::Refused(shorten(failures).join("\n"))),
+    if failures.is_empty() {
+        Ok(())
+    } else {
+        Err(FilterError::Refused(shorten(failures).join("\n")))
     }
 }
 
@@ -130,9 +131,12 @@ fn shorten(mut failures: Vec<String>) -> Vec<String> {
 fn make_frame() -> (Image, Vectors, Plane) {
     let is_square = |x: u32, y: u32| (4..10).contains(&x) && (5..11).contains(&y);
     let is_sky = |y: u32| y < 3;
-    let color = Raster::from_fn(SIDE, SIDE, |x, y| match is_square(x, y) {
-        true => [8.0, 4.0, 0.5],
-        false => [x as f32 / 16.0, y as f32 / 16.0, 0.0],
+    let color = Raster::from_fn(SIDE, SIDE, |x, y| {
+        if is_square(x, y) {
+            [8.0, 4.0, 0.5]
+        } else {
+            [x as f32 / 16.0, y as f32 / 16.0, 0.0]
+        }
     });
     let velocity = Raster::from_fn(SIDE, SIDE, |x, y| match (is_square(x, y), y) {
         // One column moves farther than the frame is wide.

@@ -13,9 +13,12 @@ impl Filter {
     /// these have 32 bits already, or if a shader cannot store them so.
     pub fn widen_colors(&self) -> Option<Self> {
         let colored = self.list_colored();
-        let widen = |name: &str, format: Format| match colored.contains(name) {
-            true => format.widened(),
-            false => format,
+        let widen = |name: &str, format: Format| {
+            if colored.contains(name) {
+                format.widened()
+            } else {
+                format
+            }
         };
         let mut wide = self.clone();
         wide.convention.color_format = None;

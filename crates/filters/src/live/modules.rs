@@ -19,13 +19,14 @@ pub(super) fn file_name(filter: &Filter, index: usize) -> String {
     let stem = filter.shaders[index].path.file_stem().unwrap_or_default();
     let stem = stem.to_string_lossy();
     let number = format!("_{index}");
-    match filter
+    if filter
         .passes
         .iter()
         .any(|pass| pass.shader.is_some() && pass.shaders.contains(&index))
     {
-        true => format!("{}{number}.wgsl", stem.trim_end_matches(&number)),
-        false => format!("{}.wgsl", filter.name),
+        format!("{}{number}.wgsl", stem.trim_end_matches(&number))
+    } else {
+        format!("{}.wgsl", filter.name)
     }
 }
 

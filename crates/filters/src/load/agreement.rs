@@ -157,9 +157,10 @@ impl Filter {
             Role::Write(_) if name == written_texture(name) => false,
             _ => self.has_texture(resource) && resource != "output",
         };
-        match is_known {
-            true => check_texture(self, variable.role, resource),
-            false => Err(self.refuse_undeclared()),
+        if is_known {
+            check_texture(self, variable.role, resource)
+        } else {
+            Err(self.refuse_undeclared())
         }
     }
 

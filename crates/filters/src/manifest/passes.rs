@@ -59,9 +59,10 @@ pub(super) fn read_textures(
     for spanned in entries {
         let name = &spanned.get_ref().name;
         let texture = read_texture(spanned.get_ref(), filter).and_then(|texture| {
-            match textures.iter().any(|known| known.name == *name) {
-                true => Err(" is declared twice".into()),
-                false => Ok(texture),
+            if textures.iter().any(|known| known.name == *name) {
+                Err(" is declared twice".into())
+            } else {
+                Ok(texture)
             }
         });
         let refuse = |reason| file.at(spanned, format!("texture \"{name}\"{reason}"));

@@ -60,9 +60,10 @@ impl UniformBlock {
 
     /// Returns the size of its buffer. That of a storage buffer is exact: it says how long the last array is.
     pub fn buffer_bytes(&self) -> usize {
-        match self.is_storage {
-            true => self.bytes as usize,
-            false => (self.bytes as usize).next_multiple_of(16),
+        if self.is_storage {
+            self.bytes as usize
+        } else {
+            (self.bytes as usize).next_multiple_of(16)
         }
     }
 

@@ -141,9 +141,10 @@ impl Binder<'_> {
         binding: Option<&Binding>,
         reason: &str,
     ) -> FilterError {
-        let named = match is_globals(module, variable) {
-            true => "its uniforms outside of any block, which a [[pass.binding]] with globals = true explains".into(),
-            false => name_variable(variable, place),
+        let named = if is_globals(module, variable) {
+            "its uniforms outside of any block, which a [[pass.binding]] with globals = true explains".into()
+        } else {
+            name_variable(variable, place)
         };
         match binding {
             None => FilterError::in_file(self.path, None, format!("{named}: {reason}")),
@@ -220,12 +221,13 @@ impl Binder<'_> {
             return Ok(texture);
         }
         let called = written_texture(variable);
-        match self.filter.has_texture(called) {
-            true => Ok(called.to_owned()),
-            false => Err(format!(
+        if self.filter.has_texture(called) {
+            Ok(called.to_owned())
+        } else {
+            Err(format!(
                 "has no `texture`; add a [[pass.binding]] that names one; allowed: {}",
                 self.filter.list_textures()
-            )),
+            ))
         }
     }
 }

@@ -29,9 +29,10 @@ static OF_GLSL: [Compiler; 1] = [Compiler {
     // GLSL has no other entry point than `main`.
     arguments: |shader, sources| {
         let [short, ..] = name_stage(shader);
-        let relaxed = match is_opengl(sources) {
-            true => "-R --auto-map-bindings --auto-map-locations ",
-            false => "",
+        let relaxed = if is_opengl(sources) {
+            "-R --auto-map-bindings --auto-map-locations "
+        } else {
+            ""
         };
         format!("-V {relaxed}--target-env vulkan1.1 -S {short} -o {{out}} {{in}}")
     },
@@ -108,9 +109,10 @@ fn name_stage(shader: &PassShader) -> [&'static str; 3] {
 fn call_slangc(language: &str, shader: &PassShader, sources: &Sources) -> String {
     let ([_, stage, _], entry) = (name_stage(shader), &shader.entry);
     // With shifts of registers, slangc ignores bindings of Vulkan.
-    let registers = match sources.text().contains("vk::binding") {
-        true => "",
-        false => REGISTERS,
+    let registers = if sources.text().contains("vk::binding") {
+        ""
+    } else {
+        REGISTERS
     };
     format!(
         "{{include}} -lang {language} {{in}} -target spirv -profile spirv_1_3 -entry {entry} -stage {stage} \

@@ -116,9 +116,10 @@ fn size_workgroups(words: &mut Words, values: &BTreeMap<u32, Value>) {
 /// Replaces the bits of an infinite float, which naga refuses, by those of the largest with its sign.
 fn make_finite(bits: u32) -> u32 {
     let number = f32::from_bits(bits);
-    match number.is_infinite() {
-        true => f32::MAX.copysign(number).to_bits(),
-        false => bits,
+    if number.is_infinite() {
+        f32::MAX.copysign(number).to_bits()
+    } else {
+        bits
     }
 }
 
@@ -219,9 +220,10 @@ impl Constants<'_> {
 pub(super) fn refuse_missing(missing: &str, known: &[String]) -> String {
     format!(
         "has no specialisation constant \"{missing}\", which filter.toml sets; it has: {}",
-        match known.is_empty() {
-            true => "none".to_owned(),
-            false => known.join(", "),
+        if known.is_empty() {
+            "none".to_owned()
+        } else {
+            known.join(", ")
         }
     )
 }

@@ -50,9 +50,10 @@ pub(super) fn keep_entry_point(
                 "has no {} entry point \"{}\"; it has: {}; filter.toml names it with {}",
                 name_stage(stage),
                 shader.entry,
-                match names.is_empty() {
-                    true => "none".to_owned(),
-                    false => names.join(", "),
+                if names.is_empty() {
+                    "none".to_owned()
+                } else {
+                    names.join(", ")
                 },
                 match shader.stage {
                     Stage::Vertex => "`vertex` and `vertex_shader`",
@@ -97,9 +98,10 @@ pub(super) fn set_constants(
             return Err(FilterError::in_file(path, None, reason));
         };
         let scalar = module.types[constant.ty].inner.scalar();
-        let value = match scalar.is_some_and(|scalar| scalar.kind != ScalarKind::Float) {
-            true => value.round(),
-            false => *value,
+        let value = if scalar.is_some_and(|scalar| scalar.kind != ScalarKind::Float) {
+            value.round()
+        } else {
+            *value
         };
         // A constant with a name and a number goes by its number.
         set.insert(numbered(constant.id).unwrap_or(name.clone()), value);

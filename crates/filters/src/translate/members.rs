@@ -138,9 +138,12 @@ fn spell_out(filter: &Filter, values: &[Expression], is_by_rows: bool) -> Vec<Ex
             return vec![value.clone()];
         };
         let numbers = filter.count_numbers(name).unwrap_or(1);
-        let place = |index: usize| match is_by_rows && numbers == MATRIX_NUMBERS {
-            true => 4 * (index % 4) + index / 4,
-            false => index,
+        let place = |index: usize| {
+            if is_by_rows && numbers == MATRIX_NUMBERS {
+                4 * (index % 4) + index / 4
+            } else {
+                index
+            }
         };
         match numbers {
             1 => vec![value.clone()],

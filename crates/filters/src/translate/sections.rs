@@ -28,9 +28,10 @@ pub(super) fn keep_section(text: &str, stage: Stage) -> String {
 pub(super) fn allow_includes(text: &str) -> String {
     let extension = "#extension GL_GOOGLE_include_directive : enable";
     let lines = text.split('\n').zip(2..).map(|(line, next)| {
-        match line.trim_start().starts_with("#version") {
-            true => format!("{line}\n{extension}\n#line {next}"),
-            false => line.to_owned(),
+        if line.trim_start().starts_with("#version") {
+            format!("{line}\n{extension}\n#line {next}")
+        } else {
+            line.to_owned()
         }
     });
     lines.collect::<Vec<_>>().join("\n")

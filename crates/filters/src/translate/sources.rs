@@ -141,9 +141,10 @@ impl<'a> Sources<'a> {
                 }
                 (Some(lead), true) => {
                     let quoted = format!("\"{path}\"");
-                    let lead = match path.ends_with(".slang") {
-                        true => &lead[..],
-                        false => lead.trim_end_matches(".slang"),
+                    let lead = if path.ends_with(".slang") {
+                        &lead[..]
+                    } else {
+                        lead.trim_end_matches(".slang")
                     };
                     // The path may be in a line after the word.
                     let mut rest = lines.iter_mut().skip(include.line - 1);
@@ -200,9 +201,10 @@ impl<'a> Sources<'a> {
             let place = join(from, path).ok_or_else(leads_out)?;
             let candidate = self.folder.join(&place);
             if candidate.is_file() {
-                return match stays_below(self.folder, &candidate) {
-                    true => Ok(Some(place)),
-                    false => Err(leads_out()),
+                return if stays_below(self.folder, &candidate) {
+                    Ok(Some(place))
+                } else {
+                    Err(leads_out())
                 };
             }
         }
@@ -247,16 +249,17 @@ impl<'a> Sources<'a> {
         let text = String::from_utf8(bytes)
             .map_err(|_| self.refuse(place, None, "is not UTF-8; save it as UTF-8"))?;
         self.texts.insert(place.to_owned(), text);
-        match self.texts.len() > MAX_FILES {
-            true => Err(self.refuse(
+        if self.texts.len() > MAX_FILES {
+            Err(self.refuse(
                 place,
                 None,
                 format!(
                     "is one of more than {MAX_FILES} files of a shader in {}; leave files out that it does not need",
                     self.language.name()
                 ),
-            )),
-            false => Ok(()),
+            ))
+        } else {
+            Ok(())
         }
     }
 }

@@ -187,9 +187,10 @@ fn split_images(words: &mut Words) -> BTreeMap<Place, Place> {
         {
             *value = binding;
         }
-        Some(match is_copied {
-            true => vec![copy, instruction.clone()],
-            false => vec![copy],
+        Some(if is_copied {
+            vec![copy, instruction.clone()]
+        } else {
+            vec![copy]
         })
     });
     (free.into_iter())

@@ -48,9 +48,10 @@ fn shorten(floats: Vec<f32>) -> FlatSamples {
             halves.convert_to_f32_slice(widened);
             (floats.iter().zip(widened)).all(|(own, widened)| own.to_bits() == widened.to_bits())
         });
-    match is_lossless {
-        true => FlatSamples::F16(halves),
-        false => FlatSamples::F32(floats),
+    if is_lossless {
+        FlatSamples::F16(halves)
+    } else {
+        FlatSamples::F32(floats)
     }
 }
 

@@ -17,11 +17,12 @@ fn check_size(bytes: &[u8]) -> Result<(), String> {
     let reader = image::ImageReader::with_format(Cursor::new(bytes), image::ImageFormat::Png);
     let (width, height) = (reader.into_dimensions())
         .map_err(|error| format!("not a PNG that can be read: {error}"))?;
-    match u64::from(width) * u64::from(height) <= MAX_PNG_PIXELS {
-        true => Ok(()),
-        false => Err(format!(
+    if u64::from(width) * u64::from(height) <= MAX_PNG_PIXELS {
+        Ok(())
+    } else {
+        Err(format!(
             "claims {width}x{height} pixels; allowed: up to {MAX_PNG_PIXELS} pixels"
-        )),
+        ))
     }
 }
 

@@ -118,12 +118,13 @@ pub fn compare_with_baseline(
             }
         }
     }
-    match comparisons.is_empty() {
-        true => Err(refuse(
+    if comparisons.is_empty() {
+        Err(refuse(
             "no score with a margin applies to any scene, and there is nothing to compare"
                 .to_owned(),
-        )),
-        false => Ok(comparisons),
+        ))
+    } else {
+        Ok(comparisons)
     }
 }
 

@@ -173,8 +173,9 @@ fn read_margin(name: &str, width: f64, place: String) -> Result<(Metric, Margin)
             "margin of {metric}: baselines hold scores of single frames only; give it a limit instead"
         ));
     }
-    match width.is_finite() && width >= 0.0 {
-        true => Ok((metric, Margin { width, place })),
-        false => Err(format!("margin of {metric} is {width}; allowed: 0 or more")),
+    if width.is_finite() && width >= 0.0 {
+        Ok((metric, Margin { width, place }))
+    } else {
+        Err(format!("margin of {metric} is {width}; allowed: 0 or more"))
     }
 }

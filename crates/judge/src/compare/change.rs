@@ -135,9 +135,10 @@ impl Change {
             estimates: uncertainty.map_or([first.value, second.value], |own| own.estimates),
             weight,
             interval: uncertainty.map(|own| own.interval),
-            standard_error: match worse == 0.0 {
-                true => Some(0.0),
-                false => uncertainty.map(|own| own.standard_error),
+            standard_error: if worse == 0.0 {
+                Some(0.0)
+            } else {
+                uncertainty.map(|own| own.standard_error)
             },
             basis: match uncertainty {
                 Some(_) => Basis::Replicates,

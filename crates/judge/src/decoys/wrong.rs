@@ -53,9 +53,10 @@ fn widen(frame: &Frame) -> Frame {
             .map(|(u, v)| (v * width + u) as usize)
             .filter(|at| frame.velocity.pixels[*at] != [0.0, 0.0])
             .fold(own, |best, at| {
-                match frame.depth.pixels[at] < frame.depth.pixels[best] {
-                    true => at,
-                    false => best,
+                if frame.depth.pixels[at] < frame.depth.pixels[best] {
+                    at
+                } else {
+                    best
                 }
             })
     });

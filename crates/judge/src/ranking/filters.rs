@@ -72,9 +72,10 @@ pub const MAX_RANKED: usize = 16;
 /// Lists the cases for a summary: scenes at their files' frame rate, or all if no scene is.
 pub fn list_summarized(cases: &[Case]) -> Vec<&Case> {
     let as_written = |case: &&Case| case.rate.is_none();
-    match cases.iter().any(|case| as_written(&case)) {
-        true => cases.iter().filter(as_written).collect(),
-        false => cases.iter().collect(),
+    if cases.iter().any(|case| as_written(&case)) {
+        cases.iter().filter(as_written).collect()
+    } else {
+        cases.iter().collect()
     }
 }
 

@@ -14,9 +14,10 @@ pub fn gaussian(sigma: f64, truncate: f64, derivative: bool) -> Vec<f64> {
     let total: f64 = (-radius..=radius).map(bell).sum();
     (-radius..=radius)
         .map(|x| {
-            let slope = match derivative {
-                true => f64::from(x) / (sigma * sigma),
-                false => 1.0,
+            let slope = if derivative {
+                f64::from(x) / (sigma * sigma)
+            } else {
+                1.0
             };
             slope * bell(x) / total
         })

@@ -75,9 +75,10 @@ impl Patch {
 
     fn at(&self, x: u32, y: u32) -> f64 {
         let (column, row) = (x.wrapping_sub(self.left), y.wrapping_sub(self.top));
-        match column < self.raster.width && row < self.raster.height {
-            true => *self.raster.at(column, row),
-            false => 0.0,
+        if column < self.raster.width && row < self.raster.height {
+            *self.raster.at(column, row)
+        } else {
+            0.0
         }
     }
 }

@@ -261,9 +261,10 @@ impl ObjectReference {
         [
             pick(ObjectMetric::Hole, |mass| mass.hole, uncovered),
             pick(ObjectMetric::Deficit, |mass| Some(mass.deficit), unseen),
-            match self.is_at_border {
-                true => Measured::not_applicable(BORDER),
-                false => pick(ObjectMetric::Energy, |mass| Some(mass.energy), unseen),
+            if self.is_at_border {
+                Measured::not_applicable(BORDER)
+            } else {
+                pick(ObjectMetric::Energy, |mass| Some(mass.energy), unseen)
             },
         ]
     }

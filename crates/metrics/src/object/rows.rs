@@ -108,9 +108,10 @@ impl Grid {
         let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
         let heights: Vec<f64> = self.rows().map(largest).collect();
         let whole = largest(&heights);
-        match whole > 0.0 {
-            true => heights.iter().map(|height| height / whole).collect(),
-            false => heights,
+        if whole > 0.0 {
+            heights.iter().map(|height| height / whole).collect()
+        } else {
+            heights
         }
     }
 

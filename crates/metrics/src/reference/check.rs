@@ -153,13 +153,14 @@ fn agree<T: std::fmt::Debug + PartialEq>(
 
 fn check_size<T>(raster: &Raster<T>, truth: &Truth, what: &str) -> Result<(), MeasureError> {
     let (found, truth) = ((raster.width, raster.height), truth.size());
-    match found == truth {
-        true => Ok(()),
-        false => Err(MeasureError::Size {
+    if found == truth {
+        Ok(())
+    } else {
+        Err(MeasureError::Size {
             what: what.to_owned(),
             found,
             truth,
-        }),
+        })
     }
 }
 

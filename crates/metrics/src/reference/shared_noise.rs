@@ -42,9 +42,12 @@ pub fn halves_for(
         shared.pixels[at] && (0..3).all(is_left)
     };
     halves.map(|half| {
-        index_pixels(half, |at| match is_handed_on(at) {
-            true => mean.pixels[at],
-            false => half.pixels[at],
+        index_pixels(half, |at| {
+            if is_handed_on(at) {
+                mean.pixels[at]
+            } else {
+                half.pixels[at]
+            }
         })
     })
 }

@@ -55,9 +55,10 @@ fn blend(history: &Image, new: &Image, instant: &Instant, at: usize) -> [f32; 3]
 fn nearest_around(instant: &Instant, at: usize) -> usize {
     let depth = &instant.depth;
     around(depth, at, 1).fold(at, |nearest, other| {
-        match depth.pixels[other] < depth.pixels[nearest] {
-            true => other,
-            false => nearest,
+        if depth.pixels[other] < depth.pixels[nearest] {
+            other
+        } else {
+            nearest
         }
     })
 }

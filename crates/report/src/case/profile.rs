@@ -41,9 +41,10 @@ pub fn trace_profile(
     let truth = &scene.truths[&case.alignment];
     let motion = motion_at(place, &scene.frame, truth);
     let length = motion[0].hypot(motion[1]);
-    let direction = match length > 0.0 {
-        true => motion.map(|component| component / length),
-        false => [1.0, 0.0],
+    let direction = if length > 0.0 {
+        motion.map(|component| component / length)
+    } else {
+        [1.0, 0.0]
     };
     let reach = (LENGTHS * length).clamp(REACH[0], REACH[1]).round() as i32;
     let size = [truth.mean.color.width, truth.mean.color.height];

@@ -30,9 +30,10 @@ impl Axis {
     pub fn linear(title: &str, values: impl Iterator<Item = f64>) -> Self {
         let (low, high) = ends(values);
         // A single number is in the middle.
-        let room = match high > low {
-            true => 0.04 * (high - low),
-            false => 0.5 * low.abs().max(1e-3),
+        let room = if high > low {
+            0.04 * (high - low)
+        } else {
+            0.5 * low.abs().max(1e-3)
         };
         let (low, high) = (low - room, high + room);
         Self::new(title, [low, high], false, ticks(low, high))
@@ -74,9 +75,10 @@ impl Axis {
 
     /// Scales a value: 0 at one end, 1 at the other.
     fn part(&self, value: f64) -> f64 {
-        match self.log {
-            true => (value / self.low).ln() / (self.high / self.low).ln(),
-            false => (value - self.low) / (self.high - self.low),
+        if self.log {
+            (value / self.low).ln() / (self.high / self.low).ln()
+        } else {
+            (value - self.low) / (self.high - self.low)
         }
     }
 }

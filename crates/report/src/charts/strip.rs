@@ -43,9 +43,10 @@ impl Strip {
     }
 
     fn place(&self, value: f64) -> f64 {
-        let part = match self.high > self.low {
-            true => (value - self.low) / (self.high - self.low),
-            false => 0.5,
+        let part = if self.high > self.low {
+            (value - self.low) / (self.high - self.low)
+        } else {
+            0.5
         };
         MARGIN + part.clamp(0.0, 1.0) * (WIDTH - 2.0 * MARGIN)
     }

@@ -55,9 +55,10 @@ fn change(sides: [&StoredRun; 2], pair: &Pair) -> Result<Option<String>, Error> 
 
 /// Colours a change: orange is worse and blue better, as elsewhere on the page; black is no change, full colour a half or more.
 fn color(worse: f32) -> [f32; 3] {
-    let full = match worse > 0.0 {
-        true => [0.98, 0.55, 0.15],
-        false => [0.30, 0.62, 1.0],
+    let full = if worse > 0.0 {
+        [0.98, 0.55, 0.15]
+    } else {
+        [0.30, 0.62, 1.0]
     };
     let strength = (2.0 * worse.abs()).min(1.0).sqrt();
     full.map(|value| value * strength)

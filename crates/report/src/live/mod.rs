@@ -73,9 +73,10 @@ impl<'a> LiveFiles<'a> {
     /// Finds the filter that a case ran, as its run's folder or this program has it, and writes its file.
     fn find_filter(&mut self, case: &Case) -> Result<Result<(usize, Filter), String>, Error> {
         let own = self.folder.join(MEASURED_FILTERS).join(&case.filter);
-        let found = match own.join("filter.toml").is_file() {
-            true => Filter::load(&own),
-            false => Filter::builtin(&case.filter),
+        let found = if own.join("filter.toml").is_file() {
+            Filter::load(&own)
+        } else {
+            Filter::builtin(&case.filter)
         };
         let found = found.ok().filter(|filter| is_of(filter, case));
         let Some(filter) = found.filter(|_| case.command.is_none()) else {

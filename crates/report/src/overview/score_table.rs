@@ -236,9 +236,10 @@ fn strip_over<'a>(rows: impl Iterator<Item = &'a Row<'a>>, ideal: Ideal) -> Stri
         Ideal::Highest => None,
     };
     let last = means.len().saturating_sub(1);
-    let quartiles = match means.is_empty() {
-        true => [0.0, 1.0],
-        false => [means[last / 4], means[last - last / 4]],
+    let quartiles = if means.is_empty() {
+        [0.0, 1.0]
+    } else {
+        [means[last / 4], means[last - last / 4]]
     };
     let room = WHISKERS * (quartiles[1] - quartiles[0]);
     let within = |own: &f64| (quartiles[0] - room..=quartiles[1] + room).contains(own);

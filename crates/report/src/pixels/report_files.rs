@@ -66,9 +66,10 @@ impl SceneTexts {
     pub fn place(mut self, rest: usize) -> Result<Place, FileError> {
         self.bytes += rest;
         self.write_what_is_too_large()?;
-        Ok(match self.bytes > self.largest {
-            true => Place::Beside(self.written),
-            false => Place::Page(self.texts),
+        Ok(if self.bytes > self.largest {
+            Place::Beside(self.written)
+        } else {
+            Place::Page(self.texts)
         })
     }
 

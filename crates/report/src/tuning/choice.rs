@@ -59,9 +59,10 @@ pub fn summary(tuning: &Tuning) -> Markup {
 pub fn values(tuning: &Tuning) -> Markup {
     let advice = tuning.advice();
     let is_offered = advice == Advice::Take;
-    let trial = match is_offered || advice == Advice::NoneIsBetter {
-        true => "chosen".to_owned(),
-        false => format!("trial {}", tuning.choice.trial),
+    let trial = if is_offered || advice == Advice::NoneIsBetter {
+        "chosen".to_owned()
+    } else {
+        format!("trial {}", tuning.choice.trial)
     };
     let rows = html! {
         @for (name, range) in &tuning.journal.vary {

@@ -79,9 +79,10 @@ fn settings(header: &JournalHeader) -> Markup {
         Some(limit) => format!("{limit} times the start's"),
         None => "none".to_owned(),
     };
-    let racing = match header.race {
-        true => "clearly worse candidates are dropped",
-        false => "none",
+    let racing = if header.race {
+        "clearly worse candidates are dropped"
+    } else {
+        "none"
     };
     let measured: Vec<&str> = header.objectives.iter().map(|it| it.name()).collect();
     let facts = [

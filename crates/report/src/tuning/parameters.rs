@@ -119,9 +119,10 @@ fn axis(name: &str, values: &[&Value], words: &[String]) -> Axis {
     }
     let numbers = || values.iter().map(|value| place(value, words));
     let (low, high) = ends(numbers());
-    match low > 0.0 && high / low > LOG_FROM {
-        true => Axis::log(name, numbers()),
-        false => Axis::linear(name, numbers()),
+    if low > 0.0 && high / low > LOG_FROM {
+        Axis::log(name, numbers())
+    } else {
+        Axis::linear(name, numbers())
     }
 }
 

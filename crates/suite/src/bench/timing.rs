@@ -184,9 +184,10 @@ impl Timer<'_> {
             done: self.done.get(),
             total: self.plan.count_runs(),
         };
-        match (self.watch)(progress).is_break() {
-            true => Err(TraceError::Cancelled.into()),
-            false => Ok(()),
+        if (self.watch)(progress).is_break() {
+            Err(TraceError::Cancelled.into())
+        } else {
+            Ok(())
         }
     }
 

@@ -21,9 +21,10 @@ pub struct FilterId {
 
 impl fmt::Display for FilterId {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.is_reference {
-            true => write!(f, "{} ({})", self.name, self.alignment),
-            false => f.write_str(&self.name),
+        if self.is_reference {
+            write!(f, "{} ({})", self.name, self.alignment)
+        } else {
+            f.write_str(&self.name)
         }
     }
 }

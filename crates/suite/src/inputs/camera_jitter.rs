@@ -69,9 +69,10 @@ impl CameraJitter {
 /// Adds a motion of the whole picture to all vectors, except those of a background without velocity.
 fn add_motion(frame: &Frame, velocity: &Vectors, motion: [f32; 2]) -> Vectors {
     velocity.zip(&frame.object_id, |velocity, object| {
-        match *object == 0 && !frame.options.sky_velocity {
-            true => *velocity,
-            false => [0, 1].map(|axis| velocity[axis] + motion[axis]),
+        if *object == 0 && !frame.options.sky_velocity {
+            *velocity
+        } else {
+            [0, 1].map(|axis| velocity[axis] + motion[axis])
         }
     })
 }

@@ -78,9 +78,10 @@ impl RenderScale {
         let [width, height] = from.picture;
         let grid = PixelGrid::of_picture(width, height);
         let small = renderer.frame(&format!("frame at {percent} %"), &settings, &grid)?;
-        Ok(match blurs_first {
-            true => small,
-            false => upscale(frame, &small, from, to),
+        Ok(if blurs_first {
+            small
+        } else {
+            upscale(frame, &small, from, to)
         })
     }
 }

@@ -68,9 +68,10 @@ impl<'a> Renderer<'a> {
         settings: &RenderSettings,
         grid: &PixelGrid,
     ) -> Result<Frame, Error> {
-        match self.has_further {
-            true => add_further_velocities(frame, self.scene, settings, grid),
-            false => Ok(frame),
+        if self.has_further {
+            add_further_velocities(frame, self.scene, settings, grid)
+        } else {
+            Ok(frame)
         }
     }
 

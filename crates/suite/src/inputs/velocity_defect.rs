@@ -116,9 +116,10 @@ fn lose_largest_mover(frame: &Frame, camera: &Vectors) -> Vectors {
     let largest = moved.into_iter().max_by(|a, b| a.1.total_cmp(&b.1));
     let lost = largest.map(|(object, _)| object);
     Raster::from_fn(camera.width, camera.height, |x, y| {
-        match lost == Some(*frame.object_id.at(x, y)) {
-            true => *camera.at(x, y),
-            false => *frame.velocity.at(x, y),
+        if lost == Some(*frame.object_id.at(x, y)) {
+            *camera.at(x, y)
+        } else {
+            *frame.velocity.at(x, y)
         }
     })
 }
@@ -139,9 +140,10 @@ fn mark_still(frame: &Frame) -> Vectors {
             (x, y.saturating_sub(1)),
             (x, (y + 1).min(height - 1)),
         ];
-        match beside.into_iter().any(|(x, y)| is_still(x, y)) {
-            true => velocity.at(x, y).map(|part| 0.5 * part),
-            false => *velocity.at(x, y),
+        if beside.into_iter().any(|(x, y)| is_still(x, y)) {
+            velocity.at(x, y).map(|part| 0.5 * part)
+        } else {
+            *velocity.at(x, y)
         }
     })
 }

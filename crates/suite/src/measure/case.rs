@@ -141,9 +141,10 @@ impl CaseContext<'_> {
             .blur_stored(stored, (&mut runner, wide.as_mut()), pass)
             .map_err(|error| name_scene(error, self.scene.scene))?;
         // A smaller one would not fit into the output's file.
-        let dilated_velocity = match input.scale.blurred_size(picture) == picture {
-            true => read_dilated_velocity(&choice.filter, &runner, frame)?,
-            false => None,
+        let dilated_velocity = if input.scale.blurred_size(picture) == picture {
+            read_dilated_velocity(&choice.filter, &runner, frame)?
+        } else {
+            None
         };
         let jitter = self.measure_jitter(&mut runner, frame, pass)?;
         let (measurement, intervals) = self.measure_with_intervals(&parts, &output.picture, {
@@ -337,11 +338,10 @@ fn measure_output(
 fn add_probes(reference: &Reference, output: &FilterOutput, measurement: &mut Measurement) {
     let scores = &mut measurement.scores;
     if output.nonlinearity > MAX_NONLINEARITY {
-        let found = match output.is_rounded {
-            true => {
-                "the filter writes 16-bit floats, and their rounding hides what it gathers; let it write 32-bit floats"
-            }
-            false => "the filter's weights depend on colour",
+        let found = if output.is_rounded {
+            "the filter writes 16-bit floats, and their rounding hides what it gathers; let it write 32-bit floats"
+        } else {
+            "the filter's weights depend on colour"
         };
         let reason = format!(
             "{found}: the blur of a mixture differs from the mixture of the blurs by {:.4} of what the blur changes; \

@@ -217,8 +217,9 @@ fn check_watch(watch: Watch, done: usize, total: usize) -> Result<(), TraceError
         done: done as u64,
         total: total as u64,
     };
-    match watch(progress).is_break() {
-        true => Err(TraceError::Cancelled),
-        false => Ok(()),
+    if watch(progress).is_break() {
+        Err(TraceError::Cancelled)
+    } else {
+        Ok(())
     }
 }

@@ -114,9 +114,10 @@ impl RunPlan {
 
     /// Counts what a scene is measured with, against this many truths.
     pub(crate) fn measured(&self, truths: usize) -> Measured {
-        let parts = match self.measures_parts() {
-            true => Groups::of(self.render.replicates).list().len(),
-            false => 0,
+        let parts = if self.measures_parts() {
+            Groups::of(self.render.replicates).list().len()
+        } else {
+            0
         };
         Measured {
             truths,

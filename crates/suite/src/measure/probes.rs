@@ -157,12 +157,13 @@ pub(crate) fn blur_noise_frames(
 /// Upscales smaller outputs.
 fn upscale_all(outputs: Vec<Image>, picture: [u32; 2]) -> Vec<Image> {
     let is_whole = |output: &Image| [output.width, output.height] == picture;
-    match outputs.iter().all(is_whole) {
-        true => outputs,
-        false => (outputs
+    if outputs.iter().all(is_whole) {
+        outputs
+    } else {
+        (outputs
             .iter()
             .map(|output| upscale_picture(output, picture)))
-        .collect(),
+        .collect()
     }
 }
 

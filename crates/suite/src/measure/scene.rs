@@ -198,9 +198,10 @@ impl SceneContext<'_> {
             return Vec::new();
         };
         let alignments = [planned.id.alignment, self.plan.common_alignment()];
-        let ladders: &[bool] = match self.plan.ladders {
-            true => &[true],
-            false => &[false, true],
+        let ladders: &[bool] = if self.plan.ladders {
+            &[true]
+        } else {
+            &[false, true]
         };
         let key = |has_ladder: &bool| keys.case(&own, alignments, *has_ladder);
         ladders.iter().map(key).collect()

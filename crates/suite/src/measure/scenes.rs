@@ -26,9 +26,10 @@ pub fn measure_scenes(
         1 => plan.monitor.without_progress(),
         _ => plan.monitor,
     };
-    let label = match plan.frames.is_one() {
-        true => format!("{count} scenes in all"),
-        false => format!("{count} frames in all"),
+    let label = if plan.frames.is_one() {
+        format!("{count} scenes in all")
+    } else {
+        format!("{count} frames in all")
     };
     let mut run = plan.facts(gpu.map(|gpu| &gpu.adapter));
     run.command = command;

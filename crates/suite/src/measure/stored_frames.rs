@@ -43,11 +43,12 @@ pub(super) fn store_frames(
     let groups = Groups::of(plan.render.replicates);
     let store = |format: &InputFormat, frame: &Frame, replicates: &[Picture], own: RunScene| {
         let (frame, replicates) = format.apply(frame, replicates, own.traced(), plan.monitor)?;
-        let parts = match replicates.is_empty() {
-            true => Vec::new(),
-            false => (groups.list())
+        let parts = if replicates.is_empty() {
+            Vec::new()
+        } else {
+            (groups.list())
                 .map(|group| groups.picture_without(group, &replicates))
-                .collect(),
+                .collect()
         };
         let mask = plan.reads_exclusion().then(|| match own {
             RunScene::Traced(scene) => Ok(Some(draw_exclusion(&frame, scene))),

@@ -76,14 +76,15 @@ fn check_pictures(part: &StoredRun, own: &Pictures, files: &Files) -> Result<(),
     }
     let truth = &files[&own.scene.join(RenderFile::Truth(own.alignment).path())];
     let found = read_attribute(truth, "content_hash").unwrap_or_default();
-    match found == own.truth_hash {
-        true => Ok(()),
-        false => Err(Error::Usage(format!(
+    if found == own.truth_hash {
+        Ok(())
+    } else {
+        Err(Error::Usage(format!(
             "{}: the truth of {} has the hash {}, and {} has {found}; measure that case again",
             part.path.display(),
             own.case.display(),
             own.truth_hash,
             truth.display()
-        ))),
+        )))
     }
 }

@@ -123,13 +123,14 @@ fn read_replicate(truth: &RenderPath, path: &Path) -> Result<Replicate, Error> {
     let belongs = truth.scene == replicate.provenance.scene.as_str()
         && truth.file.alignment() == Some(replicate.alignment)
         && path.file_name() == file.file_name();
-    match belongs {
-        true => Ok(replicate),
-        false => Err(Error::Usage(format!(
+    if belongs {
+        Ok(replicate)
+    } else {
+        Err(Error::Usage(format!(
             "{} holds {}/{}; leave folders and names as `shuttertruth truths render` made them",
             path.display(),
             replicate.provenance.scene,
             file.display()
-        ))),
+        )))
     }
 }

@@ -81,9 +81,10 @@ impl Rendering<'_> {
 
     /// Renders the frame with what a filter reads.
     pub fn frame_for(&self, filter: &Filter) -> Result<FilterFrame, Error> {
-        let frame = match filter.reads_further_velocities() {
-            true => self.frame_with_further_velocities()?,
-            false => self.frame()?,
+        let frame = if filter.reads_further_velocities() {
+            self.frame_with_further_velocities()?
+        } else {
+            self.frame()?
         };
         let reads = filter.further_inputs().contains(&EXCLUSION);
         let exclusion = reads.then(|| draw_exclusion(&frame, self.scene));

@@ -78,9 +78,10 @@ impl Run {
 
     fn list_settings(&self) -> Vec<(&'static str, String)> {
         // A single frame has no frame rate; run.json leaves it out.
-        let Frames { count, per_second } = match self.frames.is_one() {
-            true => Frames::default(),
-            false => self.frames,
+        let Frames { count, per_second } = if self.frames.is_one() {
+            Frames::default()
+        } else {
+            self.frames
         };
         let mut settings = vec![
             ("program", self.program.clone()),

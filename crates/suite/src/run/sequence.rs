@@ -96,9 +96,10 @@ impl Frames {
     /// Returns the frames per second at which a scene is shown: its own frame rate, or the run's for a scene at its file's rate.
     pub fn shown(&self, scene: &SceneId) -> f64 {
         let rate = scene.rate.unwrap_or_default();
-        match rate.per_second == tracer::FrameRate::WRITTEN.per_second {
-            true => self.per_second,
-            false => rate.per_second,
+        if rate.per_second == tracer::FrameRate::WRITTEN.per_second {
+            self.per_second
+        } else {
+            rate.per_second
         }
     }
 

@@ -18,9 +18,10 @@ pub struct StoredRun {
 impl StoredRun {
     /// Reads a run.json, or the one in a folder.
     pub fn read(path: &Path) -> Result<Self, Error> {
-        let path = match path.is_dir() {
-            true => path.join("run.json"),
-            false => path.to_owned(),
+        let path = if path.is_dir() {
+            path.join("run.json")
+        } else {
+            path.to_owned()
         };
         Ok(Self {
             run: Run::read(&path)?,

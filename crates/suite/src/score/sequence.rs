@@ -76,14 +76,15 @@ fn check_scene(scene: &Scene, settings: &RenderSettings, own: &SequenceTruth) ->
             scene.id
         )));
     }
-    match truth_hash(scene, settings, own.truth.alignment) == provenance.content_hash {
-        true => Ok(()),
-        false => Err(Error::Usage(format!(
+    if truth_hash(scene, settings, own.truth.alignment) == provenance.content_hash {
+        Ok(())
+    } else {
+        Err(Error::Usage(format!(
             "{}: was rendered from other files of the scene {}, or by another version of this program, and the scores of a sequence \
              follow the scene's motion; render frames and truths again",
             own.path.display(),
             scene.id
-        ))),
+        )))
     }
 }
 

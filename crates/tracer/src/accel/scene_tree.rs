@@ -383,9 +383,12 @@ fn check_coordinates(scene: &Scene, slices: &[Vec<Aabb>]) -> Result<(), TraceErr
     for (index, object) in scene.objects.iter().enumerate() {
         let swept = slices.iter().map(|swept| swept[index]);
         let corners = swept.flat_map(|swept| [swept.min, swept.max]);
-        let mut coordinates = corners.map(|corner| match corner.is_finite() {
-            true => corner.abs().max_element(),
-            false => f64::INFINITY,
+        let mut coordinates = corners.map(|corner| {
+            if corner.is_finite() {
+                corner.abs().max_element()
+            } else {
+                f64::INFINITY
+            }
         });
         let too_large = |coordinate: &f64| *coordinate > LARGEST_COORDINATE;
         if let Some(coordinate) = coordinates

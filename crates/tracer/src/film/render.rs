@@ -171,9 +171,10 @@ impl<'a> Film<'a> {
             .collect();
         let mut sample = FilmSample::default();
         let samples = self.samples.of(pixel);
-        let recalled = match sums.iter().any(|sums| sums.is_recalled) {
-            true => (samples / ONE_RECALLED_IN).max(1),
-            false => 0,
+        let recalled = if sums.iter().any(|sums| sums.is_recalled) {
+            (samples / ONE_RECALLED_IN).max(1)
+        } else {
+            0
         };
         for index in 0..samples {
             let sampler = Sampler::new(seed, index);

@@ -71,9 +71,10 @@ pub(super) fn join_names<'a>(names: impl IntoIterator<Item = &'a str>) -> String
 
 /// Lists the allowed numbers, for a message about a finite number or about none.
 pub(super) fn allowed_numbers(is_finite: bool) -> String {
-    match is_finite {
-        true => format!("numbers from -{LARGEST_NUMBER:e} to {LARGEST_NUMBER:e}"),
-        false => "finite numbers".to_owned(),
+    if is_finite {
+        format!("numbers from -{LARGEST_NUMBER:e} to {LARGEST_NUMBER:e}")
+    } else {
+        "finite numbers".to_owned()
     }
 }
 

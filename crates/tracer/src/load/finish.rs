@@ -39,12 +39,11 @@ impl FinishValues {
         let refuse =
             |wrong: usize, reason: String| Err((wrong, format!("{} {reason}", names[wrong])));
         let Some(roughness) = self.roughness else {
-            return match self.metallic {
-                true => {
-                    let reason = "makes a metal without a roughness; give it one (0 is a mirror)";
-                    refuse(1, reason.into())
-                }
-                false => Ok(Finish::Diffuse),
+            return if self.metallic {
+                let reason = "makes a metal without a roughness; give it one (0 is a mirror)";
+                refuse(1, reason.into())
+            } else {
+                Ok(Finish::Diffuse)
             };
         };
         if roughness != 0.0 && !(Finish::SMOOTHEST..=1.0).contains(&roughness) {
@@ -61,9 +60,10 @@ impl FinishValues {
             return refuse(2, reason);
         }
         // A coat of index 1 reflects nothing.
-        Ok(match index == 1.0 {
-            true => Finish::Diffuse,
-            false => Finish::Coated { roughness, index },
+        Ok(if index == 1.0 {
+            Finish::Diffuse
+        } else {
+            Finish::Coated { roughness, index }
         })
     }
 }

@@ -205,11 +205,12 @@ impl Statements {
             ),
             (Some(transparency), Some(opacity)) => {
                 let allowed = 1.0 - opacity;
-                match (transparency - allowed).abs() > SAME_TRANSPARENCY {
-                    false => Ok(()),
-                    true => Err(format!(
+                if (transparency - allowed).abs() > SAME_TRANSPARENCY {
+                    Err(format!(
                         "Tr is {transparency} next to d {opacity}; allowed: 1 - d, here {allowed}; delete Tr"
-                    )),
+                    ))
+                } else {
+                    Ok(())
                 }
             }
         }

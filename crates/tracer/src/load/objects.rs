@@ -142,9 +142,12 @@ impl<'a> ObjectLoader<'a> {
 
     fn check_object_name(&self, name: &Spanned<String>) -> Result<(), SceneError> {
         let text = name.get_ref().as_str();
-        let checked = check_name(text).and_then(|()| match RESERVED.contains(&text) {
-            true => Err(format!("name \"{text}\" is reserved; choose another name")),
-            false => Ok(()),
+        let checked = check_name(text).and_then(|()| {
+            if RESERVED.contains(&text) {
+                Err(format!("name \"{text}\" is reserved; choose another name"))
+            } else {
+                Ok(())
+            }
         });
         checked.map_err(|reason| self.document.error(name.span(), format!("object {reason}")))
     }

@@ -153,9 +153,10 @@ impl Outline {
         while triangles.len() < count - 2 {
             let [before, after] = [ring.before[corner], ring.after[corner]];
             let is_last = triangles.len() + 3 == count;
-            let is_ear = match cuts_straight {
-                true => self.turn(before, corner, after) == 0.0,
-                false => self.is_ear(&ring, corner),
+            let is_ear = if cuts_straight {
+                self.turn(before, corner, after) == 0.0
+            } else {
+                self.is_ear(&ring, corner)
             };
             if is_ear || is_last {
                 triangles.push([before, corner, after].map(|corner| corner as u32));

@@ -42,12 +42,11 @@ impl<'de> Deserialize<'de> for Scale {
         }
 
         let factors = deserializer.deserialize_any(ScaleVisitor)?;
-        match factors.contains(&0.0) {
-            false => Ok(Self(DVec3::from(factors))),
-            true => {
-                let reason = format!("scale is {factors:?}; allowed: factors other than 0");
-                Err(D::Error::custom(reason))
-            }
+        if factors.contains(&0.0) {
+            let reason = format!("scale is {factors:?}; allowed: factors other than 0");
+            Err(D::Error::custom(reason))
+        } else {
+            Ok(Self(DVec3::from(factors)))
         }
     }
 }

@@ -46,9 +46,10 @@ impl Passage {
     pub fn chance_of_reflection(&self) -> f64 {
         let [reflected, passed] =
             [self.reflected, self.passed].map(|share| f64::from(share.element_sum()));
-        match reflected > 0.0 {
-            true => reflected / (reflected + passed),
-            false => 0.0,
+        if reflected > 0.0 {
+            reflected / (reflected + passed)
+        } else {
+            0.0
         }
     }
 }
@@ -63,9 +64,10 @@ fn split_by_pane(index: f64, cosine: f64, filter: Vec3) -> [Vec3; 2] {
     let split = |a: f32| {
         let a = f64::from(a);
         let round_trip = r * r * a * a;
-        let passed = match round_trip < 1.0 {
-            true => (1.0 - r).powi(2) * a / (1.0 - round_trip),
-            false => 0.0,
+        let passed = if round_trip < 1.0 {
+            (1.0 - r).powi(2) * a / (1.0 - round_trip)
+        } else {
+            0.0
         };
         [r + r * a * passed, passed].map(|share| share as f32)
     };

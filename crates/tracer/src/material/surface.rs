@@ -140,9 +140,10 @@ pub(crate) fn emission(scene: &Scene, object: usize, triangle: u32, weights: [f6
         material.emission_texture,
         texcoord,
     );
-    match is_translucent {
-        true => opacity * emission,
-        false => emission,
+    if is_translucent {
+        opacity * emission
+    } else {
+        emission
     }
 }
 

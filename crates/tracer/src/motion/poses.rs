@@ -86,9 +86,12 @@ impl<'a> Poses<'a> {
                 }
             })
             .collect();
-        let radius = |mesh: &Mesh| match mesh.deforms() {
-            true => f64::INFINITY,
-            false => mesh.at(from).radius(),
+        let radius = |mesh: &Mesh| {
+            if mesh.deforms() {
+                f64::INFINITY
+            } else {
+                mesh.at(from).radius()
+            }
         };
         let radii: Vec<f64> = scene.meshes.iter().map(radius).collect();
         let objects = scene.objects.iter();

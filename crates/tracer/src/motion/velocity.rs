@@ -121,9 +121,10 @@ impl TrackedPoint {
                 let point = mesh.at(shape_time).point(hit.triangle, hit.weights);
                 let is_unset = motion.objects_before == ObjectsBefore::Identity && time < now;
                 let to_world = || scene.object_to_world_within(hit.object, own_time, parents_time);
-                let point = match is_unset {
-                    true => point,
-                    false => to_world().transform_point3(point),
+                let point = if is_unset {
+                    point
+                } else {
+                    to_world().transform_point3(point)
                 };
                 (Target::Point(point), view.depth(point))
             }

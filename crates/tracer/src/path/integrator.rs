@@ -129,9 +129,10 @@ impl<'a> Integrator<'a> {
         let [sky_u, sky_v, lobe_choice, _] = sky_numbers;
         let mut light = [Vec3::ZERO; 2];
         if self.stage.scene.sun.is_some() || !self.emitters.triangles.is_empty() {
-            let points = match self.draws_points {
-                true => sampler.lights(depth),
-                false => [0.0; 4],
+            let points = if self.draws_points {
+                sampler.lights(depth)
+            } else {
+                [0.0; 4]
             };
             light[0] = self.direct_light(poses, start, brdf, choice, points);
         }

@@ -86,9 +86,10 @@ impl Material {
 
     /// Makes a surface that sends out its albedo and reflects nothing; one that emits keeps its radiance.
     pub(super) fn unlit(self) -> Self {
-        let (emission, emission_texture) = match self.emission == Vec3::ZERO {
-            true => (self.diffuse, self.diffuse_texture),
-            false => (self.emission, self.emission_texture),
+        let (emission, emission_texture) = if self.emission == Vec3::ZERO {
+            (self.diffuse, self.diffuse_texture)
+        } else {
+            (self.emission, self.emission_texture)
         };
         Self {
             finish: Finish::Diffuse,

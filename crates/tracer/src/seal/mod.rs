@@ -97,10 +97,7 @@ impl Seal {
         self.change_times(&mut scene);
         self.move_camera(&mut scene);
         self.change_colors(&mut scene);
-        match self.mirrored {
-            true => mirror(scene),
-            false => scene,
-        }
+        if self.mirrored { mirror(scene) } else { scene }
     }
 
     /// Turns the camera about itself, and changes its field of view.

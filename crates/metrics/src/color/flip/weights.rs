@@ -64,9 +64,10 @@ fn compute_feature_weights() -> [Vec<f32>; 3] {
         let mut weights: Vec<f32> = (-radius..=radius).map(|x| formula(x as f32)).collect();
         let (mut positive, mut negative) = (0.0, 0.0);
         for weight in &weights {
-            match *weight > 0.0 {
-                true => positive += weight,
-                false => negative -= weight,
+            if *weight > 0.0 {
+                positive += weight
+            } else {
+                negative -= weight
             }
         }
         // Positive and negative weights add up to 1 each.
