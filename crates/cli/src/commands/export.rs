@@ -35,11 +35,11 @@ pub fn execute(args: &ExportArgs) -> Result<(), Error> {
     if let Err(allowed) = check_subframe_count(subframes as usize) {
         refuse!("--subframes {subframes}: allowed: {allowed}; 32 are usual");
     }
-    let names = match args.unlit {
-        true => (args.scenes.iter())
-            .map(|name| unlit_name(name))
-            .collect::<Result<_, _>>()?,
-        false => args.scenes.clone(),
+    let names = if args.unlit {
+        let names = args.scenes.iter().map(|name| unlit_name(name));
+        names.collect::<Result<_, _>>()?
+    } else {
+        args.scenes.clone()
     };
     let choices = select_scenes(&args.root.scenes_dir, &names)?;
     let mut text = String::new();

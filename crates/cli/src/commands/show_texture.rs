@@ -100,9 +100,12 @@ fn display(texels: &Raster<[f32; 4]>, components: usize) -> Raster<[f32; 3]> {
         0.0
     };
     texels.map(|texel| {
-        let value = |index: usize| match index < shown {
-            true if texel[index].is_finite() => ((texel[index] - least) * scale).clamp(0.0, 1.0),
-            _ => 0.0,
+        let value = |index: usize| {
+            if index < shown && texel[index].is_finite() {
+                ((texel[index] - least) * scale).clamp(0.0, 1.0)
+            } else {
+                0.0
+            }
         };
         match shown {
             1 => [value(0); 3],

@@ -150,16 +150,18 @@ fn load_with(scene: &Path, obj: &Path, keys: &str) -> Result<(Scene, Vec<PathBuf
         line: None,
         reason: error.to_string(),
     })?;
-    let (scene, mut files) =
-        load_scene_and_files(scene, None).map_err(|error| match error.path == document {
+    let (scene, mut files) = load_scene_and_files(scene, None).map_err(|error| {
+        if error.path == document {
             // The scene names the model and nothing else that could be wrong.
-            true => SceneError {
+            SceneError {
                 path: obj.to_owned(),
                 line: None,
                 ..error
-            },
-            false => error,
-        })?;
+            }
+        } else {
+            error
+        }
+    })?;
     files.retain(|file| *file != document);
     Ok((scene, files))
 }

@@ -71,10 +71,11 @@ fn list_reads(
         // The span of a call is its function's name.
         let name = function.expressions.get_span(handle).to_range()?;
         let arguments = find_brackets(text, name.end)?;
-        let (at, new) = match gathers {
+        let (at, new) = if gathers {
             // A gather from floats says of which component.
-            true => (arguments.start + 1, "0, "),
-            false => (arguments.end, ".x"),
+            (arguments.start + 1, "0, ")
+        } else {
+            (arguments.end, ".x")
         };
         edits.push((at..at, new));
     }

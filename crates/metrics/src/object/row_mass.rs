@@ -54,10 +54,11 @@ impl InstantRows {
             .collect();
         let gained = heavy.iter().sum::<f64>() / heavy.len() as f64;
         let least = HALF_GRANTED * self.heaviest;
-        match gained > 0.0 {
+        if gained > 0.0 {
             // Smooth where it begins, so that intervals of scores are valid.
-            true => gained.powi(3) / (gained.powi(2) + least.powi(2)),
-            false => 0.0,
+            gained.powi(3) / (gained.powi(2) + least.powi(2))
+        } else {
+            0.0
         }
     }
 }

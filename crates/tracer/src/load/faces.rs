@@ -101,12 +101,13 @@ fn too_many(path: &Path, object: &str, [a, b, c]: [Vec3; 3]) -> SceneError {
 
 /// Key of a corner's place: its position, or its vertex if the mesh deforms.
 fn place_key(mesh: &Mesh, vertex: u32) -> [u32; 3] {
-    match mesh.deforms() {
-        true => [vertex; 3],
+    if mesh.deforms() {
+        [vertex; 3]
+    } else {
         // Adding 0 turns -0 into 0.
-        false => (mesh.positions[vertex as usize] + Vec3::ZERO)
+        (mesh.positions[vertex as usize] + Vec3::ZERO)
             .to_array()
-            .map(f32::to_bits),
+            .map(f32::to_bits)
     }
 }
 
