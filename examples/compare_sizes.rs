@@ -1,5 +1,6 @@
-//! Prints, as Markdown, how the ranking of filters changes with the picture size: `cargo run -p cli --example compare_sizes --
-//! out/160x90/run.json out/320x180/run.json results/1280x720_llvmpipe.json`.
+//! Prints, as Markdown, how the ranking of filters changes with the picture size: `cargo run -p cli
+//! --example compare_sizes -- out/160x90/run.json out/320x180/run.json
+//! results/1280x720_llvmpipe.json`.
 
 use std::path::Path;
 use std::process::ExitCode;

@@ -1,5 +1,6 @@
-//! Counts how many intervals contain the score that infinitely many samples would give, over many seeds, and prints the table of
-//! `results/studies/intervals.md`. `cargo run -p cli --example intervals -- 48 64 4096 railing,flag,fan,two_spheres`
+//! Counts how many intervals contain the score that infinitely many samples would give, over many
+//! seeds, and prints the table of `results/studies/intervals.md`. `cargo run -p cli --example
+//! intervals -- 48 64 4096 railing,flag,fan,two_spheres`
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -158,7 +159,8 @@ fn count_coverage(study: &Study, subject: &Subject) -> Vec<Coverage> {
         .collect()
 }
 
-/// Returns the factor on all half widths with which 95 % of the intervals would just contain the converged score.
+/// Returns the factor on all half widths with which 95 % of the intervals would just contain the
+/// converged score.
 fn needed_width(converged: f64, seeds: &[(f64, Interval)]) -> f64 {
     let factor = |own: &Interval| {
         let middle = 0.5 * (own.low + own.high);
@@ -216,7 +218,8 @@ fn list(words: &[String]) -> String {
     }
 }
 
-/// Prints how limits near the converged FLIP are judged: the first should break, the second be kept, and none break at its own value.
+/// Prints how limits near the converged FLIP are judged: the first should break, the second be
+/// kept, and none break at its own value.
 fn print_limits(subjects: &[Subject]) {
     let metric: Metric = "flip_moving".parse().expect("it is a metric");
     let all: Vec<(f64, Interval)> = (subjects.iter())

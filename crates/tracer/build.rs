@@ -1,4 +1,5 @@
-//! Hashes the tracer's sources into the program, so that one tracer's renders are never mistaken for another's.
+//! Hashes the tracer's sources into the program, so that one tracer's renders are never mistaken
+//! for another's.
 
 use std::path::{Path, PathBuf};
 

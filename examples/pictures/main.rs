@@ -1,5 +1,6 @@
-//! Makes the pictures of the pages, as pictures.toml says: `make pictures`. `--check` compares them with those of the pages instead
-//! of replacing these. `report,fan` makes those of two runs; without a name, all run.
+//! Makes the pictures of the pages, as pictures.toml says: `make pictures`. `--check` compares them
+//! with those of the pages instead of replacing these. `report,fan` makes those of two runs;
+//! without a name, all run.
 
 #[path = "../../tests/report_page/browser.rs"]
 #[expect(dead_code, reason = "the tests of pages need more of it")]
@@ -41,7 +42,8 @@ fn main() -> ExitCode {
     }
 }
 
-/// Makes the pictures of the named runs. Returns how many differ from the pages', which are replaced unless a name is `--check`.
+/// Makes the pictures of the named runs. Returns how many differ from the pages', which are
+/// replaced unless a name is `--check`.
 fn make(names: &[String]) -> Result<usize, Error> {
     let (options, names): (Vec<_>, Vec<_>) = names.iter().partition(|name| *name == "--check");
     let recipe = Recipe::read();

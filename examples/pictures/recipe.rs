@@ -48,7 +48,8 @@ pub struct Picture {
     pub screen: Option<Screen>,
     /// Folder of pictures that the commands made.
     pub folder: Option<String>,
-    /// Folders of cases that a screen shows, or the folder of a run, if the pictures of `folder` are named after its cases.
+    /// Folders of cases that a screen shows, or the folder of a run, if the pictures of `folder`
+    /// are named after its cases.
     #[serde(default)]
     pub cases: Vec<String>,
 }

@@ -1,4 +1,5 @@
-//! The smallest change that mends an engine's blur, and what it gains by the search in results/changes.
+//! The smallest change that mends an engine's blur, and what it gains by the search in
+//! results/changes.
 
 use std::fs;
 use std::path::Path;

@@ -43,7 +43,8 @@ pub struct Engine {
     pub change: Option<Change>,
     /// Page below results/findings with its code.
     pub finding: Option<String>,
-    /// True if the preset is compared with a transcription only, since its shader runs nowhere here.
+    /// True if the preset is compared with a transcription only, since its shader runs nowhere
+    /// here.
     #[serde(default)]
     pub transcription_alone: bool,
 }

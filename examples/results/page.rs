@@ -1,4 +1,5 @@
-//! The page of kept results, in Markdown: engines' shipped presets, and the ranking of all presets. On the site each engine has a page.
+//! The page of kept results, in Markdown: engines' shipped presets, and the ranking of all presets.
+//! On the site each engine has a page.
 
 use cli::{markdown_table, range_text};
 use frame::Alignment;
@@ -23,12 +24,14 @@ pub fn main_results(all: &[Results]) -> Option<&Results> {
     catalogues.max_by_key(|own| own.scenes().len())
 }
 
-/// Makes the page from files of results: engines' shipped presets, and each shutter's presets next to their ranks in the sealed variants.
+/// Makes the page from files of results: engines' shipped presets, and each shutter's presets next
+/// to their ranks in the sealed variants.
 pub fn results_page(all: &[Results], cards: &[Bench]) -> Result<String, Error> {
     Kept::new(all, cards, false)?.page()
 }
 
-/// Makes the pages of the site by path below results: the one above with longer tables, and one per engine.
+/// Makes the pages of the site by path below results: the one above with longer tables, and one per
+/// engine.
 pub fn site_pages(all: &[Results], cards: &[Bench]) -> Result<Vec<(String, String)>, Error> {
     let kept = Kept::new(all, cards, true)?;
     let mut pages = vec![("README.md".to_owned(), kept.page()?)];
@@ -260,7 +263,8 @@ impl<'a> Kept<'a> {
         markdown_table(&self.ranking_titles(has_effects), group.iter().map(row))
     }
 
-    /// Finds the scene where a preset gains the least of what one frame allows, and its FLIP there; else where its FLIP is worst.
+    /// Finds the scene where a preset gains the least of what one frame allows, and its FLIP there;
+    /// else where its FLIP is worst.
     fn worst<'r>(&'r self, ranked: &'r RankedFilter) -> (&'r SceneId, f64) {
         let gained = (self.results.worst_of(&ranked.name))
             .filter(|own| own.score(Metric::SKILL).is_some())
@@ -293,7 +297,8 @@ impl<'a> Kept<'a> {
     }
 }
 
-/// Returns whether results have changes where nothing moves, and grain; those of older runs have none.
+/// Returns whether results have changes where nothing moves, and grain; those of older runs have
+/// none.
 fn has_effects(group: &[RankedFilter]) -> bool {
     let mut own = group.iter();
     own.any(|own| own.side_effects != SideEffects::default())

@@ -1,4 +1,5 @@
-//! The source of the site, a book: every page and file that links lead to from the README, a page per engine, and live cases.
+//! The source of the site, a book: every page and file that links lead to from the README, a page
+//! per engine, and live cases.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -138,7 +139,8 @@ impl Site {
         text + "\n# More\n\n" + &list(below(""))
     }
 
-    /// Makes the line of a page: its heading, with those of engines, findings and changes below results.
+    /// Makes the line of a page: its heading, with those of engines, findings and changes below
+    /// results.
     fn entry(&self, path: &str) -> String {
         let parts = ["results/engines/", "results/findings/", "results/changes/"];
         let is_part = parts.iter().any(|start| path.starts_with(start));

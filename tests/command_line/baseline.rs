@@ -6,7 +6,8 @@ use tests::text::assert_contains;
 
 use crate::sandbox::*;
 
-/// Makes a sandbox with the plate's scene and four in which the plate passes elsewhere, a gather, and its accepted scores.
+/// Makes a sandbox with the plate's scene and four in which the plate passes elsewhere, a gather,
+/// and its accepted scores.
 fn set_up() -> Sandbox {
     Sandbox::once(|sandbox| {
         for (name, [x, y]) in [

@@ -1,4 +1,5 @@
-//! Blender, a real renderer: its vectors against the tracer's, and its blur in a ranking. `make prove` installs Debian's.
+//! Blender, a real renderer: its vectors against the tracer's, and its blur in a ranking. `make
+//! prove` installs Debian's.
 
 use std::process::Command;
 

@@ -30,7 +30,8 @@ const SIX: &str = "--scenes fan,railing,roll,two_spheres,flag,pan_sky";
 #[test]
 fn the_search_finds_a_known_mistake_and_nothing_where_nothing_gains() {
     let sandbox = Sandbox::new();
-    // As it ships, three.js reads motion upside down and twice as long, and brightens by a sixteenth.
+    // As it ships, three.js reads motion upside down and twice as long, and brightens by a
+    // sixteenth.
     let output = search(
         &sandbox,
         "three",

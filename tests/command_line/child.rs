@@ -33,14 +33,15 @@ pub fn wait_until(child: &mut Child, mut is_so: impl FnMut() -> bool) {
     }
 }
 
-/// Waits until a process has computed for a number of hundredths of a second, summed over its threads, or for two seconds if the
-/// system does not report that.
+/// Waits until a process has computed for a number of hundredths of a second, summed over its
+/// threads, or for two seconds if the system does not report that.
 pub fn wait_until_busy(child: &mut Child, hundredths: u64) {
     let stat = Path::new("/proc").join(child.id().to_string()).join("stat");
     for _ in 0..if cfg!(target_os = "linux") { 6000 } else { 200 } {
         assert!(child.try_wait().unwrap().is_none(), "it ended by itself");
         let stat = fs::read_to_string(&stat).unwrap_or_default();
-        // After the name in brackets: the state, ten numbers, and the times of the process and of the system for it.
+        // After the name in brackets: the state, ten numbers, and the times of the process and of
+        // the system for it.
         let numbers = stat.rsplit(')').next().unwrap().split_whitespace();
         let times = numbers.skip(11).take(2).map(|time| time.parse::<u64>());
         if times.map(Result::unwrap).sum::<u64>() >= hundredths {

@@ -82,7 +82,8 @@ fn compare_names_a_changed_parameter_and_gives_intervals() {
     assert_eq!([&flip["kind"], &flip["basis"]], ["worse", "replicates"]);
     let [low, high] = [0, 1].map(|end| flip["interval"][end].as_f64().unwrap());
     assert!(0.0 < low && low < worse && worse < high, "{flip}");
-    // Noise that both scores share cancels: each score's floor is wider than the interval of the difference.
+    // Noise that both scores share cancels: each score's floor is wider than the interval of the
+    // difference.
     let metrics::Measured::Score(score) = first else {
         panic!("the metric applies");
     };

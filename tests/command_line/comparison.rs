@@ -1,4 +1,5 @@
-//! Measurements in addition to the filters' own scores: references, a common shutter, noise, coarser frames.
+//! Measurements in addition to the filters' own scores: references, a common shutter, noise,
+//! coarser frames.
 
 use frame::{Alignment, Frame, Ladder, Truth};
 use metrics::Metric;
@@ -99,8 +100,8 @@ fn references_beat_filters_and_have_no_bounds() {
     let cases = sandbox.read_run().cases;
     let [many, oracle, gather] = ["accumulate:64", "scatter_oracle", "velocity_gather:fine"]
         .map(|name| flip(find_case(&cases, name)));
-    // The plate moves evenly in front of one colour, so it hides nothing that matters. The oracle's only error is the frame's
-    // antialiasing of a plate five pixels wide.
+    // The plate moves evenly in front of one colour, so it hides nothing that matters. The oracle's
+    // only error is the frame's antialiasing of a plate five pixels wide.
     assert!(many < oracle && oracle < 0.75 * gather);
     let findings = sandbox.read_findings();
     for case in &cases {
@@ -161,7 +162,8 @@ fn forms_of_the_input_cost_what_they_take_away() {
     assert_eq!(differs("depth=float16"), 0.0);
     // A gather of 20 fetches; a 16-bit float is accurate to 1 part in 2048.
     assert!(differs("velocity=float16") < 0.002);
-    // Kino's half smear ends at 5 % of 32 rows: 1.6 of the plate's 2.8 pixels. Half a tile is longer than all of it.
+    // Kino's half smear ends at 5 % of 32 rows: 1.6 of the plate's 2.8 pixels. Half a tile is
+    // longer than all of it.
     assert!(differs("velocity=kino10") > 0.01);
     assert!(differs("velocity=tile_clamped") < 0.002);
     // The plate stays clear of the border, so nothing there can change its score.
@@ -194,7 +196,8 @@ fn assert_mean(run: &Run) -> [f64; 2] {
     let mean = means.find(|mean| mean.name == name && mean.metric == Metric::FLIP);
     let mean = mean.unwrap();
     assert_eq!(mean.scenes, 2);
-    // The standard error of two scores is half of their difference, and t for one degree of freedom is 12.706.
+    // The standard error of two scores is half of their difference, and t for one degree of freedom
+    // is 12.706.
     let half = 12.706 * 0.5 * (second - first).abs();
     let [low, high] = mean.interval;
     assert!((0.5 * (high - low) / half - 1.0).abs() < 1e-4, "{mean:?}");
@@ -227,7 +230,8 @@ fn means_over_scenes_have_a_student_interval() {
     let mut lines = text.lines();
     assert!(lines.all(|line| line.chars().count() <= 80 || line.contains(": out")));
 
-    // The scores contain each truth's noise already: a check, which knows the noise, gives the same mean.
+    // The scores contain each truth's noise already: a check, which knows the noise, gives the same
+    // mean.
     assert_done(&sandbox.check(&split(filters)));
     assert_mean(&sandbox.read_run());
 }

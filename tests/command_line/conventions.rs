@@ -1,4 +1,5 @@
-//! `--convention`: frames and pictures in an engine's form, and the record of what a filter's shaders got.
+//! `--convention`: frames and pictures in an engine's form, and the record of what a filter's
+//! shaders got.
 
 use std::path::Path;
 

@@ -1,4 +1,5 @@
-//! Earlier runs in the same folder, kept by a narrower run and never lost silently; and baselines of accepted scores.
+//! Earlier runs in the same folder, kept by a narrower run and never lost silently; and baselines
+//! of accepted scores.
 
 use std::fs;
 use std::process::Output;
@@ -105,7 +106,8 @@ fn cases_of_a_scene_that_has_changed_are_dropped() {
 const FINE: &str = "--filters velocity_gather:fine";
 const COARSER: &str = "--filters velocity_gather:fine --set velocity_gather.samples=2";
 
-/// Makes a sandbox with a margin, a measured gather with the samples of a check, and its accepted scores.
+/// Makes a sandbox with a margin, a measured gather with the samples of a check, and its accepted
+/// scores.
 fn set_up() -> Sandbox {
     Sandbox::once(|sandbox| {
         write_margin(sandbox, "0.005");

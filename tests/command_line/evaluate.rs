@@ -40,7 +40,8 @@ fn parameters_of_a_file_are_checked() {
     assert!(!sandbox.path("out").exists());
 }
 
-/// Makes the example's command, which finds the program on its PATH; `more` are options of the example.
+/// Makes the example's command, which finds the program on its PATH; `more` are options of the
+/// example.
 fn optuna(sandbox: &Sandbox, more: &[&str]) -> Command {
     let example = tests::root().join("examples/optuna_tune.py");
     let program = Path::new(env!("CARGO_BIN_EXE_shuttertruth"));

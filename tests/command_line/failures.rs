@@ -67,7 +67,8 @@ fn a_check_with_a_failed_case_is_broken() {
     assert_done(&check("--scenes plate"));
 }
 
-/// A `switch` that the driver makes an endless loop of, and the device is lost: naga writes a wrong jump.
+/// A `switch` that the driver makes an endless loop of, and the device is lost: naga writes a wrong
+/// jump.
 const FALLING: &str = "#version 450
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0) uniform sampler2D color;

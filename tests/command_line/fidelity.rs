@@ -26,7 +26,8 @@ fn rows(page: &str) -> impl Iterator<Item = Vec<&str>> {
     rows.map(|row| row.trim_matches('|').split('|').map(str::trim).collect())
 }
 
-/// Lists presets, each with its original or the reason for having none. A row of the page may have several presets.
+/// Lists presets, each with its original or the reason for having none. A row of the page may have
+/// several presets.
 fn originals(page: &str) -> BTreeMap<&str, &str> {
     let pairs = rows(page).flat_map(|cells| {
         let presets = cells[0].split(", ");

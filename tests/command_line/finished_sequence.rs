@@ -13,7 +13,8 @@ const TRUTH: [&str; 2] = ["--truth", "out/plate/truth_trailing.exr"];
 const FRAME: [&str; 2] = ["--frame", "out/plate/frame.exr"];
 const THREE: [&str; 2] = ["--frames", "3"];
 
-/// Makes a sandbox with a filter that depends on the previous frame and on the frame's number, and runs it on three frames.
+/// Makes a sandbox with a filter that depends on the previous frame and on the frame's number, and
+/// runs it on three frames.
 fn run_filter() -> Sandbox {
     let sandbox = Sandbox::new();
     let body = "let before = textureLoad(color_before, pixel, 0).rgb;

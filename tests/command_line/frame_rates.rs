@@ -60,7 +60,8 @@ fn a_run_takes_every_scene_at_every_rate_and_keeps_it() {
     assert_kept(&sandbox, &run);
 }
 
-/// Compares a run with one without rates: at the file's rate, and with an equally long shutter, the numbers are the same.
+/// Compares a run with one without rates: at the file's rate, and with an equally long shutter, the
+/// numbers are the same.
 fn assert_holds(run: &Run, whole: &Run) {
     for case in &whole.cases {
         for rate in [None, FrameRate::in_word("60fps_1-120s")] {
@@ -76,7 +77,8 @@ fn assert_holds(run: &Run, whole: &Run) {
     }
     let written = run.overall.iter().filter(|mean| mean.rate.is_none());
     assert_eq!(written.cloned().collect::<Vec<_>>(), whole.overall);
-    // Skill applies at some rates only: the shutter must be open long enough that the oracle gains more than noise.
+    // Skill applies at some rates only: the shutter must be open long enough that the oracle gains
+    // more than noise.
     let [all, one] = [run, whole].map(|run| {
         let metrics = run.overall.iter().map(|mean| mean.metric);
         let skills = metrics.filter(|metric| matches!(metric, Metric::Skill(_)));
@@ -144,13 +146,15 @@ fn a_rule_of_the_shutter_is_the_blur_of_another_exposure() {
         };
         read_output(&sandbox, find(&cases, scene, &name))
     };
-    // Frames of 24 and 144 per second show the plate at the same place: only the length of the blur differs.
+    // Frames of 24 and 144 per second show the plate at the same place: only the length of the blur
+    // differs.
     let [right, wrong] = ["right", "in_frames"].map(|it| output("plate@144fps_1-120s", it));
     let wrong = mean_difference(&right, &wrong);
     for (own, same) in read_table("rules of the shutter") {
         let ((scene, rule), same) = (own.split_once(' ').unwrap(), same[0]);
         let [own, other] = [output(scene, rule), output(same, "right")];
-        // Samples are chosen for the time that the shutter is open, so that the frames' noise differs.
+        // Samples are chosen for the time that the shutter is open, so that the frames' noise
+        // differs.
         let found = mean_difference(&own, &other);
         assert!(
             found < 0.1 * wrong,

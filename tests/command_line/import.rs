@@ -12,8 +12,8 @@ use tracer::{load_scene, trace_frame};
 
 use crate::sandbox::{Sandbox, assert_done, assert_refused, read_table, split, stdout};
 
-/// House far from the origin, as exporters write one: Windows line ends, quads, a pentagon, indices counted from the
-/// end, no normals, names with spaces.
+/// House far from the origin, as exporters write one: Windows line ends, quads, a pentagon, indices
+/// counted from the end, no normals, names with spaces.
 const HOUSE: &str = include_str!("../fixtures/models/the_house.obj");
 const MATERIALS: &str = include_str!("../fixtures/models/the_house.mtl");
 
@@ -41,7 +41,8 @@ fn import(sandbox: &Sandbox, more: &str) -> Output {
     import_to(sandbox, "scenes/house", more)
 }
 
-/// Imports the house; returns the output, and the scene's frame at a quarter of the size that its speeds are for.
+/// Imports the house; returns the output, and the scene's frame at a quarter of the size that its
+/// speeds are for.
 fn import_and_render(sandbox: &Sandbox, more: &str) -> (String, Frame) {
     let output = import(sandbox, more);
     assert_done(&output);
@@ -51,7 +52,8 @@ fn import_and_render(sandbox: &Sandbox, more: &str) -> (String, Frame) {
     (stdout(&output), frame)
 }
 
-/// Returns the positions of the pixels that show an object, and their velocities, in pixels of 320x180.
+/// Returns the positions of the pixels that show an object, and their velocities, in pixels of
+/// 320x180.
 fn shown_pixels(frame: &Frame, object: &str) -> Vec<([f64; 2], [f64; 2])> {
     let mut names = frame.objects.iter();
     let id = names.position(|name| name == object).unwrap() as u32;
@@ -80,17 +82,20 @@ fn an_imported_model_is_centred_and_slides_at_the_requested_speed() {
     let house = shown_pixels(&frame, "model");
     let count = house.len() as f64;
     let middle = [0, 1].map(|axis| house.iter().map(|(at, _)| at[axis]).sum::<f64>() / count);
-    // The camera looks from the side and from above, so the visible part is not symmetric about the middle.
+    // The camera looks from the side and from above, so the visible part is not symmetric about the
+    // middle.
     assert_near(middle[0], 160.0, 10.0);
     assert_near(middle[1], 90.0, 10.0);
     let inside =
         |(at, _): &([f64; 2], _)| (5.0..315.0).contains(&at[0]) && (5.0..175.0).contains(&at[1]);
     assert!(house.iter().all(inside), "the house is cut off");
-    // The model's bounding sphere fills three quarters of the height, and the house fills most of that sphere.
+    // The model's bounding sphere fills three quarters of the height, and the house fills most of
+    // that sphere.
     let rows = house.iter().map(|(at, _)| at[1]);
     let height = rows.clone().fold(0.0, f64::max) - rows.fold(180.0, f64::min);
     assert!((70.0..135.0).contains(&height), "{height}");
-    // 20 px at the middle. The front is nearer by a tenth or two, and the motion follows the picture's rows.
+    // 20 px at the middle. The front is nearer by a tenth or two, and the motion follows the
+    // picture's rows.
     for (at, velocity) in &house {
         assert!(
             (17.0..26.0).contains(&velocity[0]) && velocity[1].abs() < 0.01,
@@ -107,8 +112,9 @@ fn an_imported_model_spins_about_its_own_middle() {
     let sandbox = set_up();
     let (_, frame) = import_and_render(&sandbox, "--spin 20deg/frame");
     let house = shown_pixels(&frame, "model");
-    // Counter-clockwise from above: near points move right. The farthest corner is 14.1 m from the axis. At 57.7 m of
-    // distance and 247.3 px of focal length, no point moves faster than 14.1 x 0.35 x 247.3 / 43 px.
+    // Counter-clockwise from above: near points move right. The farthest corner is 14.1 m from the
+    // axis. At 57.7 m of distance and 247.3 px of focal length, no point moves faster than 14.1 x
+    // 0.35 x 247.3 / 43 px.
     let fastest = speeds(&frame, "model").into_iter().fold(0.0, f64::max);
     assert!((12.0..29.0).contains(&fastest), "{fastest}");
     let moving_right = house.iter().filter(|(_, velocity)| velocity[0] > 0.0);

@@ -6,7 +6,8 @@ use suite::{BufferSize, CameraJitter, Case, DepthOfField, Multisampling, RenderS
 use crate::comparison::find_case;
 use crate::sandbox::{SCENE, Sandbox};
 
-/// Measures how far right the middle of the plate is in the output of one frame of a sequence, in pixels.
+/// Measures how far right the middle of the plate is in the output of one frame of a sequence, in
+/// pixels.
 fn plate_middle(sandbox: &Sandbox, sequence: &Sequence, frame: usize) -> f64 {
     let folder = sandbox.path("out").join(&sequence.frames[frame].folder);
     let output = read_exr(&folder.join("output.exr")).unwrap();
@@ -59,7 +60,8 @@ fn buffers_samples_jitter_and_scale_change_what_filters_get() {
     let gathered = |change: &str| flip(&cases, &format!("velocity_gather:fine {change}"));
     let [identity, whole] = ["identity:default", "velocity_gather:fine"].map(|it| flip(&cases, it));
 
-    // Colour is the same whichever sample velocity comes from; four samples are coarser than the whole pixel.
+    // Colour is the same whichever sample velocity comes from; four samples are coarser than the
+    // whole pixel.
     assert_eq!(own("msaa=first"), own("msaa=nearest"));
     assert_eq!(own("msaa=first"), own("msaa=farthest"));
     assert!((own("msaa=first") - identity).abs() < 0.02);
@@ -79,7 +81,8 @@ fn buffers_samples_jitter_and_scale_change_what_filters_get() {
         assert!((own(&before) - own(&after)).abs() < 1e-6);
         assert_ne!(gathered(&before), gathered(&after));
         assert!((own(&before) - identity).abs() > 1e-3);
-        // The gather blurs as far in the small picture as in the whole one: it stays far from the identity.
+        // The gather blurs as far in the small picture as in the whole one: it stays far from the
+        // identity.
         assert!(gathered(&before) < 0.8 * own(&before));
         assert!(gathered(&after) < 0.8 * own(&after));
     }
@@ -101,13 +104,15 @@ fn assert_buffers_count(cases: &[Case], printed: &str) {
     }
     let case = find_case(cases, "velocity_gather:fine buffers=quarter");
     assert_eq!(case.input.buffers, BufferSize::Quarter);
-    // The plate's background is still: blocks without the plate's own motion blur less than those that spread it.
+    // The plate's background is still: blocks without the plate's own motion blur less than those
+    // that spread it.
     let [quarter, dilated] = ["quarter", "quarter_dilated"]
         .map(|size| flip(cases, &format!("velocity_gather:fine buffers={size}")));
     assert_ne!(quarter, dilated);
 }
 
-/// The output of a small picture has the whole picture's size, and its positions are in the whole picture's pixels.
+/// The output of a small picture has the whole picture's size, and its positions are in the whole
+/// picture's pixels.
 fn assert_sizes_fit(sandbox: &Sandbox, cases: &[Case]) {
     let case = find_case(cases, "velocity_gather:fine scale=50_blur_first");
     assert_eq!(case.input.scale, RenderScale::HalfBlurFirst);
@@ -140,7 +145,8 @@ fn depth_of_field_runs_before_a_filter_or_after_it() {
         let folder = sandbox.path("out").join(&case(name).folder);
         read_exr(&folder.join("output.exr")).unwrap()
     };
-    // Without a blur the pass leaves the plate about as the lens shows it: the plate hides nothing of a flat background.
+    // Without a blur the pass leaves the plate about as the lens shows it: the plate hides nothing
+    // of a flat background.
     let [before, after] = ["", " depth_of_field=after"]
         .map(|form| output(&format!("identity:default{form}")))
         .map(|output| output.plane("coverage.plate").unwrap().pixels.clone());

@@ -173,7 +173,8 @@ fn a_noise_target_adds_replicates_until_it_is_reached_or_reports_a_failure() {
     let target = number(&first, "moving ") / 2.0;
     let until = format!("--alignments trailing,centred --replicates 2 --noise {target}");
     let text = sandbox.execute(&render("both", &split(&until)));
-    // Each truth has the same bytes as a render of its number of replicates. The same command again prints the same.
+    // Each truth has the same bytes as a render of its number of replicates. The same command again
+    // prints the same.
     for alignment in ["trailing", "centred"] {
         let own = format!("{alignment}: ");
         let line = text.lines().find(|line| line.contains(&own)).expect(&text);

@@ -114,7 +114,8 @@ fn the_number_of_threads_changes_no_byte() {
         let more = ["--threads", threads, "--out", out];
         sandbox.execute(&[&split(words)[..], &more].concat());
         let mut files = read_below(&sandbox.path(out));
-        // run.json records the command, judgement.json names its run.json, and the report shows both.
+        // run.json records the command, judgement.json names its run.json, and the report shows
+        // both.
         let differing = ["run.json", "judgement.json", "report.html"];
         files.retain(|(name, _)| !differing.iter().any(|file| name.ends_with(file)));
         files

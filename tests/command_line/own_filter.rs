@@ -70,7 +70,8 @@ fn the_guide_s_filter_runs_and_beats_the_identity() {
     let cases = sandbox.read_filter_cases();
     let flip = |case: usize| cases[case].scores.moving.flip.value().unwrap();
     assert_eq!(cases[1].filter, "my_blur");
-    // A gather along the pixel's own velocity blurs the inside of the plate correctly, but not the smear outside it: about half.
+    // A gather along the pixel's own velocity blurs the inside of the plate correctly, but not the
+    // smear outside it: about half.
     assert!(flip(1) < 0.8 * flip(0), "{} of {}", flip(1), flip(0));
 }
 

@@ -1,4 +1,5 @@
-//! Pictures of the pages: each is in the recipe of `make pictures`, and shows what the pages and the results say.
+//! Pictures of the pages: each is in the recipe of `make pictures`, and shows what the pages and
+//! the results say.
 
 #[expect(dead_code, reason = "`make pictures` needs more of it")]
 #[path = "../../examples/pictures/recipe.rs"]

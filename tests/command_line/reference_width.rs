@@ -10,7 +10,8 @@ use tests::text::assert_contains;
 
 use crate::sandbox::{Sandbox, assert_done, split, stdout};
 
-/// Manifest of a box blur. Its parameter is a radius in pixels, for pictures four times as wide as the sandbox's.
+/// Manifest of a box blur. Its parameter is a radius in pixels, for pictures four times as wide as
+/// the sandbox's.
 const MANIFEST: &str = include_str!("../fixtures/filters/box_blur.toml");
 const BODY: &str = include_str!("../fixtures/filters/box_blur.wgsl");
 
@@ -95,7 +96,8 @@ fn bench_and_tuning_scale_presets_unless_told_not_to() {
 #[test]
 fn a_tuned_preset_records_the_width_of_its_tuning() {
     let sandbox = set_up();
-    // Five scenes that are much alike distinguish a choice from the start, which blurs too little at their speeds.
+    // Five scenes that are much alike distinguish a choice from the start, which blurs too little
+    // at their speeds.
     for (name, way) in ["a", "b", "c", "d", "e"].iter().zip(358..) {
         let way = format!("-{:.2}", f64::from(way) / 100.0);
         sandbox.copy_scene(name, |text| text.replace("-1.6", &way));

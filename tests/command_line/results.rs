@@ -348,7 +348,8 @@ fn results_of_two_runs_are_those_of_one() {
     assert_contains(&refused, &["kept.json: has format 9; allowed: 3"]);
 }
 
-/// Writes the filter `learnt`: a gather along the plate's true velocity, ignoring the velocity buffer.
+/// Writes the filter `learnt`: a gather along the plate's true velocity, ignoring the velocity
+/// buffer.
 fn write_learnt_filter(sandbox: &Sandbox) {
     let folder = sandbox.path("learnt");
     copy_changed_filter("velocity_gather", &folder, |kernels| {

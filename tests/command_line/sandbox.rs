@@ -14,7 +14,8 @@ pub use tests::plate::{MTL, OBJ};
 use tests::text::{Parts, assert_contains, read_rows};
 use walkdir::WalkDir;
 
-/// Scene of a plate. The vertical field of view is 60 degrees from 4 m away, so 0.4 m is about 2.7 px of 32 px rows.
+/// Scene of a plate. The vertical field of view is 60 degrees from 4 m away, so 0.4 m is about 2.7
+/// px of 32 px rows.
 pub const SCENE: &str = include_str!("plate.toml");
 
 /// Words that choose only the identity.
@@ -96,7 +97,8 @@ impl Sandbox {
         read_below(self.folder.path())
     }
 
-    /// Makes a sandbox from the files that `prepare` leaves in a new one; each place that calls this does so once for all tests.
+    /// Makes a sandbox from the files that `prepare` leaves in a new one; each place that calls
+    /// this does so once for all tests.
     #[track_caller]
     pub fn once(prepare: impl FnOnce(&Self)) -> Self {
         static PLACES: Mutex<BTreeMap<&Location, Arc<OnceLock<Files>>>> =
@@ -190,7 +192,8 @@ impl Sandbox {
         assert!(status.unwrap().success(), "git {line}");
     }
 
-    /// Does the same for a table in tables.txt: more words of the command, and the parts of the message.
+    /// Does the same for a table in tables.txt: more words of the command, and the parts of the
+    /// message.
     #[track_caller]
     pub fn refuse_table(&self, command: &str, name: &str) {
         for (words, parts) in read_table(name) {
@@ -267,7 +270,8 @@ impl Sandbox {
         file.color("").unwrap()
     }
 
-    /// Returns whether the process named in a file has ended. A zombie has: nobody has collected it yet.
+    /// Returns whether the process named in a file has ended. A zombie has: nobody has collected it
+    /// yet.
     pub fn has_ended(&self, file: &str) -> bool {
         let pid = fs::read_to_string(self.path(file)).unwrap();
         let mut ps = Command::new("ps");

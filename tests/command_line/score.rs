@@ -133,7 +133,8 @@ fn colours_without_mattes_get_only_the_scores_of_colour() {
 
 #[test]
 fn a_png_is_converted_back_to_radiance() {
-    // The plate's radiance is up to 0.7. One exposure shows half of it, the other twice, which exceeds display white.
+    // The plate's radiance is up to 0.7. One exposure shows half of it, the other twice, which
+    // exceeds display white.
     for (stops, bright) in [("-1", false), ("1", true)] {
         let sandbox = Sandbox::new();
         let display = format!("[display]\nstops = {stops}.0\n[background]");
@@ -143,7 +144,8 @@ fn a_png_is_converted_back_to_radiance() {
         let png = OUTPUT.replace(".exr", ".png");
         let found = scores(&sandbox, &format!("{png} {LADDER}"));
         let [flip, due] = [&found, &expected].map(|own| own.moving.flip.value().unwrap());
-        // Steps of 1/255 in sRGB are small beside the blur's error. A forgotten stop is not: the picture becomes half or twice as bright.
+        // Steps of 1/255 in sRGB are small beside the blur's error. A forgotten stop is not: the
+        // picture becomes half or twice as bright.
         assert!((flip - due).abs() < 0.004, "{flip} {due}");
         assert_eq!(found.full.flip_hdr.value(), None);
         let text = score(&sandbox, &png);
@@ -222,7 +224,8 @@ fn the_truth_has_no_error_as_exr_and_rounding_errors_as_png() {
     assert_eq!(scores(&sandbox, TRUTH).full.flip.value(), Some(0.0));
     let rounded = scores(&sandbox, "truth.png");
     let flip = rounded.moving.flip.value().unwrap();
-    // FLIP amplifies small differences: half a step of 1/255 over a whole area gives up to a few hundredths.
+    // FLIP amplifies small differences: half a step of 1/255 over a whole area gives up to a few
+    // hundredths.
     assert!(0.0 < flip && flip < 0.03, "{flip}");
     let said = format!("as a PNG of 8 bits, would have a flip_moving of {flip:.3}");
     assert_contains(&score(&sandbox, "truth.png"), &[&said]);

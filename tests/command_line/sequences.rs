@@ -1,4 +1,5 @@
-//! Sequences: consecutive frames of a scene, with scores from frame to frame, and their ranking over scenes.
+//! Sequences: consecutive frames of a scene, with scores from frame to frame, and their ranking
+//! over scenes.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -247,12 +248,14 @@ fn sequences_are_ranked_by_means_over_scenes_with_intervals_and_ties() {
     assert_ties(&run);
 }
 
-/// Ranks synthetic scores: filters that are equal in every scene, or on one scene within the floor, share their ranks.
+/// Ranks synthetic scores: filters that are equal in every scene, or on one scene within the floor,
+/// share their ranks.
 fn assert_ties(run: &Run) {
     let fine = "velocity_gather:fine";
     let departure = "velocity_gather:departure";
 
-    // In every scene fine is a little better than coarse, and the third differs from it by chance alone.
+    // In every scene fine is a little better than coarse, and the third differs from it by chance
+    // alone.
     let by = |name: &str, scene: f64| match name {
         "velocity_gather:fine" => 1.0 + 0.1 * scene,
         "velocity_gather:coarse" => 1.1 + 0.101 * scene,
@@ -265,7 +268,8 @@ fn assert_ties(run: &Run) {
         (rank_sequences(&far), ["1", "2-3", "2-3"]),
         // On one scene the floor decides.
         (rank_sequences_on(&far, &first), ["1", "2", "3"]),
-        // The losses are 1.00, 1.10 and 1.15: only the first and the last differ by more than the floor.
+        // The losses are 1.00, 1.10 and 1.15: only the first and the last differ by more than the
+        // floor.
         (rank_sequences_on(&noisy, &first), ["1-2", "1-3", "2-3"]),
     ] {
         let due = std::iter::zip(ranks, [fine, "velocity_gather:coarse", departure]);

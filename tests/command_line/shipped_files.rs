@@ -66,7 +66,8 @@ fn the_page_on_ci_lists_the_inputs_and_outputs_of_the_action_and_the_defaults() 
 
 #[test]
 fn no_script_of_the_action_has_an_expression_in_its_text() {
-    // GitHub inserts the value into the script itself, where it would be executed: it belongs into `env`.
+    // GitHub inserts the value into the script itself, where it would be executed: it belongs into
+    // `env`.
     let action = read("action.yml");
     let mut script = None;
     for (number, line) in action.lines().enumerate() {

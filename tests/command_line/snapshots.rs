@@ -1,4 +1,5 @@
-//! Output of commands, compared with files of `snapshots/`. `SNAPSHOTS=overwrite` writes these anew, for a reviewer to read.
+//! Output of commands, compared with files of `snapshots/`. `SNAPSHOTS=overwrite` writes these
+//! anew, for a reviewer to read.
 
 use snapbox::{Assert, Data, Redactions};
 use tests::filter_folder::one_kernel;
@@ -26,7 +27,8 @@ fn assert_printed(text: &str, file: &str) {
     assert.redact_with(redactions).eq(text, due);
 }
 
-/// Makes a sandbox of two scenes with a limit that the identity breaks, one that it keeps, and a target that it misses.
+/// Makes a sandbox of two scenes with a limit that the identity breaks, one that it keeps, and a
+/// target that it misses.
 fn make_bounded() -> Sandbox {
     let sandbox = Sandbox::two_scenes();
     sandbox.write("bounds.toml", include_str!("snapshots/bounds.toml"));

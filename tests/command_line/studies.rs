@@ -1,4 +1,5 @@
-//! The tables of results/studies, against what their commands printed, which is kept next to each page.
+//! The tables of results/studies, against what their commands printed, which is kept next to each
+//! page.
 
 use std::fs;
 use std::path::Path;
@@ -23,8 +24,8 @@ fn split(text: &str) -> Vec<&str> {
     text.split(is_gap).filter(|word| !word.is_empty()).collect()
 }
 
-/// Returns true if a row of a printed table has a score. Of the names of the row and of its column, each is in the row's label or in the
-/// table's head; the label names no other form of the input.
+/// Returns true if a row of a printed table has a score. Of the names of the row and of its column,
+/// each is in the row's label or in the table's head; the label names no other form of the input.
 fn is_printed(printed: &str, column: &[&str], row: &[&str], score: &str) -> bool {
     let (mut head, mut label) = (Vec::new(), Vec::new());
     for line in printed.lines() {
@@ -44,7 +45,8 @@ fn is_printed(printed: &str, column: &[&str], row: &[&str], score: &str) -> bool
         let has_names = names.all(|name| label.contains(name) || head.contains(name));
         let mut forms = label.iter().filter(|word| word.contains('='));
         let has_form = forms.all(|form| row.contains(form));
-        // Columns are counted from the right. Without the column's name in its head, a table begins with FLIP.
+        // Columns are counted from the right. Without the column's name in its head, a table begins
+        // with FLIP.
         let place = head.iter().rev().position(|word| column.contains(word));
         let found = match place {
             Some(place) => scores.iter().rev().nth(place),
@@ -132,7 +134,8 @@ fn the_counts_of_intervals_are_what_their_command_printed() {
     }
 }
 
-/// Returns the probability that fewer than 90 % of 48 intervals hold their score, if each holds it in 95 %.
+/// Returns the probability that fewer than 90 % of 48 intervals hold their score, if each holds it
+/// in 95 %.
 fn chance_of_few() -> f64 {
     let few = (0..=43).map(|held| {
         let ways: f64 = (1..=held)

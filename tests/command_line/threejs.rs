@@ -1,4 +1,5 @@
-//! three.js, a real engine: its vectors against the tracer's, and its blur. `make test` installs node.
+//! three.js, a real engine: its vectors against the tracer's, and its blur. `make test` installs
+//! node.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -118,7 +119,8 @@ impl Drawn {
         write_exr(&self.sandbox.path("capture/velocity.exr"), &file).unwrap();
     }
 
-    /// Returns a per-pixel measure at the pixels of some objects where both programs show the same one.
+    /// Returns a per-pixel measure at the pixels of some objects where both programs show the same
+    /// one.
     fn measure(&self, of: impl Fn(u32) -> bool, measure: &Raster<f32>) -> Vec<f32> {
         let ids = self.file("object.exr").plane("object").unwrap();
         let expected = &self.frame.object_id.pixels;
@@ -158,8 +160,8 @@ fn three_js_s_objects_have_exact_vectors_which_the_audit_tells_from_planted_ones
     let speed = drawn.frame.velocity.map(|[x, y]| x.hypot(*y));
     assert!(drawn.measure(is_object, &speed).last().unwrap() > &9.0);
     let error = drawn.measure(|id| id > 1, &drawn.velocity_error());
-    // A mirrored, swapped or scaled axis makes an error of pixels. SwiftShader, on machines without Mesa, puts corners on a 1/16 pixel
-    // grid.
+    // A mirrored, swapped or scaled axis makes an error of pixels. SwiftShader, on machines without
+    // Mesa, puts corners on a 1/16 pixel grid.
     assert!(median(&error) < 0.02, "{} px", median(&error));
     assert!(error[error.len() * 95 / 100] < 0.1);
     let depth = drawn.depth();

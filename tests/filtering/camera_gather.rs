@@ -12,7 +12,8 @@ use tracer::{Background, Key, Motion, RenderSettings, Scene, trace_frame};
 
 use crate::reference::{read_clamped, sample_linear};
 
-/// Makes a scene in which a camera flies, turns and zooms past a slanted wall in front of a sky, with one panel that moves by itself.
+/// Makes a scene in which a camera flies, turns and zooms past a slanted wall in front of a sky,
+/// with one panel that moves by itself.
 fn flight() -> Scene {
     let mut scene = empty_scene("flight");
     scene.background = Background::Gradient {
@@ -97,7 +98,8 @@ fn armory_s_mode_camera_equals_its_source_in_64_bits() {
     for (x, y) in (0..width).flat_map(|x| (0..height).map(move |y| (x, y))) {
         let own = f64::from(frame.color.at(x, y)[0]);
         let found = f64::from(output.at(x, y)[0]);
-        // motion_blur_pass.frag.glsl at 258a33d, line by line, in texture coordinates from the top left.
+        // motion_blur_pass.frag.glsl at 258a33d, line by line, in texture coordinates from the top
+        // left.
         if *frame.depth.at(x, y) == FAR_DEPTH {
             assert_eq!(found, own);
             sky += 1;

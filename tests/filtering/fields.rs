@@ -37,7 +37,8 @@ impl Field {
     }
 }
 
-/// Makes a field in which every pixel moves on its own, at its own depth; a sixth is still, a tenth is far background.
+/// Makes a field in which every pixel moves on its own, at its own depth; a sixth is still, a tenth
+/// is far background.
 pub fn noise(width: u32, height: u32, seed: u64) -> Field {
     let mut random = Random::new(seed);
     let color = Raster::from_fn(width, height, |_, _| {
@@ -62,7 +63,8 @@ pub fn noise(width: u32, height: u32, seed: u64) -> Field {
     }
 }
 
-/// Makes rectangles of one motion and one depth each over a panning background, so that many sources are equally deep.
+/// Makes rectangles of one motion and one depth each over a panning background, so that many
+/// sources are equally deep.
 pub fn rectangles(width: u32, height: u32, seed: u64) -> Field {
     let mut random = Random::new(seed);
     let mut field = noise(width, height, seed);

@@ -7,7 +7,8 @@ use tests::{ready_blur, shared_gpu};
 
 use crate::fields::{Field, noise, rectangles};
 
-/// Changes to every preset: each choice in each of its branches, and each number away from its default.
+/// Changes to every preset: each choice in each of its branches, and each number away from its
+/// default.
 #[rustfmt::skip]
 const CHANGES: [&str; 9] = [
     "",
@@ -33,7 +34,8 @@ fn frames() -> Vec<(&'static str, Field)> {
     ]
 }
 
-/// Makes a field that turns about the middle, in bands of depth: no two texels move alike, and all move nearly alike.
+/// Makes a field that turns about the middle, in bands of depth: no two texels move alike, and all
+/// move nearly alike.
 fn turning(width: u32, height: u32) -> Field {
     let mut field = noise(width, height, 14);
     field.velocity = Raster::from_fn(width, height, |x, y| {
@@ -115,7 +117,8 @@ fn both_have_the_same_parameters_and_presets() {
     assert_eq!(plain.mirror_symmetric, packed.mirror_symmetric);
 }
 
-/// Runs both floods with every change to every preset, on the frames that `takes` chooses for the number of the change.
+/// Runs both floods with every change to every preset, on the frames that `takes` chooses for the
+/// number of the change.
 fn compare_floods(takes: impl Fn(usize, usize) -> bool) {
     let [plain, packed] = floods();
     let (mut carried, mut all) = (0, 0);
@@ -145,16 +148,18 @@ fn assert_equal(said: &str, expected: &Painted, found: &Painted) {
     let seeds = expected.seeds.iter().zip(&found.seeds);
     let other_seeds = seeds.filter(|(a, b)| a != b).count();
     let pixels = expected.output.pixels.iter().zip(&found.output.pixels);
-    // Positions at 200 pixels are rounded to 1.5e-5 of a pixel. Between a surface and the background the mixed depth changes by
-    // tens of metres per pixel. That moves a tap whose position depends on it by up to 30 pixels per metre: 1e-3 of a colour in
-    // [0, 2). Another source changes taps by a tenth and more.
+    // Positions at 200 pixels are rounded to 1.5e-5 of a pixel. Between a surface and the
+    // background the mixed depth changes by tens of metres per pixel. That moves a tap whose
+    // position depends on it by up to 30 pixels per metre: 1e-3 of a colour in [0, 2). Another
+    // source changes taps by a tenth and more.
     let differs = |(a, b): &(&[f32; 3], &[f32; 3])| {
         (0..3).any(|channel| (a[channel] - b[channel]).abs() > 1e-3)
     };
     let other_pixels = pixels.filter(differs).count();
-    // The arithmetic is the same, and software adapters round it alike. Others may fuse it differently: a decision within 4e-6 of
-    // its threshold then goes either way. With 9 x 3 decisions in each of up to 8 passes that is one pixel in a thousand, and a
-    // wrong pixel shows in the taps of its neighbours.
+    // The arithmetic is the same, and software adapters round it alike. Others may fuse it
+    // differently: a decision within 4e-6 of its threshold then goes either way. With 9 x 3
+    // decisions in each of up to 8 passes that is one pixel in a thousand, and a wrong pixel shows
+    // in the taps of its neighbours.
     let count = found.seeds.len();
     let allowed = match shared_gpu().adapter.kind.as_str() {
         "software" => 0,
@@ -190,9 +195,10 @@ fn tiles_that_no_trail_reaches_are_skipped() {
         let reached = found.iter().filter(|tile| **tile == 1).count();
         let tiles = found.len();
         assert_eq!(tiles, 13 * 8);
-        // Each of three movers is in at least one tile. Their trails of up to 33 pixels are widened by a third on either side for the
-        // tolerance. They stay within half of the image even if they are treated as boxes around whole tiles. The tuned preset
-        // tolerates 1.87 of the way: 123 pixels across, of the image's 120, but not the corners.
+        // Each of three movers is in at least one tile. Their trails of up to 33 pixels are widened
+        // by a third on either side for the tolerance. They stay within half of the image even if
+        // they are treated as boxes around whole tiles. The tuned preset tolerates 1.87 of the way:
+        // 123 pixels across, of the image's 120, but not the corners.
         let most = match preset.name.as_str() {
             "tuned" => tiles * 9 / 10,
             _ => tiles / 2,

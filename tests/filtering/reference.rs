@@ -1,4 +1,5 @@
-//! Common parts of references in 64-bit floats: runs of a filter on fields, and the noise of a pixel.
+//! Common parts of references in 64-bit floats: runs of a filter on fields, and the noise of a
+//! pixel.
 
 use std::collections::BTreeMap;
 
@@ -25,8 +26,8 @@ pub struct Run {
     textures: BTreeMap<&'static str, Raster<[f32; 4]>>,
 }
 
-/// Runs every case on fields of odd sizes, wide and tall, none a multiple of a tile; two of random pixels, two of objects over a slow
-/// background.
+/// Runs every case on fields of odd sizes, wide and tall, none a multiple of a tile; two of random
+/// pixels, two of objects over a slow background.
 pub fn run_cases(cases: &[Case], textures: &[&'static str]) -> Vec<Run> {
     let mut runs = Vec::new();
     for (name, preset, changes, exposure) in cases {
@@ -100,8 +101,8 @@ impl Run {
     }
 }
 
-/// Computes interleaved gradient noise of a pixel on a cycle of 8 frames, `offset` pixels further right and down; none if it may wrap
-/// around in 32-bit floats that err by `error`.
+/// Computes interleaved gradient noise of a pixel on a cycle of 8 frames, `offset` pixels further
+/// right and down; none if it may wrap around in 32-bit floats that err by `error`.
 pub fn noise(pixel: [i64; 2], offset: f64, error: f64) -> Option<f64> {
     let frame = f64::from(FRAME_INDEX % 8);
     let x = pixel[0] as f64 + frame * 47.0 * 0.695 + offset;

@@ -24,7 +24,8 @@ doc = "Loop iterations; more take longer."
 entry = "work"
 "#;
 
-/// Runs `body` with this many steps, within a time limit in seconds, on a grey picture of 40x20 pixels.
+/// Runs `body` with this many steps, within a time limit in seconds, on a grey picture of 40x20
+/// pixels.
 fn blur(gpu: &Gpu, body: &str, steps: i64, limit: f64) -> Result<Image, FilterError> {
     let manifest = MANIFEST.replace("LIMIT", &limit.to_string());
     let filter = load_filter("wrong", &manifest, &one_kernel("steps: i32", body)).unwrap();

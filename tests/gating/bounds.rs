@@ -40,7 +40,8 @@ fn identity() -> Vec<FilterChoice> {
     select_filters(&["identity".to_owned()], None, &[], Programs::Refused).unwrap()
 }
 
-/// Reads bounds from texts for all scenes and for `fan`, as `check` does before it measures the identity.
+/// Reads bounds from texts for all scenes and for `fan`, as `check` does before it measures the
+/// identity.
 fn read(shared: &str, own: &str) -> Result<SceneBounds, String> {
     let scenes = Scenes::new();
     scenes.write("bounds.toml", shared);
@@ -181,7 +182,8 @@ fn limits_for_a_second_size_stand_in_a_file_of_their_own() {
     refused(None, name);
 }
 
-/// Each row has bounds of all scenes (valid ones if none are given), bounds of the scene, and parts of the error.
+/// Each row has bounds of all scenes (valid ones if none are given), bounds of the scene, and parts
+/// of the error.
 #[test]
 fn bounds_that_mean_nothing_are_refused_with_file_and_line() {
     let good = format!("[default]\n{}", line("flip_moving", 0.1, ""));

@@ -13,7 +13,8 @@ const SEEDS: u64 = 12;
 /// Of 12 intervals 11.4 on average; fewer than 9 once in 500 times.
 const LEAST: usize = 9;
 
-/// Measures a filter on `railing`, whose bars and shadows make noisy frames; returns the intervals of some scores.
+/// Measures a filter on `railing`, whose bars and shadows make noisy frames; returns the intervals
+/// of some scores.
 fn measure(gpu: &Gpu, choice: &FilterChoice, samples: u32, seed: u64) -> Vec<Interval> {
     let folder = tempfile::tempdir().unwrap();
     let plan = RunPlan {

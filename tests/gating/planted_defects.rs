@@ -1,6 +1,7 @@
 //! Planted defects against the gate: each breaks a bound that the filter without it keeps.
 //!
-//! `calibrate` makes the bounds from the filters without defects, on small pictures of shipped scenes.
+//! `calibrate` makes the bounds from the filters without defects, on small pictures of shipped
+//! scenes.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -15,8 +16,8 @@ use tests::limits::calibrate_scene;
 use tests::open_gpu;
 use tracer::SceneId;
 
-/// Scenes: one object that slides, far and at an angle; two that pass one another; many that turn, fly and hide one another; many
-/// that cross; some that leave the picture; thin ones.
+/// Scenes: one object that slides, far and at an angle; two that pass one another; many that turn,
+/// fly and hide one another; many that cross; some that leave the picture; thin ones.
 const SCENES: [&str; 7] = [
     "sliding_panel@128px_0deg",
     "sliding_panel@64px_45deg",
@@ -31,12 +32,13 @@ const SCENES: [&str; 7] = [
 const METRICS: &str = "mse_moving flip_moving flip_p99_moving gather_spread flip_static label_tv bleed_lateral bleed_leading \
                        bleed_trailing lateral_growth row_gain row_loss misplacement extent energy deficit unity";
 
-/// Seeds that the bounds are measured with, and the first of them to check with. Floors vary from seed to seed, and a bound that is
-/// too strict for one seed would say nothing about defects.
+/// Seeds that the bounds are measured with, and the first of them to check with. Floors vary from
+/// seed to seed, and a bound that is too strict for one seed would say nothing about defects.
 const CALIBRATED_WITH: [u64; 2] = [1, 2];
 const CHECKED_WITH: u64 = CALIBRATED_WITH[0];
 
-/// Side of McGuire's tiles. Relative to these small pictures it equals 20 pixels at 320x180: trails reach from tile to tile.
+/// Side of McGuire's tiles. Relative to these small pictures it equals 20 pixels at 320x180: trails
+/// reach from tile to tile.
 const SMALL_TILES: &str = "8";
 
 /// Filters without defects.
@@ -45,7 +47,8 @@ const SOUND: [&str; 2] = ["mcguire:paper", "jump_flood:corrected"];
 /// The defects by filter and name: the sound text and its replacement.
 type Defects = BTreeMap<String, BTreeMap<String, [String; 2]>>;
 
-/// Defects that together break a bound of each metric that any defect breaks. Two of them break few bounds.
+/// Defects that together break a bound of each metric that any defect breaks. Two of them break few
+/// bounds.
 const FEW: &str = "y_axis_flipped both_smeared_dropped weights_sum_to_more_than_1 foreground_dropped \
                    sign_of_the_trail_flipped sources_beyond_the_trail_kept kernel_one_sided weights_of_taps_ignored";
 
@@ -128,7 +131,8 @@ fn plant(filter: &str, name: &str, [sound, broken]: &[String; 2], folder: &Path)
     copy
 }
 
-/// Checks the filters without defects and those with the chosen ones. Returns the metrics with broken bounds.
+/// Checks the filters without defects and those with the chosen ones. Returns the metrics with
+/// broken bounds.
 fn check_defects(
     scenes: &'static [&'static str],
     is_chosen: impl Fn(&str) -> bool,

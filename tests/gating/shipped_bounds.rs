@@ -1,5 +1,5 @@
-//! Shipped bounds: the identity breaks one in every scene with motion, the mean of 64 sub-frames breaks none, and the most compared
-//! filters keep their required ones.
+//! Shipped bounds: the identity breaks one in every scene with motion, the mean of 64 sub-frames
+//! breaks none, and the most compared filters keep their required ones.
 
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -18,7 +18,8 @@ use tracer::Scene;
 /// Scenes with quick truths.
 const FEW: [&str; 2] = ["sliding_panel", "two_spheres"];
 
-/// Scenes in which nothing moves farther than the bounds allow. The tests of the catalogue show by changed pixels what these scenes expose.
+/// Scenes in which nothing moves farther than the bounds allow. The tests of the catalogue show by
+/// changed pixels what these scenes expose.
 const HARDLY_MOVING: [&str; 1] = ["creep"];
 
 /// Filters with required bounds, and metrics that each scene limits for them.
@@ -28,8 +29,8 @@ const REQUIRED: [&str; 2] = ["flip_moving", "bleed_lateral"];
 /// Size of the required bounds.
 const SIZE: (u32, u32) = (160, 90);
 
-/// Locks and returns the folder of truths, which are kept between runs of the tests: two tests that need the same truths render
-/// them once. `make mutants` keeps the same ones there.
+/// Locks and returns the folder of truths, which are kept between runs of the tests: two tests that
+/// need the same truths render them once. `make mutants` keeps the same ones there.
 fn lock_truths() -> (PathBuf, MutexGuard<'static, ()>) {
     static IN_USE: Mutex<()> = Mutex::new(());
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("mutants/160x90_256/seed_1");

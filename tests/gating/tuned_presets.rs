@@ -24,9 +24,11 @@ fn held_out(names: &[&str], used: &[String]) -> Vec<(Scene, SceneBounds)> {
     (choices.map(|choice| (choice.scene, bounds(choice.folder)))).collect()
 }
 
-/// Compares a filter's tuned preset with the search's start. Lengths in pixels are as written, or scaled to the picture as for users.
+/// Compares a filter's tuned preset with the search's start. Lengths in pixels are as written, or
+/// scaled to the picture as for users.
 ///
-/// Both presets have the same noise, which only hides differences, so few samples give the same verdict.
+/// Both presets have the same noise, which only hides differences, so few samples give the same
+/// verdict.
 fn compare(name: &str, names: &[&str], width: u32, as_written: bool) -> (PairedComparison, String) {
     let gpu = open_gpu();
     let render = settings([width, width * 9 / 16], 32);
@@ -56,7 +58,8 @@ fn check(names: &[&str], width: u32, as_written: bool) {
     for name in TUNED {
         let (found, table) = compare(name, names, width, as_written);
         assert_eq!(found.flip.verdict, Preference::Second, "{table}");
-        // Scaled to these small pictures, the lengths of `paper` are so short that it hardly bleeds.
+        // Scaled to these small pictures, the lengths of `paper` are so short that it hardly
+        // bleeds.
         let bleed = found.bleed.expect("some scenes have bleed");
         assert!(!as_written || bleed.is_no_worse(LEAST_BLEED), "{table}");
     }

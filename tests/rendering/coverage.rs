@@ -54,7 +54,8 @@ fn expect_half_plane(alignment: Alignment, angle: f64, exposure: f64) {
     });
 }
 
-/// An edge goes forward, back at a higher speed, and forward again, with keys inside the shutter of every alignment.
+/// An edge goes forward, back at a higher speed, and forward again, with keys inside the shutter of
+/// every alignment.
 fn expect_reversals(alignment: Alignment, angle: f64, exposure: f64) {
     let times = [-0.9, -0.4, -0.2, 0.1, 0.3, 0.9];
     let places = [0.0, 6.0, 1.0, 3.0, -2.0, 5.0];
@@ -102,8 +103,8 @@ fn expect_disc(alignment: Alignment, angle: f64, exposure: f64) {
             let inside = [place.dot(along) - half_chord, place.dot(along) + half_chord];
             overlap(inside, travel) / (SPEED * shutter.exposure())
         };
-        // The chord's end has a root: the error is (1/128)^1.5 x 0.2 x sqrt(2 radius) / travel = 5e-5 in the pixels that it crosses.
-        // Standard errors are above 2e-4.
+        // The chord's end has a root: the error is (1/128)^1.5 x 0.2 x sqrt(2 radius) / travel =
+        // 5e-5 in the pixels that it crosses. Standard errors are above 2e-4.
         mean_over_pixel(pixel, 128, share)
     });
 }
@@ -134,13 +135,15 @@ fn a_rotating_bar_covers_its_sector_of_the_annulus() {
                 if farthest <= nearest {
                     return 0.0;
                 }
-                // The bar's angles that contain the point are on both sides of the point's own angle.
+                // The bar's angles that contain the point are on both sides of the point's own
+                // angle.
                 let own = point.to_angle();
                 let sides = overlap(swept, [own + nearest, own + farthest])
                     + overlap(swept, [own - farthest, own - nearest]);
                 sides / (swept[1] - swept[0])
             };
-            // The share jumps by up to 0.1 across the bar's end: 1e-4 by the midpoint rule. Standard errors are 1e-3.
+            // The share jumps by up to 0.1 across the bar's end: 1e-4 by the midpoint rule.
+            // Standard errors are 1e-3.
             mean_over_pixel(pixel, 128, share)
         });
     }
@@ -165,6 +168,7 @@ fn noise_falls_as_stratification_predicts() {
         (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
     };
     let slope = (rms(512) / rms(16)).log2() / (512.0_f64 / 16.0).log2();
-    // Random samples fall with -0.5; Owen-scrambled points in three dimensions fall with about -0.75.
+    // Random samples fall with -0.5; Owen-scrambled points in three dimensions fall with about
+    // -0.75.
     assert!(slope > -1.0 && slope < -0.6, "slope is {slope}");
 }

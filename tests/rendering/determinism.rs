@@ -17,7 +17,8 @@ use crate::translucency::{film, glass};
 
 const RUNGS: [u32; 3] = [1, 4, 16];
 
-/// Makes a scene with everything that draws random numbers: sky, sun disc, lamps, bounces, films, glass, motion.
+/// Makes a scene with everything that draws random numbers: sky, sun disc, lamps, bounces, films,
+/// glass, motion.
 fn busy_scene() -> Scene {
     let mut scene = empty_scene("busy");
     scene.background = Background::Gradient {
@@ -92,7 +93,8 @@ fn one_thread_and_several_give_the_same_bytes() {
         pool.install(|| everything(&scene, &own_settings()))
     };
     let alone = on_threads(1);
-    // No value is NaN (it would differ from itself), so equality means equal bits except for the sign of zero.
+    // No value is NaN (it would differ from itself), so equality means equal bits except for the
+    // sign of zero.
     for threads in [1, 2, 5] {
         assert_eq!(alone, on_threads(threads));
     }

@@ -14,15 +14,16 @@ const FOCAL: f64 = 0.5 * HEIGHT as f64;
 const DEPTH: f64 = 5.0;
 /// Speeds in degrees, metres or radians per frame.
 const SPEEDS: [f64; 5] = [20.0, 1e3, 1e6, 1e9, 1e12];
-/// Tolerance, relative to the fastest pixel: 64-bit numbers hold an angle of 1e12 degrees to 4e-6 radians, and the difference quotient
-/// counts up to an error of 1e-5.
+/// Tolerance, relative to the fastest pixel: 64-bit numbers hold an angle of 1e12 degrees to 4e-6
+/// radians, and the difference quotient counts up to an error of 1e-5.
 const TOLERANCE: f64 = 2e-5;
 
 fn render_frame(scene: &Scene, velocity: VelocityKind) -> Frame {
     renders::render_frame(scene, &settings_with([WIDTH, HEIGHT], 1, velocity))
 }
 
-/// Compares every pixel's velocity with the exact one at its place, in pixels from the centre, +y up.
+/// Compares every pixel's velocity with the exact one at its place, in pixels from the centre, +y
+/// up.
 fn expect_velocity(scene: &Scene, kind: VelocityKind, exact: impl Fn(DVec2) -> DVec2) {
     let frame = render_frame(scene, kind);
     let pixels = (0..HEIGHT).flat_map(|y| (0..WIDTH).map(move |x| (x, y)));

@@ -1,4 +1,5 @@
-//! Frames in engines' forms: velocity from only the camera, colour at pixel centres, a still sky, a guard band.
+//! Frames in engines' forms: velocity from only the camera, colour at pixel centres, a still sky, a
+//! guard band.
 
 use frame::{ColorSampling, VelocityKind};
 use glam::{DQuat, DVec3, Vec3};
@@ -47,7 +48,8 @@ fn the_camera_explains_all_motion_in_a_still_world() {
     assert!(moved > 1.0, "the camera moves the picture");
     for (whole, rebuilt) in whole.pixels.iter().zip(&rebuilt.pixels) {
         let off = [whole[0] - rebuilt[0], whole[1] - rebuilt[1]];
-        // Depth in 32-bit floats is exact to 6e-8, and velocities of a few pixels are exact to 2e-7 pixels.
+        // Depth in 32-bit floats is exact to 6e-8, and velocities of a few pixels are exact to 2e-7
+        // pixels.
         assert!(speed(&off) < 2e-6, "{whole:?} {rebuilt:?}");
     }
 }

@@ -50,7 +50,8 @@ fn a_textured_panel_hangs_upright_and_has_its_holes() {
         let found = mean.color.at(x, y)[0];
         assert!((found - expected).abs() < 1e-6, "{found} at ({x}, {y})");
     }
-    // Interpolated alpha is below 0.5 in a square of two texels with rounded corners: 4 (0.5 + 0.75 - ln(2) / 2) of 16 texels.
+    // Interpolated alpha is below 0.5 in a square of two texels with rounded corners: 4 (0.5 + 0.75
+    // - ln(2) / 2) of 16 texels.
     let area: f64 = mean.coverage[0].pixels.iter().copied().map(f64::from).sum();
     let expected = 144.0 / 16.0 * 4.0 * (1.25 - 0.5 * 2f64.ln());
     // Rms 0.02 in about 25 border pixels: 0.1 in the sum.
@@ -233,7 +234,8 @@ fn image_of(sky: &Background) -> Background {
 fn a_sky_and_its_image_light_a_floor_by_the_cosine() {
     for (sky, expected) in [
         (heights(1.0, 1.0, 1.0), 0.6),
-        // Even and uneven skies: one is hit by chance, the other sampled as a light. The mean of the height over the cosine lobe is 2/3.
+        // Even and uneven skies: one is hit by chance, the other sampled as a light. The mean of
+        // the height over the cosine lobe is 2/3.
         (heights(1.0, 1.0, 4.0), 0.6 * 3.0),
         (heights(0.0, 0.0, 1.0), 0.4),
         (heights(9.0, 0.0, 1.0), 0.4),
@@ -241,7 +243,8 @@ fn a_sky_and_its_image_light_a_floor_by_the_cosine() {
         for background in [image_of(&sky), sky] {
             let mut scene = grey_floor();
             scene.background = background;
-            // Interpolation between rows of 3 degrees smooths the horizon's kink: about 5e-4 of the brightest level above.
+            // Interpolation between rows of 3 degrees smooths the horizon's kink: about 5e-4 of the
+            // brightest level above.
             expect_near("floor", mean_radiance(&scene, 1024), expected, 2e-3);
         }
     }

@@ -34,7 +34,8 @@ fn a_crowd_of_every_size_is_met_as_by_brute_force() {
     }
 }
 
-/// Makes a scene of `count` objects of one mesh, each with its own motion; every third has another as its parent.
+/// Makes a scene of `count` objects of one mesh, each with its own motion; every third has another
+/// as its parent.
 fn swarm(count: usize) -> Scene {
     let mut numbers = Numbers(8 << 32);
     let mut scene = empty_scene("swarm");

@@ -37,7 +37,8 @@ fn a_square_has_no_hole_along_its_diagonals() {
     }
 }
 
-/// Fails if rays at exact edges and vertices of a scene's only object, which is closed, pass it. `position` gives a vertex at a time.
+/// Fails if rays at exact edges and vertices of a scene's only object, which is closed, pass it.
+/// `position` gives a vertex at a time.
 pub fn expect_no_leak(
     scene: &Scene,
     [open, close]: [f64; 2],
@@ -62,8 +63,9 @@ pub fn expect_no_leak(
                 2 => 0.5 * (a + b),
                 _ => a + 0.5 * (1.0 + numbers.next()) * (b - a),
             };
-            // From inside, where every way out must be stopped; and from outside towards the near side of a convex mesh, which must stop
-            // the ray at the target. Edge-on triangles belong to the silhouette, which rounding may miss.
+            // From inside, where every way out must be stopped; and from outside towards the near
+            // side of a convex mesh, which must stop the ray at the target. Edge-on triangles
+            // belong to the silhouette, which rounding may miss.
             let start = match index / 4 % 4 {
                 2 if mesh.shapes.is_empty() => 3.0 * (target + 0.2 * numbers.vector()),
                 3 if mesh.shapes.is_empty() => 1000.0 * (target + 0.2 * numbers.vector()),
@@ -111,7 +113,8 @@ fn ten_million_rays_at_edges_and_vertices_do_not_leak() {
     expect_tight_sphere(7, Motion::still(Key::REST), 10_000_000);
 }
 
-/// Renders a mesh at this distance along +Z from a camera that sees 90 degrees, and calls `check` with each colour of each half.
+/// Renders a mesh at this distance along +Z from a camera that sees 90 degrees, and calls `check`
+/// with each colour of each half.
 fn for_each_color(mut scene: Scene, at: DVec3, distance: f64, check: impl Fn([f32; 3])) {
     scene.objects[0].motion = placed(at);
     scene.camera.motion = placed(at + distance * DVec3::Z);
@@ -143,14 +146,16 @@ fn a_convex_surface_never_meets_its_own_rays_from_1_mm_to_10_km() {
         add(&mut scene, ball, diffuse(0.5), placed(DVec3::ZERO));
         // Closer than the radius: only the ball is in view.
         for_each_color(scene, place(offset), 1.1 * radius, |color| {
-            // Every path scatters once and leaves. A path that hit the surface again would lose half its light, 1 / 64 of the pixel.
+            // Every path scatters once and leaves. A path that hit the surface again would lose
+            // half its light, 1 / 64 of the pixel.
             let is_half = color.iter().all(|part| (part - 0.5).abs() < 1e-6);
             assert!(is_half, "{radius} m, {offset} m from the origin: {color:?}");
         });
     }
 }
 
-/// Makes ridges and pits on a square that faces +Z; the normal of every facet has the cosine 2 / sqrt(6) to +Z.
+/// Makes ridges and pits on a square that faces +Z; the normal of every facet has the cosine 2 /
+/// sqrt(6) to +Z.
 fn egg_crate(side: f32) -> Mesh {
     const CELLS: u32 = 24;
     let cell = side / CELLS as f32;
@@ -186,7 +191,8 @@ fn pits_are_lit_to_their_bottom_from_1_mm_to_10_km() {
         let expected = f64::from(albedo) / PI * 2.0 / 6.0f64.sqrt();
         // The picture's corners see the field's corners.
         for_each_color(scene, place(offset), 0.45 * side, |color| {
-            // From straight above nothing shades anything; a facet that shaded itself once would lose 1 / 32.
+            // From straight above nothing shades anything; a facet that shaded itself once would
+            // lose 1 / 32.
             let what = format!("side {side} m, {offset} m off");
             expect_near(&what, f64::from(color[0]), expected, 1e-3 * expected);
         });
@@ -198,7 +204,8 @@ fn the_first_of_equally_near_surfaces_is_seen() {
     let coincident = |mirror: [f64; 2]| {
         let mut scene = empty_scene("ties");
         for z in mirror {
-            // A panel at z = 0 and a wing next to it, which makes the trees visit the object with the nearer wing first.
+            // A panel at z = 0 and a wing next to it, which makes the trees visit the object with
+            // the nearer wing first.
             let mut panel = rectangle(2.0, 2.0);
             let wing = [3.0, 3.5, 4.0].map(|x| Vec3::new(x, x * x, 8.0));
             panel.positions.extend(wing);

@@ -74,7 +74,8 @@ fn a_metal_seen_straight_on_has_its_own_colour() {
     expect_near("metal", found, 0.3, 1e-6);
 }
 
-/// A sky bright above is sampled as a light, and so is one bright below. Their sum is even, so it is not.
+/// A sky bright above is sampled as a light, and so is one bright below. Their sum is even, so it
+/// is not.
 #[test]
 fn sampled_light_and_light_met_by_chance_agree() {
     for finish in METALS.into_iter().chain(COATS) {

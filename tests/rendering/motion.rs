@@ -7,7 +7,8 @@ use tracer::{Interpolation, Key, Motion, TraceError, Turn, trace_truth};
 
 use crate::renders::*;
 
-/// Makes a motion through keys at these times, with positions of up to `far` and turns of up to `turn` radians about random axes.
+/// Makes a motion through keys at these times, with positions of up to `far` and turns of up to
+/// `turn` radians about random axes.
 pub fn random_motion(
     numbers: &mut Numbers,
     interpolation: Interpolation,
@@ -137,7 +138,8 @@ fn a_cubic_motion_has_one_velocity_at_each_key_and_a_linear_one_two() {
             });
             for key in &cubic.keys {
                 let [before, after] = velocities(&cubic, key.time);
-                // The third derivative, up to 400^3 where 20 radians pass in 0.2 frames, times the squared step.
+                // The third derivative, up to 400^3 where 20 radians pass in 0.2 frames, times the
+                // squared step.
                 let tolerance = 1e-6 + 1e-10 * (turn / 0.05).powi(3);
                 assert!(before.distance(after) < tolerance, "{before} and {after}");
             }

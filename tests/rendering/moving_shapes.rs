@@ -1,6 +1,7 @@
 //! White shapes in motion on black, and checks of their coverage.
 //!
-//! The camera sees one metre as one pixel at the shapes' distance, with the origin at the image's centre.
+//! The camera sees one metre as one pixel at the shapes' distance, with the origin at the image's
+//! centre.
 
 use frame::{Alignment, Shutter, Truth};
 use glam::{DQuat, DVec2};
@@ -11,7 +12,8 @@ use crate::renders::*;
 
 pub const WIDTH: u32 = 32;
 pub const HEIGHT: u32 = 18;
-/// Distance of the shapes: half the height in pixels is the focal length at a vertical field of view of 90 degrees.
+/// Distance of the shapes: half the height in pixels is the focal length at a vertical field of
+/// view of 90 degrees.
 pub const DISTANCE: f64 = 0.5 * HEIGHT as f64;
 /// Speed in pixels per frame.
 pub const SPEED: f64 = 14.0;
@@ -20,7 +22,8 @@ pub fn truth_settings() -> RenderSettings {
     settings([WIDTH, HEIGHT], 1024)
 }
 
-/// Makes a scene of one mesh, turned by `angle`, at `place(t)` at these times, straight between them. The shutter is open for 0.75 frames.
+/// Makes a scene of one mesh, turned by `angle`, at `place(t)` at these times, straight between
+/// them. The shutter is open for 0.75 frames.
 pub fn moving_scene(mesh: Mesh, angle: f64, times: &[f64], place: impl Fn(f64) -> DVec2) -> Scene {
     let mut scene = empty_scene("moving");
     scene.exposure = 0.75;
@@ -56,8 +59,8 @@ pub fn mean_over_pixel(corner: DVec2, side: u32, value: impl Fn(DVec2) -> f64) -
     points.map(|point| value(corner + point)).sum::<f64>() / f64::from(side * side)
 }
 
-/// Renders a truth, and compares the only object's coverage with the exact one, which depends on a pixel's lower left corner and the
-/// shutter; then colour and motion with coverage.
+/// Renders a truth, and compares the only object's coverage with the exact one, which depends on a
+/// pixel's lower left corner and the shutter; then colour and motion with coverage.
 pub fn expect_coverage(
     what: &str,
     scene: &Scene,

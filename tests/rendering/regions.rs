@@ -23,7 +23,8 @@ pub fn expect_support(scene: &str, truth: &Truth) {
             pixels.map(|(matte, _)| f64::from(*matte)).sum()
         };
         let (missed, held) = (sum(false), sum(true));
-        // 64 rays miss half of the objects that cover a hundredth of a pixel. Wires are worst, with 0.24 %.
+        // 64 rays miss half of the objects that cover a hundredth of a pixel. Wires are worst, with
+        // 0.24 %.
         assert!(
             missed <= 0.005 * (missed + held) + 0.01,
             "{scene}, object {object}: misses {missed}, holds {held}"

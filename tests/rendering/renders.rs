@@ -1,4 +1,5 @@
-//! Poses, skies and floors shared by several tests; renders, means of their colours, and comparison with known numbers.
+//! Poses, skies and floors shared by several tests; renders, means of their colours, and comparison
+//! with known numbers.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -106,7 +107,8 @@ pub fn sun(direction: DVec3, irradiance: f32, angular_radius: f64) -> Option<Sun
     })
 }
 
-/// Returns the part of unpolarised light that one smooth side of an index reflects, by Fresnel's equations.
+/// Returns the part of unpolarised light that one smooth side of an index reflects, by Fresnel's
+/// equations.
 pub fn fresnel(cosine: f64, index: f64) -> f64 {
     // Snell's law.
     let inside = (1.0 - (1.0 - cosine * cosine) / (index * index)).sqrt();
@@ -115,8 +117,8 @@ pub fn fresnel(cosine: f64, index: f64) -> f64 {
     0.5 * (across * across + along * along)
 }
 
-/// Makes a floor at y = 0, with one small spot that the camera sees at a slope of 1 to 2. There the light of a lamp 1 m above varies by
-/// less than 2e-6 of itself.
+/// Makes a floor at y = 0, with one small spot that the camera sees at a slope of 1 to 2. There the
+/// light of a lamp 1 m above varies by less than 2e-6 of itself.
 pub fn floor_scene(material: Material) -> Scene {
     let mut scene = empty_scene("floor");
     let floor = facing_up(DVec3::ZERO);

@@ -33,8 +33,9 @@ fn curves() -> [Curve; 5] {
     ]
 }
 
-/// Returns the mean of `value` over the shutter, weighted by `weight` of the part of the interval. If the weights have corners, the
-/// midpoint rule errs by less than 3e-5; standard errors of pixels are above 1e-3.
+/// Returns the mean of `value` over the shutter, weighted by `weight` of the part of the interval.
+/// If the weights have corners, the midpoint rule errs by less than 3e-5; standard errors of pixels
+/// are above 1e-3.
 fn weighted_mean(shutter: Shutter, weight: fn(f64) -> f64, value: impl Fn(f64) -> f64) -> f64 {
     const STEPS: u32 = 400;
     let (mut sum, mut total) = (0.0, 0.0);
@@ -116,7 +117,8 @@ fn sub_frames_lie_at_the_middles_of_equal_parts_of_light() {
     let ladder = render_ladder(&scene, &settings, &truth, &[2]);
     assert_eq!(ladder.shutter_profile, scene.shutter_profile);
     let accumulated = ladder.rungs[0].picture(&truth.mean());
-    // Light grows with the square of time: a quarter has passed at half of it, three quarters at the root of that.
+    // Light grows with the square of time: a quarter has passed at half of it, three quarters at
+    // the root of that.
     let parts = [0.5, 0.75_f64.sqrt()];
     let row = 3;
     let mut found = Vec::new();
@@ -130,8 +132,9 @@ fn sub_frames_lie_at_the_middles_of_equal_parts_of_light() {
         // Pixels on an edge have noise.
         if areas.iter().all(|area| area.fract() == 0.0) {
             let expected = 0.5 * (areas[0] + areas[1]);
-            // Noise of the truth and of the whole shutter that the rung is a difference from: at most 0.012 each for a share of
-            // a half, by 1,024 samples. Four standard deviations of both.
+            // Noise of the truth and of the whole shutter that the rung is a difference from: at
+            // most 0.012 each for a share of a half, by 1,024 samples. Four standard deviations of
+            // both.
             expect_near(&format!("column {x}"), coverage.into(), expected, 0.07);
         }
         found.push(coverage);

@@ -1,4 +1,5 @@
-//! Truths and accumulations: stillness, independent halves, sub-frames and their worth, motion masks.
+//! Truths and accumulations: stillness, independent halves, sub-frames and their worth, motion
+//! masks.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -26,7 +27,8 @@ fn own_settings(samples_per_pixel: u32) -> RenderSettings {
     settings([WIDTH, HEIGHT], samples_per_pixel)
 }
 
-/// Makes a tall white slab that moves right through the centre at `t = 0`; `speed` is in pixels per frame.
+/// Makes a tall white slab that moves right through the centre at `t = 0`; `speed` is in pixels per
+/// frame.
 fn slab_scene(speed: f64) -> Scene {
     let mut scene = empty_scene("slab");
     let motion = drift(DVec3::new(0.0, 0.0, -DISTANCE), speed * DVec3::X);
@@ -58,7 +60,8 @@ fn the_truth_of_a_still_scene_is_its_frame() {
     assert!(truth.motion.pixels.iter().all(|motion| *motion == 0.0));
     for (of_frame, of_truth) in frame.coverage.iter().zip(truth.mean().coverage) {
         for (of_frame, of_truth) in of_frame.pixels.iter().zip(of_truth.pixels) {
-            // Edges of still objects: rms 0.005 at 512 samples (measured); the largest of 864 pixels is four times that.
+            // Edges of still objects: rms 0.005 at 512 samples (measured); the largest of 864
+            // pixels is four times that.
             assert!((of_frame - of_truth).abs() < 0.03);
         }
     }
@@ -70,7 +73,8 @@ fn halves_are_independent() {
     let scene = slab_scene(SPEED);
     let truth = render_truth(&scene, &settings, Alignment::Trailing);
     let ladder = render_ladder(&scene, &settings, &truth, &[1]);
-    // The slab's smear is a trapezoid, equal in every row. The mean over rows gives its exact value, with 1/4 of the noise.
+    // The slab's smear is a trapezoid, equal in every row. The mean over rows gives its exact
+    // value, with 1/4 of the noise.
     let errors = |coverage: &Plane| -> Vec<f64> {
         let columns = (0..WIDTH).flat_map(|x| {
             let column = (0..HEIGHT).map(move |y| f64::from(*coverage.at(x, y)));
@@ -143,7 +147,8 @@ fn a_ladder_s_rungs_average_midpoint_instants() {
 #[test]
 fn a_ladder_equals_the_truth_at_still_pixels_and_costs_no_more() {
     let mut scene = slab_scene(2.0);
-    // Columns 13.2 to 18.4: the moving slab does not reach the left edge, but reaches the right one.
+    // Columns 13.2 to 18.4: the moving slab does not reach the left edge, but reaches the right
+    // one.
     let panel = placed(DVec3::new(-8.2, 0.1, -DISTANCE));
     add(&mut scene, rectangle(5.2, 30.0), glowing(0.5), panel);
     let settings = own_settings(512);
@@ -156,7 +161,8 @@ fn a_ladder_equals_the_truth_at_still_pixels_and_costs_no_more() {
     let ladder = trace_ladder(&scene, &settings, &truth, &store::LADDER, &watch).expect("allowed");
     let whole = u64::from(WIDTH * HEIGHT * settings.samples_per_pixel);
     assert!(work.into_inner() <= whole);
-    // The slab sweeps 19.25 to 26.75. In the margin around it, only the still panel's edge is noisy, and both pictures alike.
+    // The slab sweeps 19.25 to 26.75. In the margin around it, only the still panel's edge is
+    // noisy, and both pictures alike.
     for rung in &ladder.rungs {
         for group in &rung.groups {
             let differs = |x: u32| (0..HEIGHT).any(|y| *group.color.at(x, y) != [0.0; 3]);
@@ -212,7 +218,8 @@ fn a_frame_holds_the_instant_and_not_the_shutter() {
 #[test]
 fn n_subframes_are_worth_n() {
     let folder = tests::scenes().join("sliding_panel");
-    // 128 px per frame at 640x360 are 8 px over this shutter and size: 8 sub-frames are a pixel apart, each count's error well above noise.
+    // 128 px per frame at 640x360 are 8 px over this shutter and size: 8 sub-frames are a pixel
+    // apart, each count's error well above noise.
     let scene = load_scene(&folder, Some("128px_30deg")).unwrap();
     let mut settings = settings([80, 45], 512);
     settings.exposure = Some(1.0);

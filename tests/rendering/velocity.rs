@@ -32,7 +32,8 @@ fn point_at(place: DVec2, depth: f64) -> DVec3 {
     DVec3::new(place.x * depth / FOCAL, place.y * depth / FOCAL, -depth)
 }
 
-/// Returns the position at which a still camera at the origin sees a point, in pixels from the centre, y up.
+/// Returns the position at which a still camera at the origin sees a point, in pixels from the
+/// centre, y up.
 fn project(point: DVec3) -> DVec2 {
     FOCAL * DVec2::new(point.x, point.y) / -point.z
 }
@@ -55,7 +56,8 @@ fn expect_velocity(scene: &Scene, kind: VelocityKind, exact: impl Fn(DVec2) -> D
     }
 }
 
-/// Compares both kinds of velocity: the derivative at the instant, and the motion since the previous frame.
+/// Compares both kinds of velocity: the derivative at the instant, and the motion since the
+/// previous frame.
 fn expect_velocities(
     scene: &Scene,
     derivative: impl Fn(DVec2) -> DVec2,
@@ -254,7 +256,8 @@ fn points_behind_the_previous_camera_get_the_derivative() {
     expect_velocity(&scene, VelocityKind::PreviousFrame, derivative);
 }
 
-/// Samples the motion to the next frame, y up, and the change of depth, at the place of every pixel.
+/// Samples the motion to the next frame, y up, and the change of depth, at the place of every
+/// pixel.
 fn trace_further(scene: &Scene, kind: VelocityKind) -> Vec<(DVec2, DVec2, f64)> {
     let settings = settings_with([WIDTH, HEIGHT], 1, kind);
     let grid = PixelGrid::of_picture(WIDTH, HEIGHT);

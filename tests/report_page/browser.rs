@@ -14,7 +14,8 @@ use tungstenite::{Message, WebSocket};
 /// Time limit, far longer than anything here takes on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// Options of a headless Chromium with pictures that are the same everywhere; a processor runs the shaders of its pages.
+/// Options of a headless Chromium with pictures that are the same everywhere; a processor runs the
+/// shaders of its pages.
 const OPTIONS: &str = "--headless --no-sandbox --disable-gpu --hide-scrollbars --no-first-run --remote-debugging-port=0 \
                        --force-color-profile=srgb --enable-unsafe-webgpu --use-webgpu-adapter=swiftshader";
 
@@ -78,7 +79,8 @@ impl Browser {
         self.call("Page.setDownloadBehavior", words);
     }
 
-    /// Evaluates an expression, and waits for promises; `$` and `$$` find the first element and all elements of a selector.
+    /// Evaluates an expression, and waits for promises; `$` and `$$` find the first element and all
+    /// elements of a selector.
     pub fn value(&mut self, expression: &str) -> Value {
         let words = json!({"expression": expression, "returnByValue": true, "awaitPromise": true, "includeCommandLineAPI": true});
         let answer = self.call("Runtime.evaluate", words);
@@ -176,7 +178,8 @@ impl Browser {
         STANDARD.decode(printed["data"].as_str().unwrap()).unwrap()
     }
 
-    /// Returns left, top, width and height of the first element that a selector finds, in the window.
+    /// Returns left, top, width and height of the first element that a selector finds, in the
+    /// window.
     pub fn place(&mut self, selector: &str) -> [f64; 4] {
         let place = self.value(&format!(
             "(() => {{ const box = $('{selector}').getBoundingClientRect(); \

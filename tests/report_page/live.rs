@@ -19,7 +19,8 @@ use crate::{make_page, open_case};
 /// Place of the open case's panel.
 pub const LIVE: &str = "document.querySelector('article.open .live')";
 
-/// Largest difference of a pixel, and of a score of FLIP, between the browser's shader compiler and the program's.
+/// Largest difference of a pixel, and of a score of FLIP, between the browser's shader compiler and
+/// the program's.
 const APART: f32 = 1e-3;
 /// Part of the pixels that may differ by more: a tap that falls on the border of two texels.
 const APART_PIXELS: f32 = 1e-3;
@@ -33,7 +34,8 @@ pub fn open_panel(browser: &mut Browser, page: &Path, case: &str) {
     ));
 }
 
-/// Serves the folder of a page at 127.0.0.1, where a browser loads files by other rules; returns the page's address.
+/// Serves the folder of a page at 127.0.0.1, where a browser loads files by other rules; returns
+/// the page's address.
 fn serve(page: &Path) -> PathBuf {
     let listener = TcpListener::bind("127.0.0.1:0").unwrap();
     let address = listener.local_addr().unwrap();
@@ -105,7 +107,8 @@ fn count_apart(apart: &[f32]) -> f32 {
     count as f32 / apart.len() as f32
 }
 
-/// Presets, or filters, that magnify the last bits of a number, in which adapters differ; each with what it does.
+/// Presets, or filters, that magnify the last bits of a number, in which adapters differ; each with
+/// what it does.
 const MAGNIFYING: [(&str, &str); 2] = [
     ("dagor:", "rounds the direction of motion to seven bits"),
     ("mcguire:motion_blur_demo", "has sines of large numbers"),
@@ -123,8 +126,8 @@ struct Differences {
 }
 
 impl Differences {
-    /// Returns whether the page shows the same picture and scores as the program. 0.05 dB are 1 % of the squared error: the page's truth has
-    /// three digits.
+    /// Returns whether the page shows the same picture and scores as the program. 0.05 dB are 1 %
+    /// of the squared error: the page's truth has three digits.
     fn are_small(&self, name: &str) -> bool {
         if MAGNIFYING.iter().any(|(start, _)| name.starts_with(start)) {
             // At most 4.1 % of the pixels differed on five scenes, and FLIP by 0.0082.
@@ -160,8 +163,8 @@ fn find_case(sandbox: &Sandbox, name: &str) -> Case {
 #[test]
 fn a_page_runs_filters_as_the_program_does() {
     let sandbox = Sandbox::new();
-    // Passes with textures of tiles; exchanged textures; the mask; an include; a vertex stage, a sampler, halves and velocity in another
-    // unit.
+    // Passes with textures of tiles; exchanged textures; the mask; an include; a vertex stage, a
+    // sampler, halves and velocity in another unit.
     let held =
         "[object.held]\nmesh = \"plate.obj\"\nparent = \"camera\"\ntranslation = [0, -0.6, -2]\n";
     sandbox.write("scene.toml", &format!("{SCENE}\n{held}"));

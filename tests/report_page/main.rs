@@ -90,7 +90,8 @@ fn a_page_opens_without_complaint_and_asks_for_nothing_else() {
         browser.until(&format!(
             "!!document.getElementById('{address}').querySelector('#viewer')"
         ));
-        // Steps through its own pictures, seven other filters', and its maps. Accumulations are alike, as are scenes.
+        // Steps through its own pictures, seven other filters', and its maps. Accumulations are
+        // alike, as are scenes.
         let is_alike = case.scene == "slow" || case.preset.len() > 1 && case.is_reference;
         for _ in 0..if is_alike { 2 } else { 18 } {
             press(&mut browser, "m");

@@ -52,10 +52,12 @@ fn files_of(sandbox: &Sandbox, case: &Case) -> [ExrFile; 4] {
     files
 }
 
-/// Largest relative error of a number: half a step of a half is 1/2048, and three digits round by 1/200 at most.
+/// Largest relative error of a number: half a step of a half is 1/2048, and three digits round by
+/// 1/200 at most.
 const PART: f32 = 0.006;
 
-/// Compares a read-out with the files. A half below 6e-5 has fewer digits, and no picture shows such small values.
+/// Compares a read-out with the files. A half below 6e-5 has fewer digits, and no picture shows
+/// such small values.
 #[track_caller]
 fn assert_near(shown: &serde_json::Value, files: &[ExrFile; 4], x: u32, y: u32) {
     for (layer, file, names) in channels(files) {
@@ -81,7 +83,8 @@ fn assert_near(shown: &serde_json::Value, files: &[ExrFile; 4], x: u32, y: u32) 
     }
 }
 
-/// Points at pixels of a case, where the read-outs show the OpenEXR files' values with three digits.
+/// Points at pixels of a case, where the read-outs show the OpenEXR files' values with three
+/// digits.
 fn assert_read_outs(browser: &mut Browser, files: &[ExrFile; 4]) {
     let [left, top, width, _] = browser.place(".stack");
     let scale = width / 64.0;

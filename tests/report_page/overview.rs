@@ -1,4 +1,5 @@
-//! The overview in a browser: the search for rows, the preview of a worst place, and sections of filters.
+//! The overview in a browser: the search for rows, the preview of a worst place, and sections of
+//! filters.
 
 use std::path::Path;
 

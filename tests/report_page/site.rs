@@ -31,7 +31,8 @@ fn attributes<'t>(text: &'t str, name: &str) -> Vec<&'t str> {
         .collect()
 }
 
-/// Lists the links of all pages below a folder that lead to no file, or to no place on its page; counts all links.
+/// Lists the links of all pages below a folder that lead to no file, or to no place on its page;
+/// counts all links.
 fn find_dead_links(folder: &Path) -> (Vec<String>, usize) {
     let read = |path: PathBuf| {
         (
@@ -132,7 +133,8 @@ fn the_site_opens_on_every_screen_without_complaint() {
     }
     let mut folders = BTreeSet::new();
     for page in find_pages(&site) {
-        // Most pages of a folder are alike: the first opens on every screen, the others on the narrowest.
+        // Most pages of a folder are alike: the first opens on every screen, the others on the
+        // narrowest.
         let is_first = folders.insert(page.parent().map(Path::to_owned));
         let is_own = page.ends_with("index.html") || page.ends_with("report.html");
         for (width, height) in &SCREENS[if is_first || is_own { 0 } else { 2 }..] {

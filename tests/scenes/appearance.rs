@@ -6,7 +6,8 @@ use tracer::{Background, Finish};
 
 use crate::Folder;
 
-/// Loads the finish of the second object's material `paint`, with more MTL statements and more keys of its table in the scene.
+/// Loads the finish of the second object's material `paint`, with more MTL statements and more keys
+/// of its table in the scene.
 fn load_finish(statements: &str, keys: &str) -> Finish {
     let folder = Folder::new();
     let (paint, diffuse) = ("Kd 0.5 0.6 0.7", "diffuse = [0.1, 0.2, 0.3]");

@@ -127,7 +127,8 @@ fn the_white_sphere_hides_red_light_that_the_trailing_shutter_sees() {
     let [red, red_end] = pixel_range(&scene, "red", 0.0);
     let [_, hidden] = pixel_range(&scene, "white", 0.0);
     let [_, hidden_before] = pixel_range(&scene, "white", -scene.exposure);
-    // Part of the red sphere is hidden at the instant, and more than 30 pixels of it come into view.
+    // Part of the red sphere is hidden at the instant, and more than 30 pixels of it come into
+    // view.
     assert!(red.x < hidden.x && hidden.x < red_end.x);
     let travel = hidden.x - hidden_before.x;
     assert!(travel > 30.0, "{travel}");
@@ -150,7 +151,8 @@ fn the_car_is_seen_whole_behind_the_railing_and_its_wheels_roll() {
     assert!((48.0..64.0).contains(&speed("car")));
     assert!((3.0..10.0).contains(&speed("aeroplane")));
 
-    // A rolling wheel is still where it touches the road, and its top moves twice as fast as the car.
+    // A rolling wheel is still where it touches the road, and its top moves twice as fast as the
+    // car.
     let wheel = object_index(&scene, "wheel_front_near");
     let velocity = |height: f64| {
         let to_wheel = scene.object_to_world(wheel, 0.0).inverse();
@@ -159,7 +161,8 @@ fn the_car_is_seen_whole_behind_the_railing_and_its_wheels_roll() {
         let at = |time| scene.object_to_world(wheel, time).transform_point3(point);
         (at(1e-4) - at(-1e-4)) / 2e-4
     };
-    // 1e-4 metres per frame: degrees in the file have four decimals, and the difference quotient is of second order.
+    // 1e-4 metres per frame: degrees in the file have four decimals, and the difference quotient is
+    // of second order.
     assert!(velocity(0.0).length() < 1e-4, "{}", velocity(0.0));
     assert!(velocity(0.64).distance(DVec3::new(1.8, 0.0, 0.0)) < 1e-4);
 }

@@ -24,7 +24,8 @@ fn render_truth(scene: &Scene, alignment: Alignment) -> Truth {
     trace_truth(scene, &settings([WIDTH, HEIGHT], 64), alignment, &unwatched).unwrap()
 }
 
-/// Measures the middle of the bar's smear, in pixels right of the picture's, and its length without the bar.
+/// Measures the middle of the bar's smear, in pixels right of the picture's, and its length without
+/// the bar.
 fn measure_smear(truth: &Truth) -> [f64; 2] {
     let coverage = &truth.mean().coverage[1];
     let mut moments = [0.0; 3];
@@ -114,7 +115,8 @@ fn assert_same_truth(one: &Truth, other: &Truth, what: &str) {
     assert!(*one == other, "{what}: the truths differ");
 }
 
-/// Writes a scene of paths, key shapes, a moving camera that zooms, and a rolling shutter. All its times are multiplied by `times`.
+/// Writes a scene of paths, key shapes, a moving camera that zooms, and a rolling shutter. All its
+/// times are multiplied by `times`.
 fn write_paths(folder: &Folder, times: f64, exposure: f64) {
     let mesh = folder.read("mesh.obj");
     folder.write("moved.obj", mesh.replace("v 1 1 0", "v 1.4 1.2 0.3"));
@@ -208,7 +210,8 @@ fn times_beyond_the_keys_are_refused() {
         let truth = settings.check_truth(&scene, alignment).map(drop);
         truth.err().map(|error| error.to_string())
     };
-    // The shapes go from -1 to 1 of 60 frames per second: from -0.4 to 0.4 of 24, and from -2.4 to 2.4 of 144.
+    // The shapes go from -1 to 1 of 60 frames per second: from -0.4 to 0.4 of 24, and from -2.4 to
+    // 2.4 of 144.
     assert_eq!(check("144fps", Alignment::Trailing), None);
     assert_eq!(check("24fps", Alignment::Centred), None);
     for (variant, parts) in [

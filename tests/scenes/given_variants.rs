@@ -1,4 +1,5 @@
-//! Variants of every scene: sealed ones, changed by a seed, and `unlit`, with surfaces that emit their own colours.
+//! Variants of every scene: sealed ones, changed by a seed, and `unlit`, with surfaces that emit
+//! their own colours.
 
 use frame::{ColorSampling, Frame};
 use tests::{settings, unwatched};

@@ -84,8 +84,8 @@ fn flip_equals_the_reference_tool() {
         let sum: f64 = map.pixels.iter().map(|error| f64::from(*error)).sum();
         let mean = sum / map.pixels.len() as f64;
         let max = f64::from(map.pixels.iter().copied().fold(0.0, f32::max));
-        // Both compute in 32 bits, and their rounding grows to about 1e-7 through FLIP's powers. A wrong constant makes 1e-4. Single pixels
-        // round more than the mean does.
+        // Both compute in 32 bits, and their rounding grows to about 1e-7 through FLIP's powers. A
+        // wrong constant makes 1e-4. Single pixels round more than the mean does.
         let Expected {
             mean: due,
             max: due_max,

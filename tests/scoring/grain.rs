@@ -43,14 +43,17 @@ fn grain_is_the_standard_deviation_of_noise_and_sees_patterns_and_not_blurs() {
     assert_eq!(grain(&right), 0.0);
     for part in [0.02, 0.1] {
         let expected = f64::from(part);
-        // Some hundreds of pixels, many at edges, where brightness is averaged: measured 10 % too high.
+        // Some hundreds of pixels, many at edges, where brightness is averaged: measured 10 % too
+        // high.
         let found = grain(&times(&right, &white_noise(&right, part)));
         assert_near("noise", found, expected, 0.15 * expected);
-        // A checkerboard is all at the highest frequency: 16 / 6 of white noise's, over what white noise has left.
+        // A checkerboard is all at the highest frequency: 16 / 6 of white noise's, over what white
+        // noise has left.
         let found = grain(&times(&right, &checkerboard(&right, part)));
         assert_near("a checkerboard", found, 2.79 * expected, 0.42 * expected);
     }
-    // Scores of a picture that is much too blurred, or shows no blur at all, where 2 % of grain would be 0.02.
+    // Scores of a picture that is much too blurred, or shows no blur at all, where 2 % of grain
+    // would be 0.02.
     for (what, wrong) in [
         ("blurred", blur_isotropically(&right, 2.0)),
         (
@@ -106,7 +109,8 @@ fn a_perfect_picture_s_grain_seldom_exceeds_its_floor_and_hardly_ever_three_time
     // It scatters about 0.
     let negative = found.iter().filter(|score| score.value < 0.0).count();
     assert!((30..=70).contains(&negative), "{negative}");
-    // One normal value of six is above a standard deviation, one of 44 above two and one of 740 above three; 4 sigma of 100.
+    // One normal value of six is above a standard deviation, one of 44 above two and one of 740
+    // above three; 4 sigma of 100.
     assert!((2..=31).contains(&above(1.0)), "{}", above(1.0));
     assert!(above(2.0) <= 8, "{}", above(2.0));
     assert!(above(3.0) <= 2, "{}", above(3.0));

@@ -58,8 +58,9 @@ fn measure_intervals(scene: &Scene, blur: &Blur) -> Found {
     (found, measure_scores(&picture, &frame, &converged))
 }
 
-/// Does the same for a shipped scene, with truths traced as for users, and for several pictures. All except the last, which is shifted by
-/// a few pixels, are nearly perfect in most pixels: there the truth's noise decides the scores.
+/// Does the same for a shipped scene, with truths traced as for users, and for several pictures.
+/// All except the last, which is shifted by a few pixels, are nearly perfect in most pixels: there
+/// the truth's noise decides the scores.
 fn trace_intervals(
     name: &str,
     size: [u32; 2],
@@ -123,7 +124,8 @@ fn count_holding(metric: &str, (found, converged): &Found) -> usize {
 
 /// Expects that about 95 % of the intervals of a blur's scores contain the converged score.
 fn assert_about_95_percent(scene: &Scene, blur: &Blur) {
-    // Of 200 intervals 190 on average, with a standard deviation of 3.1: four of them to either side.
+    // Of 200 intervals 190 on average, with a standard deviation of 3.1: four of them to either
+    // side.
     let about_95_percent = 178..200;
     let measured = measure_intervals(scene, blur);
     let names = "mse_moving psnr_moving relmse_moving mae_moving smape_moving ssim_moving flip_moving flip_hdr_moving \
@@ -167,7 +169,8 @@ fn about_95_of_100_intervals_of_larger_pictures_contain_the_converged_score() {
 /// Scores that the truth's noise raises by as much as itself where a picture is perfect.
 const RAISED_BY_NOISE: &str = "mae_moving mae_full smape_moving smape_full row_loss";
 
-/// Expects that intervals of traced truths contain the converged scores: those that noise raises for all pictures, others for the moved.
+/// Expects that intervals of traced truths contain the converged scores: those that noise raises
+/// for all pictures, others for the moved.
 fn assert_traced(scene: &str, size: [u32; 2], seeds: u64, of_moved: &str) {
     let traced = trace_intervals(scene, size, 2048, seeds);
     // Four standard deviations below the mean: of 48 intervals 45.6, with one of 1.5.

@@ -37,7 +37,8 @@ fn measure_varied() -> Measurement {
     measure(output, frame, truth, None, &VIEWING).expect("they agree")
 }
 
-/// Remaps frame, truth and output pixel by pixel: `source` gives the source pixel of each new one, `turn` changes screen vectors.
+/// Remaps frame, truth and output pixel by pixel: `source` gives the source pixel of each new one,
+/// `turn` changes screen vectors.
 fn remap(
     width: u32,
     height: u32,
@@ -121,7 +122,8 @@ fn a_mirrored_or_turned_scene_has_the_same_scores() {
     // Regions follow the height, which a turn changes, so only scores of mattes can be compared.
     let mattes = ObjectMetric::ALL[..11].iter().copied().map(Metric::Object);
     let mattes: Vec<Metric> = mattes.collect();
-    // FLIP sums in 32 bits in another order, and rounding may move a pixel at exactly 45 degrees to the other side.
+    // FLIP sums in 32 bits in another order, and rounding may move a pixel at exactly 45 degrees to
+    // the other side.
     let tolerance = 1e-4;
     assert_same_scores(&mirrored, &same, &Metric::all(), tolerance);
     assert_same_scores(&flipped, &same, &Metric::all(), tolerance);

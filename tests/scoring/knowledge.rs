@@ -122,15 +122,16 @@ fn skill_is_the_share_of_the_way_from_a_sharp_picture_to_the_one_frame_oracle() 
         let expected = SKILLS.map(|name| (name, expected, 1e-6));
         assert_scores("an end", &scores_of(picture), &expected);
     }
-    // Half of the way to the truth leaves half of the pixels' time with the wrong object, and the oracle leaves a quarter. Squared
-    // errors leave the squares of both.
+    // Half of the way to the truth leaves half of the pixels' time with the wrong object, and the
+    // oracle leaves a quarter. Squared errors leave the squares of both.
     let half = scores_of(&mix(&nothing, &truth.mean(), 0.5));
     let expected = [
         ("skill_label_tv", 0.5 / 0.75, 1e-5),
         ("skill_mse", 0.75 / (1.0 - 1.0 / 16.0), 1e-5),
     ];
     assert_scores("half of the way", &half, &expected);
-    // The truth is better than any one-frame oracle. A negative with mover and background exchanged is worse than none.
+    // The truth is better than any one-frame oracle. A negative with mover and background exchanged
+    // is worse than none.
     let worse = Picture {
         color: (frame.color).map(|color| color.map(|part| (1.0 - part).max(0.0))),
         coverage: frame.coverage.iter().rev().cloned().collect(),

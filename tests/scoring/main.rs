@@ -38,7 +38,8 @@ fn bar(half: [f64; 2], tilt: f64) -> Shape {
     Shape::Bar { half, tilt }
 }
 
-/// Makes the smear between two times, in displacements from the instant; the true one is from -1 to 0.
+/// Makes the smear between two times, in displacements from the instant; the true one is from -1 to
+/// 0.
 fn smear(from: f64, to: f64) -> Blur {
     Blur {
         from,

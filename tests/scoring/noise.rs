@@ -1,6 +1,7 @@
 //! Noise in the truth, in the ladder and in a picture.
 //!
-//! Errors are unbiased, floors are the noise of a score, and an accumulation of N sub-frames scores as one of N.
+//! Errors are unbiased, floors are the noise of a score, and an accumulation of N sub-frames scores
+//! as one of N.
 
 use std::sync::LazyLock;
 
@@ -88,7 +89,8 @@ fn a_perfect_picture_s_unbiased_error_scatters_by_its_floor() {
             let inside = |score: &&Score| score.value.abs() <= floors * score.floor;
             found.iter().filter(inside).count()
         };
-        // A standard deviation from 100 values errs by a fourteenth; noise that is not normal moves the floor by a fifth.
+        // A standard deviation from 100 values errs by a fourteenth; noise that is not normal moves
+        // the floor by a fifth.
         let ratio = scatter / floor;
         assert!((0.7..1.25).contains(&ratio), "{name}: {ratio}");
         // Of 100 normal values, 68, 95 and 99.7 are inside; four standard deviations below.
@@ -108,7 +110,8 @@ fn a_converged_picture_scores_about_the_floor_of_a_noisy_truth() {
     for name in names.split(' ') {
         let score = find_score(&scores, name);
         let ratio = score.value / score.floor;
-        // Half A and the mean differ by the mean's noise, drawn once more: equal but for chance and, for FLIP, for noise in both pictures.
+        // Half A and the mean differ by the mean's noise, drawn once more: equal but for chance
+        // and, for FLIP, for noise in both pictures.
         assert!((0.7..1.4).contains(&ratio), "{name}: {score:?}");
     }
     for name in ["lateral_growth", "row_gain", "row_loss"] {
@@ -140,7 +143,8 @@ fn floors_fall_as_the_truth_converges() {
             continue;
         };
         let name = metric.name();
-        // The still background has no noise, nothing is shaded anew, the margin hides noise, and one sum can be small by chance.
+        // The still background has no noise, nothing is shaded anew, the margin hides noise, and
+        // one sum can be small by chance.
         let has_none = name.contains("static") || name.starts_with("bleed");
         if has_none || ["mse_shading", "energy"].contains(&name.as_str()) {
             continue;
@@ -175,7 +179,8 @@ fn noise_in_the_ladder_does_not_lower_the_bar() {
     for subframes in [4, 8] {
         let scores = score_blur(&reference, &Blur::accumulation(subframes), 4096);
         let ratio = find_score(&scores, "n_eq").value / f64::from(subframes);
-        // Two halves of 8 samples: unbiased, their noise scatters the counts by 3 %; counted as error, it adds at least 14 %.
+        // Two halves of 8 samples: unbiased, their noise scatters the counts by 3 %; counted as
+        // error, it adds at least 14 %.
         assert_near("n_eq", ratio, 1.0, 0.1);
     }
 }

@@ -197,7 +197,8 @@ fn skill_over_scenes_is_a_ratio_of_means() {
     let mut cases: Vec<Case> = (0..2)
         .flat_map(|scene| ENTRIES.map(|entry| make_case(scene, &scores, entry)))
         .collect();
-    // On the second scene nothing can be gained, and the filter's gain there is noise: ten times nearly nothing.
+    // On the second scene nothing can be gained, and the filter's gain there is noise: ten times
+    // nearly nothing.
     for case in cases.iter_mut().filter(|case| case.scene.name == "scene_1") {
         let flip = match case.filter.as_str() {
             "identity" => 0.101,

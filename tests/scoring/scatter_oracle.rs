@@ -1,4 +1,5 @@
-//! The reference `scatter_oracle`, which is right wherever one frame with straight motion determines the result.
+//! The reference `scatter_oracle`, which is right wherever one frame with straight motion
+//! determines the result.
 
 use frame::{Efficiency, Frame, Image, Picture, Raster, Shutter, ShutterProfile, Vectors};
 use metrics::scatter_oracle;
@@ -8,7 +9,8 @@ fn scene(objects: Vec<Object>) -> Scene {
     crate::scene([48, 24], objects)
 }
 
-/// Makes a frame of one bright block of columns at depth 2 in front of black, moving right by whole pixels per frame.
+/// Makes a frame of one bright block of columns at depth 2 in front of black, moving right by whole
+/// pixels per frame.
 fn block(columns: std::ops::Range<u32>, speed: f32) -> Frame {
     let inside = |x: u32| columns.contains(&x);
     let mut frame = scene(Vec::new()).frame();
@@ -47,7 +49,8 @@ fn a_still_frame_comes_out_unchanged() {
 
 #[test]
 fn a_mover_leaves_ramps_and_shows_its_background() {
-    // From 20 to 30, 8 pixels per frame: over the shutter it covers column x while -8 t is between x's distances.
+    // From 20 to 30, 8 pixels per frame: over the shutter it covers column x while -8 t is between
+    // x's distances.
     let frame = block(20..30, 8.0);
     let ramp = |x: u32, from: f64| ((f64::from(x) + 0.5 - from) / 8.0).clamp(0.0, 1.0);
     for (shutter, shift) in [(trailing(), -8.0), (Shutter::new(0.0, 1.0).unwrap(), 0.0)] {
@@ -62,7 +65,8 @@ fn a_mover_leaves_ramps_and_shows_its_background() {
 
 #[test]
 fn near_surfaces_hide_far_ones_and_holes_show_the_background() {
-    // Dark green is ahead of the block. Blue is the background, and right of it a green wall is farther away than the block.
+    // Dark green is ahead of the block. Blue is the background, and right of it a green wall is
+    // farther away than the block.
     let mut frame = block(20..30, 8.0);
     for y in 0..24 {
         for x in 0..48 {
@@ -83,7 +87,8 @@ fn near_surfaces_hide_far_ones_and_holes_show_the_background() {
         // Hidden behind a nearer surface.
         assert_eq!(picture.color.at(x, 12), &[0.0, 0.5, 0.0]);
     }
-    // For most of the shutter the block was not yet at its right end: of the block and the wall, the wall is farther.
+    // For most of the shutter the block was not yet at its right end: of the block and the wall,
+    // the wall is farther.
     let [red, green, blue] = *picture.color.at(29, 12);
     assert_eq!(blue, red, "the white block alone brings blue");
     assert!((0.0..0.1).contains(&red), "{red}");
@@ -93,8 +98,8 @@ fn near_surfaces_hide_far_ones_and_holes_show_the_background() {
 #[test]
 fn a_gradual_shutter_weights_instants_and_a_rolling_one_shifts_them() {
     let frame = block(20..30, 8.0);
-    // Efficiency rises from 0.6 to 0.8 of the interval and stays: areas 0.1 and 0.2, on the last 3.2 pixels of the path. Column 19 is
-    // covered until half a pixel before the end, at 0.9375.
+    // Efficiency rises from 0.6 to 0.8 of the interval and stays: areas 0.1 and 0.2, on the last
+    // 3.2 pixels of the path. Column 19 is covered until half a pixel before the end, at 0.9375.
     let profile = ShutterProfile {
         efficiency: Efficiency::Table(vec![0.0, 0.0, 0.0, 0.0, 1.0, 1.0]),
         ..ShutterProfile::default()

@@ -116,7 +116,8 @@ fn noise_that_changes_flickers_and_noise_that_stands_is_dirt() {
     let (instants, truths) = slide(SPEED);
     let changing = measure_all(&instants, &add_noise(&truths, |frame| frame));
     let standing = measure_all(&instants, &add_noise(&truths, |_| 1));
-    // Some 1200 pixels move in each of 5 frames: four standard deviations of a mean square are below a tenth.
+    // Some 1200 pixels move in each of 5 frames: four standard deviations of a mean square are
+    // below a tenth.
     let scatter = 0.1 * VARIANCE;
     for measured in [&changing, &standing] {
         assert_near(value(measured, Error), VARIANCE, scatter);
@@ -134,8 +135,8 @@ fn noise_that_changes_flickers_and_noise_that_stands_is_dirt() {
     let fine = 0.96 * VARIANCE;
     assert_near(value(&standing, FixedPattern), fine, scatter);
     assert_near(value(&changing, FixedPattern), 0.0, scatter);
-    // Temporal antialiasing removes changing noise: a tenth of each new picture counts, and histories begin anew with the sequence and
-    // where a disc uncovers the wall.
+    // Temporal antialiasing removes changing noise: a tenth of each new picture counts, and
+    // histories begin anew with the sequence and where a disc uncovers the wall.
     for (before, after, part) in [
         (FlickerAlong, FlickerAfterTaa, 0.5),
         (Error, ErrorAfterTaa, 1.0),

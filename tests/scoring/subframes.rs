@@ -1,4 +1,5 @@
-//! Counts of equivalent sub-frames: their intervals contain the true count, however noisy truth and ladder are.
+//! Counts of equivalent sub-frames: their intervals contain the true count, however noisy truth and
+//! ladder are.
 
 use frame::{Alignment, Frame, Image, Ladder, Picture, Region, Replicate, Truth, regions};
 use metrics::{Equivalent, EquivalentMetric, EquivalentScores, Errors, Reference, Subframes};
@@ -87,7 +88,8 @@ fn load(name: &str) -> (Scene, Frame) {
     (scene, frame)
 }
 
-/// Counts an independent picture of many sub-frames with as much noise as the truth; returns what is wrong.
+/// Counts an independent picture of many sub-frames with as much noise as the truth; returns what
+/// is wrong.
 fn check_many(name: &str, samples: u32) -> Vec<String> {
     let (scene, frame) = load(name);
     let own = Rendered::new(&scene, &settings([96, 54], samples, 1), &LADDER);
@@ -106,7 +108,8 @@ fn check_many(name: &str, samples: u32) -> Vec<String> {
     wrong.collect()
 }
 
-/// Counts one picture of few sub-frames, nearly without noise, by truths of few and of many samples; returns what is wrong.
+/// Counts one picture of few sub-frames, nearly without noise, by truths of few and of many
+/// samples; returns what is wrong.
 fn check_few(name: &str, samples: [u32; 2]) -> Vec<String> {
     let (scene, frame) = load(name);
     let [coarse, fine] =
@@ -124,7 +127,8 @@ fn check_few(name: &str, samples: [u32; 2]) -> Vec<String> {
     wrong.collect()
 }
 
-/// Returns the root mean square of the noise of a picture's mean over the moving region, from independent parts of it.
+/// Returns the root mean square of the noise of a picture's mean over the moving region, from
+/// independent parts of it.
 fn measure_noise(parts: &[&Image], truth: &Truth) -> f64 {
     let count = parts.len() as f64;
     let variance = |pixel: usize| {

@@ -4,9 +4,9 @@ use tracer::{Ray, Scene, Stage};
 
 use crate::random::Numbers;
 
-/// Sends `count` rays through a scene at times in `[open, close]`: from among its objects and from far away, towards everything within
-/// `size` metres of the origin. Every search method must find the same hit as a test of every triangle. At least a tenth of the rays
-/// must hit something.
+/// Sends `count` rays through a scene at times in `[open, close]`: from among its objects and from
+/// far away, towards everything within `size` metres of the origin. Every search method must find
+/// the same hit as a test of every triangle. At least a tenth of the rays must hit something.
 pub fn expect_what_every_triangle_gives(
     scene: &Scene,
     [open, close]: [f64; 2],

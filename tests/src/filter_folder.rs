@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use filters::{Filter, FilterError};
 
-/// Writes a filter with one kernel file: `filter.toml` and `<name>.wgsl` in `folder`, which is created if needed.
+/// Writes a filter with one kernel file: `filter.toml` and `<name>.wgsl` in `folder`, which is
+/// created if needed.
 pub fn write_filter(folder: &Path, name: &str, manifest: &str, kernels: &str) {
     fs::create_dir_all(folder).unwrap();
     fs::write(folder.join("filter.toml"), manifest).unwrap();
@@ -19,8 +20,8 @@ pub fn load_filter(name: &str, manifest: &str, kernels: &str) -> Result<Filter, 
     Filter::load(folder.path())
 }
 
-/// Makes the kernels of a filter with one pass, `work`. `body` writes `pixel` of `output` from `color`; `parameters`
-/// are the members of `Parameters`, one or more.
+/// Makes the kernels of a filter with one pass, `work`. `body` writes `pixel` of `output` from
+/// `color`; `parameters` are the members of `Parameters`, one or more.
 pub fn one_kernel(parameters: &str, body: &str) -> String {
     format!(
         "struct Parameters {{ {parameters} }}
@@ -45,7 +46,8 @@ fn work(@builtin(global_invocation_id) id: vec3<u32>) {{
     )
 }
 
-/// Writes a filter with one pass, `work`, which reads the colour and these textures. `more` is part of filter.toml.
+/// Writes a filter with one pass, `work`, which reads the colour and these textures. `more` is part
+/// of filter.toml.
 pub fn write_kernel(folder: &Path, more: &str, textures: &[&str], body: &str) {
     let name = folder.file_name().unwrap().to_str().unwrap();
     let manifest = format!(
@@ -86,7 +88,8 @@ pub fn copy_changed_filter(name: &str, copy: &Path, change: impl FnOnce(&str) ->
     fs::write(&kernels, change(&text)).unwrap();
 }
 
-/// Writes a filter that is a shell script with the files as $1 and $2. `lines` is the script, and `more` is appended to filter.toml.
+/// Writes a filter that is a shell script with the files as $1 and $2. `lines` is the script, and
+/// `more` is appended to filter.toml.
 pub fn write_program(folder: &Path, name: &str, lines: &str, more: &str) {
     let command = "command = [\"./blur.sh\", \"{frame}\", \"{out}\"]";
     write_manifest(folder, name, &format!("{command}\n{more}"));

@@ -13,7 +13,8 @@ struct Device {
     kernels: Mutex<BTreeMap<String, Kernels<'static>>>,
 }
 
-/// A device that one thread owns until its end. No two threads may catch errors of a device at the same time.
+/// A device that one thread owns until its end. No two threads may catch errors of a device at the
+/// same time.
 struct Lent(&'static Device);
 
 static IDLE: Mutex<Vec<&'static Device>> = Mutex::new(Vec::new());
@@ -49,7 +50,8 @@ pub fn shared_gpu() -> &'static Gpu {
     LENT.with(|lent| lent.0.gpu)
 }
 
-/// Prepares a built-in filter for pictures of a size, in pixels. Its kernels are compiled once per adapter.
+/// Prepares a built-in filter for pictures of a size, in pixels. Its kernels are compiled once per
+/// adapter.
 pub fn ready_blur(
     filter: &Filter,
     settings: &Settings,

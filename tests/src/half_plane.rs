@@ -3,8 +3,8 @@
 use frame::Shutter;
 use glam::DVec2;
 
-/// Returns the probability that a sum of independent uniform numbers in `[0, width]` is at most `limit`: a piecewise
-/// polynomial (Feller, volume 2, I.9).
+/// Returns the probability that a sum of independent uniform numbers in `[0, width]` is at most
+/// `limit`: a piecewise polynomial (Feller, volume 2, I.9).
 fn uniform_sum(limit: f64, widths: &[f64]) -> f64 {
     let widths = widths.iter().copied().filter(|width| *width > 1e-12);
     let widths: Vec<f64> = widths.collect();

@@ -1,6 +1,8 @@
-//! Taps of every filter on a surface that moves evenly, in closed form, from the published descriptions.
+//! Taps of every filter on a surface that moves evenly, in closed form, from the published
+//! descriptions.
 //!
-//! All taps are on one surface there, so a filter consists only of the positions and weights of its taps.
+//! All taps are on one surface there, so a filter consists only of the positions and weights of its
+//! taps.
 
 mod babylon;
 mod dagor;
@@ -48,7 +50,8 @@ impl Steady {
     }
 }
 
-/// Predicts a filter preset's ramp of an edge across the motion; its middle is relative to the edge.
+/// Predicts a filter preset's ramp of an edge across the motion; its middle is relative to the
+/// edge.
 pub fn expected_ramp(filter: &str, preset: &str, steady: &Steady) -> Ramp {
     // Noise is uniform in [0, 1).
     let steps = 1000;

@@ -50,7 +50,8 @@ pub fn unwatched(_: Progress) -> ControlFlow<()> {
     ControlFlow::Continue(())
 }
 
-/// Opens the tests' adapter for filters, for a test that changes it, leaves it busy, or has no other.
+/// Opens the tests' adapter for filters, for a test that changes it, leaves it busy, or has no
+/// other.
 pub fn open_gpu() -> Gpu {
     Gpu::new(None).expect("these tests run filters")
 }

@@ -10,13 +10,15 @@ use crate::{half_plane, unwatched};
 
 /// Height in metres of what the scene shows.
 const VIEW: f64 = 3.6;
-/// Factor on the panel of 0.8 m, which makes it longer than the longest trail by a band on either side.
+/// Factor on the panel of 0.8 m, which makes it longer than the longest trail by a band on either
+/// side.
 const SCALE: f64 = 3.4;
 /// Side of the scene's panel, in metres.
 const PANEL: f64 = 0.8;
 /// Half the width, in pixels, of the band that edges are measured along.
 pub const HALF_BAND: f64 = 16.0;
-/// Half the width of the tent, in pixels. The rows of pixels in a tilted band are up to 0.7 apart; a narrower tent would resolve them.
+/// Half the width of the tent, in pixels. The rows of pixels in a tilted band are up to 0.7 apart;
+/// a narrower tent would resolve them.
 const TENT: f64 = 2.0;
 
 /// Size of pictures of a shot, unless another is given.
@@ -27,7 +29,8 @@ pub const SMALL: [u32; 2] = [256, 144];
 pub enum Mover {
     /// The panel, before a still camera.
     Panel,
-    /// The camera, the other way: the panel moves alike in the picture, and the wall behind it too, less.
+    /// The camera, the other way: the panel moves alike in the picture, and the wall behind it too,
+    /// less.
     Camera,
 }
 
@@ -43,7 +46,8 @@ pub struct Shot {
     pub exposure: f64,
     /// The scene at the instant.
     pub frame: Frame,
-    /// White behind the panel's middle and black ahead of it, as if painted on the panel and on everything beyond.
+    /// White behind the panel's middle and black ahead of it, as if painted on the panel and on
+    /// everything beyond.
     pub painted: Plane,
     /// The painted edge.
     pub painted_ramp: Ramp,
@@ -60,12 +64,14 @@ impl Shot {
         Self::of(Mover::Panel, SMALL, [speed, degrees, exposure])
     }
 
-    /// Traces a shot of this size with a speed in pixels per frame, an angle in degrees, and an exposure in frames.
+    /// Traces a shot of this size with a speed in pixels per frame, an angle in degrees, and an
+    /// exposure in frames.
     pub fn of(mover: Mover, size: [u32; 2], motion: [f64; 3]) -> Self {
         Self::trace(mover, size, 4, motion)
     }
 
-    /// Traces a shot for its motion and depth, which pixel centres have: with a sample of colour, in half the time.
+    /// Traces a shot for its motion and depth, which pixel centres have: with a sample of colour,
+    /// in half the time.
     pub fn of_motion(mover: Mover, size: [u32; 2], motion: [f64; 3]) -> Self {
         Self::trace(mover, size, 1, motion)
     }
@@ -114,7 +120,8 @@ impl Shot {
         direction(self.degrees)
     }
 
-    /// Returns the distance from the middle of the picture to its border along the motion, in pixels.
+    /// Returns the distance from the middle of the picture to its border along the motion, in
+    /// pixels.
     pub fn to_border(&self) -> f64 {
         let [across, down] = self.direction().to_array().map(f64::abs);
         let middle = middle(self.size);
@@ -201,7 +208,8 @@ fn direction(degrees: f64) -> DVec2 {
     DVec2::new(cosine, -sine)
 }
 
-/// Measures the brightness along the motion, at every whole pixel from the panel's middle: the mean over a band, smoothed by a tent.
+/// Measures the brightness along the motion, at every whole pixel from the panel's middle: the mean
+/// over a band, smoothed by a tent.
 fn measure_profile(plane: &Plane, direction: DVec2, reach: f64) -> Vec<(f64, f64)> {
     let reach = reach.ceil() as i32;
     let middle = middle([plane.width, plane.height]);

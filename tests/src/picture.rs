@@ -191,14 +191,16 @@ pub fn ramp_length(image: &Image) -> f64 {
     Ramp::of(&profile.collect::<Vec<_>>()).length
 }
 
-/// Makes a picture that is black left of the middle and white right of it, all in one motion at one depth.
+/// Makes a picture that is black left of the middle and white right of it, all in one motion at one
+/// depth.
 pub fn moving_edge(width: u32, height: u32, velocity: [f32; 2]) -> Picture {
     let mut ahead = white(0.0);
     ahead.velocity = velocity;
     Picture::halves(width, height, ahead.gray(0.0), ahead)
 }
 
-/// Makes a black picture. Its lower half moves fast in front, and its upper half has a white object that moves slower.
+/// Makes a black picture. Its lower half moves fast in front, and its upper half has a white object
+/// that moves slower.
 pub fn slow_above_fast(slow: f32, fast: f32) -> Picture {
     Picture::new(320, 64, |x, y| match (x, y) {
         (_, 32..) => white(fast).gray(0.0),
@@ -207,7 +209,8 @@ pub fn slow_above_fast(slow: f32, fast: f32) -> Picture {
     })
 }
 
-/// Measures the light in the rows just above the fast half, at these distances in pixels left of the slow object.
+/// Measures the light in the rows just above the fast half, at these distances in pixels left of
+/// the slow object.
 pub fn light_above(output: &Image, distances: std::ops::Range<u32>) -> f32 {
     let pixels = distances.flat_map(|distance| (24..32).map(move |y| (159 - distance, y)));
     pixels.map(|(x, y)| output.at(x, y)[0]).sum()

@@ -15,7 +15,8 @@ pub fn every_preset() -> Vec<(Filter, Settings)> {
     presets
 }
 
-/// Returns the sum of the weights of a preset's taps: 1 unless the original makes pictures brighter.
+/// Returns the sum of the weights of a preset's taps: 1 unless the original makes pictures
+/// brighter.
 pub fn gain(filter: &Filter, settings: &Settings) -> f32 {
     match (filter.name.as_str(), settings.preset.as_str()) {
         // three.js adds 17 colours and divides by 16.

@@ -10,7 +10,8 @@ pub struct Ramp {
 }
 
 impl Ramp {
-    /// Measures an edge from (position, brightness) at rising positions, in pixels. Slopes count with their sign, so that noise cancels.
+    /// Measures an edge from (position, brightness) at rising positions, in pixels. Slopes count
+    /// with their sign, so that noise cancels.
     pub fn of(profile: &[(f64, f64)]) -> Self {
         let slope = |pair: &[(f64, f64)]| (0.5 * (pair[0].0 + pair[1].0), pair[1].1 - pair[0].1);
         Self::spread(profile.windows(2).map(slope).collect::<Vec<_>>())
@@ -28,7 +29,8 @@ impl Ramp {
         let middle = sum / total;
         let variance: f64 = squares / total - middle * middle;
         Self {
-            // An even ramp of length L has the variance L^2 / 12. Rounding may leave less than zero.
+            // An even ramp of length L has the variance L^2 / 12. Rounding may leave less than
+            // zero.
             length: (12.0 * variance.max(0.0)).sqrt(),
             middle,
         }

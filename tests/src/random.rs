@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-/// Stream of numbers. Streams of different seeds share nothing in their first four thousand million draws.
+/// Stream of numbers. Streams of different seeds share nothing in their first four thousand million
+/// draws.
 pub struct Random(u64);
 
 impl Random {

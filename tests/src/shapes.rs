@@ -9,7 +9,8 @@ use tracer::{
     Object, Parent, Scene, SceneId, Turn,
 };
 
-/// Makes a scene without objects under a black sky. The camera at the origin looks along -Z, 90 degrees high.
+/// Makes a scene without objects under a black sky. The camera at the origin looks along -Z, 90
+/// degrees high.
 pub fn empty_scene(name: &str) -> Scene {
     Scene {
         id: SceneId::new(name, None),
@@ -104,7 +105,8 @@ pub fn through(keys: impl Into<Vec<Key>>) -> Motion {
     }
 }
 
-/// Makes a rotation at a constant `rate` (radians per frame) about `axis` through `at`, at rest pose at `t = 0`.
+/// Makes a rotation at a constant `rate` (radians per frame) about `axis` through `at`, at rest
+/// pose at `t = 0`.
 pub fn spin(at: DVec3, axis: DVec3, rate: f64) -> Motion {
     let turn = Turn { axis, angle: rate };
     let start = Key {
@@ -120,7 +122,8 @@ pub fn spin(at: DVec3, axis: DVec3, rate: f64) -> Motion {
     through([start, end])
 }
 
-/// Makes the camera zoom by far less than a pixel. Everything then moves on screen, so that everything belongs to the moving region.
+/// Makes the camera zoom by far less than a pixel. Everything then moves on screen, so that
+/// everything belongs to the moving region.
 pub fn zoom_slightly(scene: &mut Scene) {
     let fov = scene.camera.vertical_fov[0].1;
     scene.camera.vertical_fov = vec![(-1.0, (1.0 - 1e-8) * fov), (1.0, fov)];
@@ -154,7 +157,8 @@ pub fn rectangle(width: f32, height: f32) -> Mesh {
     )
 }
 
-/// Makes a disc in the plane z = 0 around the origin, as a fan of `sides` triangles of the disc's exact area.
+/// Makes a disc in the plane z = 0 around the origin, as a fan of `sides` triangles of the disc's
+/// exact area.
 pub fn disc(radius: f32, sides: u32) -> Mesh {
     let angle = std::f64::consts::TAU / f64::from(sides);
     // A regular polygon of the disc's area is half outside and half inside the circle.
@@ -183,7 +187,8 @@ pub fn cuboid(size: Vec3) -> Mesh {
     mesh(positions, halves.concat())
 }
 
-/// Makes a closed sphere around the origin: an icosahedron whose triangles are split into four `splits` times, with smooth normals.
+/// Makes a closed sphere around the origin: an icosahedron whose triangles are split into four
+/// `splits` times, with smooth normals.
 pub fn icosphere(radius: f32, splits: u32) -> Mesh {
     let golden = 0.5 * (1.0 + 5f64.sqrt());
     #[rustfmt::skip]

@@ -19,7 +19,8 @@ pub struct Estimate {
     pub expected: f64,
 }
 
-/// Compares the first colour component of every pixel with the `expected` one at its column and row.
+/// Compares the first colour component of every pixel with the `expected` one at its column and
+/// row.
 pub fn estimate_pixels(truth: &Truth, expected: impl Fn(u32, u32) -> f64) -> Vec<Estimate> {
     let (width, height) = truth.size();
     let color = truth.mean().color;
@@ -36,9 +37,10 @@ pub fn estimate_pixels(truth: &Truth, expected: impl Fn(u32, u32) -> f64) -> Vec
 
 /// Compares white things on black, where colour counts samples.
 ///
-/// Eight replicates of n samples may agree on a count although each is off by one sample with a probability of 0.3
-/// (they do in 0.7^8 = 6 % of cases); the error of their mean is then sqrt(0.3 x 0.7 / 8) / n, and not the zero of
-/// their spread. Pixels that are expected to be exactly empty or full get no such allowance.
+/// Eight replicates of n samples may agree on a count although each is off by one sample with a
+/// probability of 0.3 (they do in 0.7^8 = 6 % of cases); the error of their mean is then sqrt(0.3 x
+/// 0.7 / 8) / n, and not the zero of their spread. Pixels that are expected to be exactly empty or
+/// full get no such allowance.
 pub fn coverage_estimates(truth: &Truth, expected: impl Fn(u32, u32) -> f64) -> Vec<Estimate> {
     let samples = truth.provenance.samples_per_pixel / truth.provenance.replicates;
     let replicates = f64::from(truth.provenance.replicates);
@@ -49,11 +51,13 @@ pub fn coverage_estimates(truth: &Truth, expected: impl Fn(u32, u32) -> f64) -> 
     estimates
 }
 
-/// Fails unless the estimates of `replicates` replicates agree with the expected values: pixel by pixel, and in total.
+/// Fails unless the estimates of `replicates` replicates agree with the expected values: pixel by
+/// pixel, and in total.
 ///
-/// The pixel test is that of Mitsuba 3's render tests with Student's distribution in place of the normal one: at least
-/// 99.75 % of the pixels must have a p-value above Sidak's 1 - 0.99^(1/pixels). 99.75 % must also lie within four
-/// standard errors of a normal distribution (p = 6.3e-5). Errors that all pixels share show in the sum.
+/// The pixel test is that of Mitsuba 3's render tests with Student's distribution in place of the
+/// normal one: at least 99.75 % of the pixels must have a p-value above Sidak's 1 -
+/// 0.99^(1/pixels). 99.75 % must also lie within four standard errors of a normal distribution (p =
+/// 6.3e-5). Errors that all pixels share show in the sum.
 pub fn expect_agreement(what: &str, estimates: &[Estimate], replicates: u32) {
     let student = StudentsT::new(0.0, 1.0, f64::from(replicates - 1)).expect("degrees of freedom");
     let count = estimates.len() as f64;
@@ -81,8 +85,9 @@ pub fn expect_agreement(what: &str, estimates: &[Estimate], replicates: u32) {
     expect_total(what, estimates, |_| 1.0);
 }
 
-/// Fails unless the sum of all estimates, each times the weight of its index, agrees with the expected one. This finds
-/// errors that all pixels share and, with weights that grow across the picture, shifts.
+/// Fails unless the sum of all estimates, each times the weight of its index, agrees with the
+/// expected one. This finds errors that all pixels share and, with weights that grow across the
+/// picture, shifts.
 pub fn expect_total(what: &str, estimates: &[Estimate], weight: impl Fn(usize) -> f64) {
     let (mut sum, mut variance, mut rounding) = (0.0, 0.0, 0.0);
     for (index, estimate) in estimates.iter().enumerate() {
@@ -100,11 +105,12 @@ pub fn expect_total(what: &str, estimates: &[Estimate], weight: impl Fn(usize) -
     );
 }
 
-/// Fails unless the estimates agree with the expected values as a whole: their sum, and the size of their errors.
+/// Fails unless the estimates agree with the expected values as a whole: their sum, and the size of
+/// their errors.
 ///
-/// This is for lit scenes, where rare long paths make single pixels stray far more than Student's distribution allows.
-/// (Measured in a closed sphere of albedo 0.5: beyond 12 standard errors in 3 of 1000 pixels, the mean unbiased and the
-/// pooled error right to 2 %.)
+/// This is for lit scenes, where rare long paths make single pixels stray far more than Student's
+/// distribution allows. (Measured in a closed sphere of albedo 0.5: beyond 12 standard errors in 3
+/// of 1000 pixels, the mean unbiased and the pooled error right to 2 %.)
 pub fn expect_pooled_agreement(what: &str, estimates: &[Estimate]) {
     expect_total(what, estimates, |_| 1.0);
     let rms = |value: fn(&Estimate) -> f64| {
@@ -114,7 +120,8 @@ pub fn expect_pooled_agreement(what: &str, estimates: &[Estimate]) {
     let off = rms(|estimate| estimate.value - estimate.expected);
     let error = rms(|estimate| estimate.error);
     let rounding = ROUNDING * rms(|estimate| estimate.expected);
-    // Of 144 pixels: a factor of 1.5 is five sigma of the rms where tails are normal, and two where they are as above.
+    // Of 144 pixels: a factor of 1.5 is five sigma of the rms where tails are normal, and two where
+    // they are as above.
     assert!(
         off <= 1.5 * error + rounding,
         "{what}: pixels are off by {off} rms, their standard errors are {error}"

@@ -22,7 +22,8 @@ use sampling::{pixel_offsets, sequence};
 
 use crate::vector::minus;
 
-/// Exposure of every synthetic frame, in frames. It is not 1, so that a forgotten factor is noticed.
+/// Exposure of every synthetic frame, in frames. It is not 1, so that a forgotten factor is
+/// noticed.
 pub const EXPOSURE: f64 = 0.5;
 
 /// Viewing conditions where display white is radiance 1.
@@ -164,7 +165,8 @@ impl Scene {
         }
     }
 
-    /// Finds the pixels that the open shutter sees: the same for all truths of the scene, whatever their noise, rendered once per scene.
+    /// Finds the pixels that the open shutter sees: the same for all truths of the scene, whatever
+    /// their noise, rendered once per scene.
     pub fn support(&self) -> Support {
         static FOUND: Mutex<Vec<(Scene, Support)>> = Mutex::new(Vec::new());
         let mut found = FOUND.lock().expect("no test fails in here");
@@ -221,7 +223,8 @@ impl Scene {
             .collect()
     }
 
-    /// Renders accumulations of 1, 2, 4 .. 64 sub-frames; `seeds` gives each group's noise, which the whole shutter shares.
+    /// Renders accumulations of 1, 2, 4 .. 64 sub-frames; `seeds` gives each group's noise, which
+    /// the whole shutter shares.
     pub fn ladder(&self, samples: u32, seeds: [u64; 2]) -> Ladder {
         let rung = |subframes: u32| Accumulation {
             subframes,
@@ -315,7 +318,8 @@ fn ground(pixel: [u32; 2]) -> [f64; 3] {
     [0.7 * value, value, 1.1 * value]
 }
 
-/// Makes layers in which everything is known and still, for truths with scores that do not read them.
+/// Makes layers in which everything is known and still, for truths with scores that do not read
+/// them.
 fn nothing_unknown(color: &Image) -> AtInstant {
     AtInstant {
         placed: color.map(|_| 1.0),

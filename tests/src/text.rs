@@ -49,7 +49,8 @@ pub fn squeeze(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// Finds a page's first block of code that begins with this text, including its line of back quotes.
+/// Finds a page's first block of code that begins with this text, including its line of back
+/// quotes.
 pub fn code_block<'a>(page: &'a str, start: &str) -> &'a str {
     let (_, rest) = page.split_once(start).expect(start);
     rest.split("```").next().unwrap_or_default()

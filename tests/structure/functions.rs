@@ -43,7 +43,8 @@ fn no_function_is_longer_than_a_screen() {
 /// Words allowed before `fn`.
 const WORDS: &str = "pub pub(crate) pub(super) async const unsafe extern \"C\"";
 
-/// Finds the line, name and length of each function with a body; rustfmt puts its last bracket below its beginning.
+/// Finds the line, name and length of each function with a body; rustfmt puts its last bracket
+/// below its beginning.
 fn find_functions(text: &str) -> Vec<(usize, &str, usize)> {
     let lines: Vec<&str> = text.lines().collect();
     let mut found = Vec::new();

@@ -1,4 +1,5 @@
-//! The structure of the sources: no circle of modules in any crate, no long function, and the packages of the design.
+//! The structure of the sources: no circle of modules in any crate, no long function, and the
+//! packages of the design.
 
 mod circles;
 mod functions;

@@ -28,8 +28,8 @@ pub fn read_modules(sources: &Path) -> Texts {
     rust_files(sources).into_iter().map(read).collect()
 }
 
-/// Finds what each module uses. A name that another module re-exports counts as a use of its original module; the re-export itself is no
-/// use.
+/// Finds what each module uses. A name that another module re-exports counts as a use of its
+/// original module; the re-export itself is no use.
 pub fn find_pairs(texts: &Texts) -> Pairs {
     let (mut exports, mut uses) = (BTreeMap::new(), Vec::new());
     for (module, text) in texts {

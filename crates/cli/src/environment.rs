@@ -1,9 +1,10 @@
 //! Environment variables that the program needs.
 
-/// Restarts the program with the variables that it needs, if they are unset: a place for Mesa to look for a display, since Mesa otherwise
-/// complains at every start, though this program needs none; and the size of blocks that glibc gives back. Only a new process's
-/// environment can be changed without harm to threads. If that fails, the driver complains, pictures need more memory, and all else works.
-/// `loud` lets the driver complain.
+/// Restarts the program with the variables that it needs, if they are unset: a place for Mesa to
+/// look for a display, since Mesa otherwise complains at every start, though this program needs
+/// none; and the size of blocks that glibc gives back. Only a new process's environment can be
+/// changed without harm to threads. If that fails, the driver complains, pictures need more memory,
+/// and all else works. `loud` lets the driver complain.
 #[cfg(unix)]
 pub fn set_environment(loud: bool) {
     use std::os::unix::process::CommandExt;
@@ -13,9 +14,10 @@ pub fn set_environment(loud: bool) {
         // Nothing can be below a file: no display is found there, and nothing can be planted.
         missing.push(("XDG_RUNTIME_DIR", "/dev/null"));
     }
-    // Blocks of at least this many bytes, the plane of a 512x512 picture, go back to the system as soon as they are freed. Otherwise glibc
-    // raises its threshold to the size of the largest freed block, up to 32 MiB, and keeps smaller planes, so that pictures which are
-    // never alive at the same time add up in memory.
+    // Blocks of at least this many bytes, the plane of a 512x512 picture, go back to the system as
+    // soon as they are freed. Otherwise glibc raises its threshold to the size of the largest freed
+    // block, up to 32 MiB, and keeps smaller planes, so that pictures which are never alive at the
+    // same time add up in memory.
     let threshold = "MALLOC_MMAP_THRESHOLD_";
     let is_glibc = cfg!(all(target_os = "linux", target_env = "gnu"));
     if is_glibc && std::env::var_os(threshold).is_none() {

@@ -1,4 +1,5 @@
-//! Tests that compare pages with the command line, which is private to this crate: the page of all commands, and every command in a guide.
+//! Tests that compare pages with the command line, which is private to this crate: the page of all
+//! commands, and every command in a guide.
 
 use std::fs;
 use std::iter::once;
@@ -43,7 +44,8 @@ fn read_pages() -> Vec<String> {
     pages.collect()
 }
 
-/// Lists the commands of a page as words: lines of their own, and text in backquotes. Skips commands with shell variables.
+/// Lists the commands of a page as words: lines of their own, and text in backquotes. Skips
+/// commands with shell variables.
 fn find_commands(page: &str) -> Vec<Vec<String>> {
     let joined = page.replace("\\\n", " ");
     let is_command = |text: &&str| {
@@ -87,7 +89,8 @@ fn every_command_that_the_guides_show_is_one() {
 /// Adds the arguments of a group to a command.
 type Group = fn(Command) -> Command;
 
-/// Arguments that commands share: their heading on the page, and their group. A group comes after the groups that it includes.
+/// Arguments that commands share: their heading on the page, and their group. A group comes after
+/// the groups that it includes.
 const SHARED: [(&str, Group); 9] = [
     ("Every command", OutputArgs::augment_args),
     ("Scene folder", RootArgs::augment_args),
@@ -100,7 +103,8 @@ const SHARED: [(&str, Group); 9] = [
     ("Candidate", CandidateArgs::augment_args),
 ];
 
-/// Makes the page of all commands: its own introduction, each command's help, and the shared arguments.
+/// Makes the page of all commands: its own introduction, each command's help, and the shared
+/// arguments.
 fn commands_page(written: &str) -> String {
     let program = Cli::command_line();
     let mut text = written.split("\n## ").next().unwrap().to_owned();

@@ -64,8 +64,8 @@ pub fn run_program() -> ExitCode {
     }
 }
 
-/// Chooses the exit code: 1 for a failed check, 2 for usage and bad input, 3 without an adapter, 4 if a truth stayed noisier than
-/// requested or than a check needs, 128 plus the number of a signal.
+/// Chooses the exit code: 1 for a failed check, 2 for usage and bad input, 3 without an adapter, 4
+/// if a truth stayed noisier than requested or than a check needs, 128 plus the number of a signal.
 fn exit_code(error: &Error) -> u8 {
     match error {
         error if error.is_interruption() => interrupted_code(),

@@ -95,7 +95,8 @@ pub enum EngineCommand {
     Import(import::ImportArgs),
     /// Write scenes as glTF 2.0, so that an engine can draw them
     Export(export::ExportArgs),
-    /// Make a frame, a truth and a picture from an engine's images, so that `run` and `score` can measure them
+    /// Make a frame, a truth and a picture from an engine's images, so that `run` and `score` can
+    /// measure them
     Ingest(ingest::IngestArgs),
     /// Compare an engine's velocity and depth with the scene's, and name what is wrong
     Audit(audit::AuditArgs),

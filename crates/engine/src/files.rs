@@ -5,7 +5,8 @@ use std::path::{Display, Path};
 use frame::{FileError, write_atomically};
 use serde::Serialize;
 
-/// Refuses a file or a folder; the reason, a format and its values, names what was found and what is allowed.
+/// Refuses a file or a folder; the reason, a format and its values, names what was found and what
+/// is allowed.
 macro_rules! refuse {
     ($path:expr, $($reason:tt)*) => {
         Err(Error::Usage(format!("{}: {}", $path.display(), format_args!($($reason)*))))

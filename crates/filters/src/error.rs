@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-/// Error of a filter. Every message names the place, what was found, what is allowed, and the way out.
+/// Error of a filter. Every message names the place, what was found, what is allowed, and the way
+/// out.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FilterError {
     /// The machine offers no adapter at all.
@@ -11,7 +12,8 @@ pub enum FilterError {
          Vulkan driver serves: on Debian and Ubuntu `apt-get install mesa-vulkan-drivers libvulkan1`"
     )]
     NoAdapter,
-    /// A name that is unknown, an adapter that cannot be opened, or failures of a filter with values that its filter.toml allows.
+    /// A name that is unknown, an adapter that cannot be opened, or failures of a filter with
+    /// values that its filter.toml allows.
     #[error("{0}")]
     Refused(
         /// What was asked for, and what there is.
@@ -70,7 +72,8 @@ pub enum FilterError {
     /// A command was stopped on request.
     #[error("interrupted")]
     Interrupted,
-    /// A pass took too long and was given up. The adapter may still be at work on it, so nothing else is run there.
+    /// A pass took too long and was given up. The adapter may still be at work on it, so nothing
+    /// else is run there.
     #[error(
         "filter {filter}, pass {pass}: took longer than {time_limit} s and was given up; make it faster, or raise \
          time_limit in filter.toml"
@@ -83,7 +86,8 @@ pub enum FilterError {
         /// Time limit in seconds.
         time_limit: f64,
     },
-    /// The driver gave up the device while it compiled or ran a pass. The next filter gets a new one.
+    /// The driver gave up the device while it compiled or ran a pass. The next filter gets a new
+    /// one.
     #[error(
         "filter {filter}, pass {pass}: adapter \"{adapter}\" lost its device ({reason}); its driver cannot run this shader; \
          write it otherwise, or choose another adapter"

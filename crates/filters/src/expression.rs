@@ -1,6 +1,7 @@
 //! Arithmetic on parameters and on values of the frame and the convention.
 
-/// An expression: numbers, names, `+ - * / ^`, brackets, `floor(..)`, `ceil(..)`, `min(.., ..)` and `max(.., ..)`.
+/// An expression: numbers, names, `+ - * / ^`, brackets, `floor(..)`, `ceil(..)`, `min(.., ..)` and
+/// `max(.., ..)`.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Expression {
     /// A number.

@@ -11,27 +11,31 @@ pub(crate) const FRAMES_PER_SECOND: f64 = 60.0;
 /// Input of a filter: one instant, as in [`frame::Frame`].
 #[derive(Clone, Copy, Debug)]
 pub struct Input<'a> {
-    /// One or more images that are blurred with the same weights; an object's coverage may be passed as a colour.
+    /// One or more images that are blurred with the same weights; an object's coverage may be
+    /// passed as a colour.
     pub color: &'a [&'a Image],
     /// Screen motion in pixels per frame, +x right, +y down.
     pub velocity: &'a Vectors,
-    /// Screen motion from the instant to one frame later, likewise. Filters that read it refuse to run without it.
+    /// Screen motion from the instant to one frame later, likewise. Filters that read it refuse to
+    /// run without it.
     pub velocity_next: Option<&'a Vectors>,
-    /// Change of depth over the interval of `velocity`, in metres per frame; above 0 moves away. Filters that read it refuse to run
-    /// without it.
+    /// Change of depth over the interval of `velocity`, in metres per frame; above 0 moves away.
+    /// Filters that read it refuse to run without it.
     pub velocity_z: Option<&'a Plane>,
-    /// 1 on objects that a blur leaves alone, 0 elsewhere. Filters that read it refuse to run without it.
+    /// 1 on objects that a blur leaves alone, 0 elsewhere. Filters that read it refuse to run
+    /// without it.
     pub exclusion: Option<&'a Plane>,
     /// Distance along the view axis, in metres; above 0.
     pub depth: &'a Plane,
-    /// The camera's motion since the frame before, between places of these rasters. Filters that read it refuse to run
-    /// without it.
+    /// The camera's motion since the frame before, between places of these rasters. Filters that
+    /// read it refuse to run without it.
     pub reprojection: Option<Reprojection>,
     /// The camera, for shaders that read its matrices. They refuse to run without it.
     pub camera: Option<Camera>,
     /// Time that the shutter is open, in frames; above 0.
     pub exposure: f64,
-    /// Frames per second, if the frame says its rate. It takes precedence over a filter's convention.
+    /// Frames per second, if the frame says its rate. It takes precedence over a filter's
+    /// convention.
     pub frames_per_second: Option<f64>,
     /// Changes the noise of filters that have any, and nothing else.
     pub frame_index: u32,

@@ -1,8 +1,8 @@
-//! Motion blur filters: a filter is a folder with `filter.toml` and one WGSL file, with shaders of an engine, or with the command
-//! of a program that blurs files.
+//! Motion blur filters: a filter is a folder with `filter.toml` and one WGSL file, with shaders of
+//! an engine, or with the command of a program that blurs files.
 //!
-//! `shaders/README.md` says how to write one. Images, velocity, depth and time follow the conventions of the
-//! [`frame`] crate.
+//! `shaders/README.md` says how to write one. Images, velocity, depth and time follow the
+//! conventions of the [`frame`] crate.
 //!
 //! | module | contents |
 //! |---|---|

@@ -4,8 +4,9 @@ use frame::is_hidden;
 
 /// Refuses a one-line text that should not be shown to people.
 ///
-/// Refused are control characters, which move cursors and begin lines; marks that reverse the direction of writing; and words
-/// that a CI service reads as a command, such as GitHub's `::error::`.
+/// Refused are control characters, which move cursors and begin lines; marks that reverse the
+/// direction of writing; and words that a CI service reads as a command, such as GitHub's
+/// `::error::`.
 pub(crate) fn check_line(text: &str) -> Result<(), String> {
     if let Some(found) = text.chars().find(|c| is_invisible(*c)) {
         return Err(format!(

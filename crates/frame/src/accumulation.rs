@@ -1,4 +1,5 @@
-//! Accumulations: averages of a few sub-frames, and the ladder of them that errors are measured against.
+//! Accumulations: averages of a few sub-frames, and the ladder of them that errors are measured
+//! against.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,20 +8,22 @@ use crate::exr::{ExrFile, read_exr, write_small_exr};
 use crate::shutter::{get_shutter, set_shutter};
 use crate::{Alignment, FileError, Picture, Provenance, Shutter, ShutterProfile};
 
-/// Most groups of samples that scores' intervals leave out in turn, of a frame, a truth and its ladder together.
+/// Most groups of samples that scores' intervals leave out in turn, of a frame, a truth and its
+/// ladder together.
 pub const MOST_GROUPS: u32 = 4;
 
-/// Mean of `subframes` instants in the middles of equal parts of the shutter's light. By instant k of N, `(k + 0.5) / N` of the
-/// light has passed; for a shutter that opens at once it is `open + (k + 0.5) / N * (close - open)`.
+/// Mean of `subframes` instants in the middles of equal parts of the shutter's light. By instant k
+/// of N, `(k + 0.5) / N` of the light has passed; for a shutter that opens at once it is `open + (k
+/// + 0.5) / N * (close - open)`.
 ///
-/// It is stored as its difference from the picture of the whole shutter. Both were rendered with the same random numbers, so
-/// the difference has little noise, and none of the truth's.
+/// It is stored as its difference from the picture of the whole shutter. Both were rendered with
+/// the same random numbers, so the difference has little noise, and none of the truth's.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Accumulation {
     /// Number of instants that were averaged.
     pub subframes: u32,
-    /// Differences from the whole shutter's picture: radiance and shares that may be negative. Each is the mean of an independent
-    /// group of samples; there are at least two.
+    /// Differences from the whole shutter's picture: radiance and shares that may be negative. Each
+    /// is the mean of an independent group of samples; there are at least two.
     pub groups: Vec<Picture>,
 }
 
@@ -30,14 +33,16 @@ impl Accumulation {
         Picture::mean(&self.groups)
     }
 
-    /// Averages the even and the odd groups. Of one group alone, both halves are that group, and its noise counts as error.
+    /// Averages the even and the odd groups. Of one group alone, both halves are that group, and
+    /// its noise counts as error.
     pub fn halves(&self) -> [Picture; 2] {
         let odd = usize::from(self.groups.len() > 1);
         [0, odd].map(|first| Picture::mean(self.groups.iter().skip(first).step_by(2)))
     }
 
-    /// Makes the picture of the accumulation from the truth's mean. Its noise is the truth's and that of the difference. Nothing is
-    /// clamped, which would bias it: noise can take dark colours and small shares slightly below 0.
+    /// Makes the picture of the accumulation from the truth's mean. Its noise is the truth's and
+    /// that of the difference. Nothing is clamped, which would bias it: noise can take dark colours
+    /// and small shares slightly below 0.
     pub fn picture(&self, mean: &Picture) -> Picture {
         mean.plus(&self.difference())
     }
@@ -54,8 +59,8 @@ impl Accumulation {
     }
 }
 
-/// Accumulations of 1, 2, 4 .. sub-frames over the same shutter. Together they take much memory, so measuring keeps one at a
-/// time, as a ladder of one rung.
+/// Accumulations of 1, 2, 4 .. sub-frames over the same shutter. Together they take much memory, so
+/// measuring keeps one at a time, as a ladder of one rung.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ladder {
     /// Origin of the accumulations.
@@ -86,8 +91,8 @@ impl Ladder {
         }
     }
 
-    /// Writes the ladder as OpenEXR: layers `n<N>.0`, `n<N>.1` .. per rung, one per group. Consumes the ladder, because a copy
-    /// would double the memory of measuring.
+    /// Writes the ladder as OpenEXR: layers `n<N>.0`, `n<N>.1` .. per rung, one per group. Consumes
+    /// the ladder, because a copy would double the memory of measuring.
     pub fn write(self, path: &Path) -> Result<(), FileError> {
         // Away from motion all differences are 0.
         write_small_exr(path, self.into_exr())
@@ -134,8 +139,8 @@ impl Ladder {
         Ok(())
     }
 
-    /// Reads a ladder bit for bit: a file that [`Ladder::write`] wrote, or all files of a folder that [`Ladder::write_rungs`] wrote.
-    /// Refuses a folder whose files belong to several ladders.
+    /// Reads a ladder bit for bit: a file that [`Ladder::write`] wrote, or all files of a folder
+    /// that [`Ladder::write_rungs`] wrote. Refuses a folder whose files belong to several ladders.
     pub fn read(path: &Path) -> Result<Self, FileError> {
         if !path.is_dir() {
             return Self::read_file(path);

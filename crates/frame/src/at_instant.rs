@@ -6,21 +6,24 @@ use crate::exr::{ExrFile, in_layer};
 use crate::raster::{mean_plane, mean_vectors};
 use crate::{FileError, Image, Plane, Raster, Vectors};
 
-/// Surfaces that the open shutter sees, as they were at the instant: which of them a filter could know. Values are means over all
-/// samples of the shutter and the pixel's area, so that means of several renders are exact. All rasters have the same size.
+/// Surfaces that the open shutter sees, as they were at the instant: which of them a filter could
+/// know. Values are means over all samples of the shutter and the pixel's area, so that means of
+/// several renders are exact. All rasters have the same size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AtInstant {
-    /// Change of the radiance if each visible point sends what it sent at `t = 0`: see [`AtInstant::frozen`]. Zero outside
-    /// [`shaded_region`](crate::shaded_region). A replicate stores half floats: see [`AtInstant::rounded`].
+    /// Change of the radiance if each visible point sends what it sent at `t = 0`: see
+    /// [`AtInstant::frozen`]. Zero outside [`shaded_region`](crate::shaded_region). A replicate
+    /// stores half floats: see [`AtInstant::rounded`].
     pub shift: Image,
-    /// Fraction with a visible point that the instant's frame does not show: it was outside the picture, hidden, or
-    /// showed its other side. Zero outside the same region.
+    /// Fraction with a visible point that the instant's frame does not show: it was outside the
+    /// picture, hidden, or showed its other side. Zero outside the same region.
     pub unknowable: Plane,
     /// Fraction with a visible point that has a place at the instant: all that was not behind the
     /// camera. Divide the next fields by it to get means over that fraction.
     pub placed: Plane,
-    /// Offset from the pixel's centre to the visible point's place at the instant, in pixels, +x right, +y down; zero for a point
-    /// without a place, and outside the moving region. A replicate stores half floats.
+    /// Offset from the pixel's centre to the visible point's place at the instant, in pixels, +x
+    /// right, +y down; zero for a point without a place, and outside the moving region. A replicate
+    /// stores half floats.
     pub offset: Vectors,
     /// Squares xx and yy of that offset, in square pixels; the same applies.
     pub spread: Vectors,
@@ -42,17 +45,19 @@ impl AtInstant {
         }
     }
 
-    /// Makes the picture with shading frozen at the instant from the picture of the open shutter: visibility changes, shading does not. It
-    /// lacks shadows, reflections and lights that move, which no frame of the instant shows. The change is an unbiased estimate, so its
-    /// noise may push the picture below 0.
+    /// Makes the picture with shading frozen at the instant from the picture of the open shutter:
+    /// visibility changes, shading does not. It lacks shadows, reflections and lights that move,
+    /// which no frame of the instant shows. The change is an unbiased estimate, so its noise may
+    /// push the picture below 0.
     pub fn frozen(&self, color: &Image) -> Image {
         color.zip(&self.shift, |color, shift| {
             std::array::from_fn(|component| color[component] + shift[component])
         })
     }
 
-    /// Rounds all but fractions to half floats, which have 11 significant bits: the error is at most 1 part in 4096, far below the noise
-    /// of a replicate, and its file shrinks by half. Values larger than any half float stay. Means of replicates are not rounded.
+    /// Rounds all but fractions to half floats, which have 11 significant bits: the error is at
+    /// most 1 part in 4096, far below the noise of a replicate, and its file shrinks by half.
+    /// Values larger than any half float stay. Means of replicates are not rounded.
     pub fn rounded(self) -> AtInstant {
         AtInstant {
             shift: self.shift.map(|shift| shift.map(nearest_half)),
@@ -62,8 +67,8 @@ impl AtInstant {
         }
     }
 
-    /// Sets offsets and their squares to 0 outside a region. Where nothing moves they are the means of places within a pixel, which no score
-    /// is about, and which fill a third of a file.
+    /// Sets offsets and their squares to 0 outside a region. Where nothing moves they are the means
+    /// of places within a pixel, which no score is about, and which fill a third of a file.
     pub fn within(self, region: &Raster<bool>) -> AtInstant {
         let keep = |own: &[f32; 2], inside: &bool| if *inside { *own } else { [0.0; 2] };
         AtInstant {

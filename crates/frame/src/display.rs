@@ -34,7 +34,8 @@ impl Default for FlipExposures {
     }
 }
 
-/// Upper limit on the stops of a display or of FLIP, up or down. Radiance times `2^stops` stays a number.
+/// Upper limit on the stops of a display or of FLIP, up or down. Radiance times `2^stops` stays a
+/// number.
 pub const MAX_STOPS: f32 = 32.0;
 
 /// Upper limit on the exposures of HDR-FLIP.
@@ -100,7 +101,8 @@ impl Display {
     }
 }
 
-/// Encodes a radiance component as an sRGB value in [0, 1]: scaled by `2^stops`, clamped, IEC 61966-2-1.
+/// Encodes a radiance component as an sRGB value in [0, 1]: scaled by `2^stops`, clamped, IEC
+/// 61966-2-1.
 fn encode_srgb(linear: f32, stops: f32) -> f32 {
     let value = (linear * stops.exp2()).clamp(0.0, 1.0);
     if value <= 0.003_130_8 {
@@ -124,8 +126,8 @@ pub fn decode_srgb(srgb: f32) -> f32 {
     }
 }
 
-/// Converts display values in [0, 1] to a scene-linear image: decodes sRGB and undoes the photographic exposure of `stops`.
-/// Radiance above display white stays at display white.
+/// Converts display values in [0, 1] to a scene-linear image: decodes sRGB and undoes the
+/// photographic exposure of `stops`. Radiance above display white stays at display white.
 pub fn scene_linear(display: &Image, stops: f32) -> Image {
     let factor = (-stops).exp2();
     display.map(|pixel| pixel.map(|component| factor * decode_srgb(component)))

@@ -1,4 +1,5 @@
-//! The frame that an engine would hand to its motion blur: colour, velocity and depth of one instant.
+//! The frame that an engine would hand to its motion blur: colour, velocity and depth of one
+//! instant.
 
 use std::path::Path;
 
@@ -24,7 +25,8 @@ pub struct Frame {
     pub options: FrameOptions,
     /// Pixels by which all rasters extend beyond the picture on every side.
     pub guard_band: u32,
-    /// The camera's motion since the frame before, between places of the picture without its guard band.
+    /// The camera's motion since the frame before, between places of the picture without its guard
+    /// band.
     pub reprojection: Reprojection,
     /// The camera; none in a frame that another program rendered.
     pub camera: Option<Camera>,
@@ -36,17 +38,19 @@ pub struct Frame {
     pub color: Image,
     /// Screen motion over one frame interval at the pixel centre, in pixels; +x right, +y down.
     pub velocity: Vectors,
-    /// Screen motion from the instant to one frame later, of the same points and in the same units. Few filters read it; none in a
-    /// frame that was not asked for it.
+    /// Screen motion from the instant to one frame later, of the same points and in the same units.
+    /// Few filters read it; none in a frame that was not asked for it.
     pub velocity_next: Option<Vectors>,
-    /// Change of depth over the interval of `velocity`, in metres per frame; above 0 moves away. Few filters read it, as above.
+    /// Change of depth over the interval of `velocity`, in metres per frame; above 0 moves away.
+    /// Few filters read it, as above.
     pub velocity_z: Option<Plane>,
-    /// Distance along the view axis at the pixel centre, in metres; [`FAR_DEPTH`] where nothing is seen.
+    /// Distance along the view axis at the pixel centre, in metres; [`FAR_DEPTH`] where nothing is
+    /// seen.
     pub depth: Plane,
     /// The object seen at the pixel centre.
     pub object_id: Raster<u32>,
-    /// Fraction of the pixel's area in which an object is visible at the instant, per object; 0 or 1 if colour is sampled at the
-    /// centre.
+    /// Fraction of the pixel's area in which an object is visible at the instant, per object; 0 or
+    /// 1 if colour is sampled at the centre.
     pub coverage: Vec<Plane>,
     /// Samples per pixel; none in a frame that another program rendered.
     pub samples: Option<Plane>,

@@ -53,8 +53,8 @@ pub enum VelocityKind {
     Instantaneous,
     /// `x(0) - x(-1)`, the motion since the frame before, which engines provide.
     PreviousFrame,
-    /// The motion since the frame before as if everything stood still in the world, from depth and both frames' cameras alone:
-    /// all that is known without a velocity buffer.
+    /// The motion since the frame before as if everything stood still in the world, from depth and
+    /// both frames' cameras alone: all that is known without a velocity buffer.
     CameraOnly,
 }
 
@@ -65,7 +65,8 @@ pub enum ColorSampling {
     /// Filtered over the pixel's area.
     #[default]
     Antialiased,
-    /// Sampled at the pixel's centre, as by a rasteriser without multisampling. Coverage is then 0 or 1.
+    /// Sampled at the pixel's centre, as by a rasteriser without multisampling. Coverage is then 0
+    /// or 1.
     Point,
 }
 

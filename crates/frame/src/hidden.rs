@@ -1,7 +1,8 @@
 //! Hidden characters: those that a reader of a name or a message does not see.
 
-/// Returns true for characters that terminals, logs and reports obey instead of showing: control characters, line and paragraph
-/// separators, and marks that turn the direction of writing. Names with one are refused; messages are written without.
+/// Returns true for characters that terminals, logs and reports obey instead of showing: control
+/// characters, line and paragraph separators, and marks that turn the direction of writing. Names
+/// with one are refused; messages are written without.
 pub fn is_hidden(letter: char) -> bool {
     letter.is_control()
         || matches!(letter, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')

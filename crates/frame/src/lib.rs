@@ -1,5 +1,5 @@
-//! Images, the frame of an instant, the truth of a shutter interval, and their files: all that the tracer hands to filters and
-//! metrics.
+//! Images, the frame of an instant, the truth of a shutter interval, and their files: all that the
+//! tracer hands to filters and metrics.
 //!
 //! # The contract
 //!

@@ -16,11 +16,14 @@ pub struct Provenance {
     pub samples_per_pixel: u32,
     /// Number of independent, complete renders that were averaged.
     pub replicates: u32,
-    /// Instructions that traced the rays, `avx2` or `portable`. Both find the same hits, so pixels do not depend on it.
+    /// Instructions that traced the rays, `avx2` or `portable`. Both find the same hits, so pixels
+    /// do not depend on it.
     pub traversal: String,
-    /// Hash of scene, meshes, textures, settings and the tracer, in hexadecimal: equal hashes mean equal pixels.
+    /// Hash of scene, meshes, textures, settings and the tracer, in hexadecimal: equal hashes mean
+    /// equal pixels.
     pub content_hash: String,
-    /// Engine that drew the pictures; its sub-frames then count as samples. None if rays were traced.
+    /// Engine that drew the pictures; its sub-frames then count as samples. None if rays were
+    /// traced.
     pub engine: Option<String>,
 }
 

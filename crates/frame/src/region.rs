@@ -6,17 +6,21 @@ use crate::{Image, Raster, Support};
 /// A set of pixels that the truth defines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Region {
-    /// Pixels where anything moved on screen while the shutter was open, and a margin for bleed around them.
+    /// Pixels where anything moved on screen while the shutter was open, and a margin for bleed
+    /// around them.
     Moving,
     /// The same without the margin, which would dilute the errors of a thin smear.
     Support,
-    /// Pixels where nothing moved: the picture there equals the instant's. `static` in names and files.
+    /// Pixels where nothing moved: the picture there equals the instant's. `static` in names and
+    /// files.
     Still,
-    /// The whole picture. It is reported because readers expect it; a filter that does nothing looks good here.
+    /// The whole picture. It is reported because readers expect it; a filter that does nothing
+    /// looks good here.
     Full,
     /// Moving pixels where the frame of the instant shows everything that the shutter sees.
     Knowable,
-    /// The other moving pixels. The frame does not show all that the shutter sees there, so every filter has to guess.
+    /// The other moving pixels. The frame does not show all that the shutter sees there, so every
+    /// filter has to guess.
     Unknowable,
 }
 
@@ -47,8 +51,8 @@ words! {
 }
 
 impl Regions {
-    /// Makes the regions of a support, which the noise of a truth does not change. The moving region is dilated by `margin` pixels,
-    /// because bleed leaves the support.
+    /// Makes the regions of a support, which the noise of a truth does not change. The moving
+    /// region is dilated by `margin` pixels, because bleed leaves the support.
     pub(crate) fn new(support: &Support, margin: u32) -> Self {
         let hidden = &support.unknowable;
         let moving = dilate(&support.moving, margin);
@@ -105,7 +109,8 @@ pub(crate) fn dilate(set: &Raster<bool>, radius: u32) -> Raster<bool> {
     disc
 }
 
-/// Marks in row `y` of `disc` the pixels within `half_width` columns of one of `columns`, which rise.
+/// Marks in row `y` of `disc` the pixels within `half_width` columns of one of `columns`, which
+/// rise.
 fn widen(columns: &[usize], half_width: u32, disc: &mut Raster<bool>, y: u32) {
     let width = disc.width as usize;
     let target = &mut disc.pixels[y as usize * width..][..width];
@@ -117,8 +122,9 @@ fn widen(columns: &[usize], half_width: u32, disc: &mut Raster<bool>, y: u32) {
     }
 }
 
-/// Estimates the root mean square error of the mean of two halves over a region; `None` if the region is empty. With independent
-/// halves the expectation of `(A - B)^2 / 4` is the squared error of `(A + B) / 2`.
+/// Estimates the root mean square error of the mean of two halves over a region; `None` if the
+/// region is empty. With independent halves the expectation of `(A - B)^2 / 4` is the squared error
+/// of `(A + B) / 2`.
 pub(crate) fn estimate_noise(
     halves: [&Image; 2],
     regions: &Regions,

@@ -9,10 +9,12 @@ use crate::{
     Alignment, AtInstant, FileError, Picture, Plane, Provenance, Shutter, ShutterProfile, Support,
 };
 
-/// One of the renders that a [`Truth`](crate::Truth) is the mean of. All rasters have the same size.
+/// One of the renders that a [`Truth`](crate::Truth) is the mean of. All rasters have the same
+/// size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Replicate {
-    /// Origin of the replicate; all replicates of one truth have the same content hash, whatever their number.
+    /// Origin of the replicate; all replicates of one truth have the same content hash, whatever
+    /// their number.
     pub provenance: Provenance,
     /// Index from 0, which chooses the random numbers.
     pub index: u32,
@@ -32,12 +34,14 @@ pub struct Replicate {
     pub at_instant: AtInstant,
     /// Samples per pixel: the same for all replicates of a scene, exposure, size and seed.
     pub samples: Plane,
-    /// Pixels that scores are pooled over: the same for all replicates of a scene, shutter and size.
+    /// Pixels that scores are pooled over: the same for all replicates of a scene, shutter and
+    /// size.
     pub support: Support,
 }
 
 impl Replicate {
-    /// Writes the replicate as OpenEXR: `R G B`, `coverage.<object>`, `samples`, and the channels of [`AtInstant`] and [`Support`].
+    /// Writes the replicate as OpenEXR: `R G B`, `coverage.<object>`, `samples`, and the channels
+    /// of [`AtInstant`] and [`Support`].
     pub fn write(&self, path: &Path) -> Result<(), FileError> {
         write_small_exr(path, self.to_exr())
     }
@@ -64,7 +68,8 @@ impl Replicate {
         file
     }
 
-    /// Names a property that replicates of one truth share and these two do not; `None` if there is none.
+    /// Names a property that replicates of one truth share and these two do not; `None` if there is
+    /// none.
     pub(crate) fn find_difference(&self, other: &Replicate) -> Option<&'static str> {
         let shutter = |own: &Replicate| (own.shutter, own.alignment, own.shutter_profile.clone());
         let samples = |own: &Replicate| own.provenance.samples_per_pixel;

@@ -3,12 +3,13 @@
 use crate::FileError;
 use crate::exr::ExrFile;
 
-/// The camera's motion since the frame before, as it moves the pixels of a picture: all that an engine knows without a
-/// velocity buffer.
+/// The camera's motion since the frame before, as it moves the pixels of a picture: all that an
+/// engine knows without a velocity buffer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reprojection {
-    /// Three rows that act on (x, y, 1, 1 / depth), in pixels from the picture's top left and metres. They give (x', y', 1) times a
-    /// number, which is positive if the point was in front of the last frame's camera.
+    /// Three rows that act on (x, y, 1, 1 / depth), in pixels from the picture's top left and
+    /// metres. They give (x', y', 1) times a number, which is positive if the point was in front of
+    /// the last frame's camera.
     pub rows: [[f64; 4]; 3],
 }
 

@@ -2,7 +2,8 @@
 
 use crate::{Image, Raster};
 
-/// Places pictures of one size side by side, `columns` in a row, with gaps in a colour between them.
+/// Places pictures of one size side by side, `columns` in a row, with gaps in a colour between
+/// them.
 pub fn tile_pictures(pictures: &[Image], columns: u32, gap: u32, color: [f32; 3]) -> Image {
     let (width, height) = (pictures[0].width + gap, pictures[0].height + gap);
     let columns = columns.min(pictures.len() as u32);

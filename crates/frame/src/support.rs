@@ -5,8 +5,9 @@ use crate::{FileError, Plane, Raster, Tile};
 
 /// Visibility in each pixel while the shutter was open, as probe rays found it.
 ///
-/// The probe is a pure function of scene, shutter and picture size: no seed and no number of samples of a truth changes it.
-/// It stays the same while a truth converges. All rasters have the same size.
+/// The probe is a pure function of scene, shutter and picture size: no seed and no number of
+/// samples of a truth changes it. It stays the same while a truth converges. All rasters have the
+/// same size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Support {
     /// Pixels where an object was seen, per object, the background first.
@@ -35,7 +36,8 @@ impl Support {
         }
     }
 
-    /// Adds `support.seen.<object>`, `support.moving` and `support.unknowable`, 1 inside the mask and 0 elsewhere.
+    /// Adds `support.seen.<object>`, `support.moving` and `support.unknowable`, 1 inside the mask
+    /// and 0 elsewhere.
     pub(crate) fn push(&self, file: &mut ExrFile, objects: &[String]) {
         let mut push = |name: &str, mask: &Raster<bool>| {
             file.push_plane(&channel(name), &mask.map(|holds| f32::from(*holds)));

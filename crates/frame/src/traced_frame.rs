@@ -13,12 +13,14 @@ const REPLICATES: &str = "frame_replicates";
 pub struct TracedFrame {
     /// The frame.
     pub frame: Frame,
-    /// Independent, complete renders of its colour and coverage, which are their mean. Nothing else in a frame has noise.
+    /// Independent, complete renders of its colour and coverage, which are their mean. Nothing else
+    /// in a frame has noise.
     pub replicates: Vec<Picture>,
 }
 
 impl TracedFrame {
-    /// Writes the frame as [`Frame::write`] does, and each replicate as a layer: `replicate_0.R`, `replicate_0.coverage.<object>`.
+    /// Writes the frame as [`Frame::write`] does, and each replicate as a layer: `replicate_0.R`,
+    /// `replicate_0.coverage.<object>`.
     pub fn write(&self, path: &Path) -> Result<(), FileError> {
         write_small_exr(path, self.to_exr())
     }
@@ -34,7 +36,8 @@ impl TracedFrame {
     }
 }
 
-/// Reads the replicates of a frame's file; none if another program made it, or if it was written without them.
+/// Reads the replicates of a frame's file; none if another program made it, or if it was written
+/// without them.
 pub fn read_frame_replicates(path: &Path) -> Result<Vec<Picture>, FileError> {
     let mut file = read_exr(path)?;
     file.expect_kind("frame")?;

@@ -13,7 +13,8 @@ use crate::{
     Replicate, Shutter, ShutterProfile, Support,
 };
 
-/// Radiance and visibility integrated over the shutter, with its own noise. All rasters have the same size.
+/// Radiance and visibility integrated over the shutter, with its own noise. All rasters have the
+/// same size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Truth {
     /// Origin of the truth.
@@ -34,7 +35,8 @@ pub struct Truth {
     pub samples: Plane,
     /// Standard error of [`Truth::mean`], from the spread of the replicates.
     pub standard_error: Image,
-    /// Fraction of (shutter x pixel area) in which the visible surface moves on screen while the shutter is open.
+    /// Fraction of (shutter x pixel area) in which the visible surface moves on screen while the
+    /// shutter is open.
     pub motion: Plane,
     /// Pixels that scores are pooled over; unlike the other rasters it has no noise.
     pub support: Support,
@@ -83,7 +85,8 @@ pub enum TruthError {
 }
 
 impl Truth {
-    /// Averages `replicates`, and each half of them. They are an even number, in the order of their indices from 0.
+    /// Averages `replicates`, and each half of them. They are an even number, in the order of their
+    /// indices from 0.
     pub fn of(replicates: &[Replicate]) -> Result<Self, TruthError> {
         if replicates.is_empty() || !replicates.len().is_multiple_of(2) {
             return Err(TruthError::Count(replicates.len()));
@@ -160,8 +163,8 @@ impl Truth {
         Picture::mean(&self.halves)
     }
 
-    /// Lists the noise floor of every region that is not empty: the root mean square error of the mean's radiance, estimated from
-    /// the difference of the halves.
+    /// Lists the noise floor of every region that is not empty: the root mean square error of the
+    /// mean's radiance, estimated from the difference of the halves.
     pub fn noise_floors(&self) -> Vec<(Region, f64)> {
         let masks = regions(self);
         let halves = [&self.halves[0].color, &self.halves[1].color];
@@ -170,9 +173,10 @@ impl Truth {
             .collect()
     }
 
-    /// Writes the truth as OpenEXR: the mean as `R G B`, `coverage.<object>` and `unknowable`, the halves of both and of [`AtInstant`] as
-    /// layers `A` and `B`, `stderr.R/G/B`, `motion`, `samples`, and the channels of [`Support`]. The attributes `noise_floor_<region>`
-    /// hold [`Truth::noise_floors`].
+    /// Writes the truth as OpenEXR: the mean as `R G B`, `coverage.<object>` and `unknowable`, the
+    /// halves of both and of [`AtInstant`] as layers `A` and `B`, `stderr.R/G/B`, `motion`,
+    /// `samples`, and the channels of [`Support`]. The attributes `noise_floor_<region>` hold
+    /// [`Truth::noise_floors`].
     pub fn write(&self, path: &Path) -> Result<(), FileError> {
         write_small_exr(path, self.to_exr())
     }
@@ -237,8 +241,8 @@ impl Truth {
 
 /// Derives the regions from the truth's [`Support`], which its noise does not change.
 ///
-/// Support: pixels where anything moves. Moving: the support dilated by [`motion_margin`]. Static: the
-/// rest. Moving pixels are knowable where the support saw nothing that the frame does not show.
+/// Support: pixels where anything moves. Moving: the support dilated by [`motion_margin`]. Static:
+/// the rest. Moving pixels are knowable where the support saw nothing that the frame does not show.
 pub fn regions(truth: &Truth) -> Regions {
     Regions::new(&truth.support, motion_margin(truth.motion.height))
 }
@@ -251,15 +255,16 @@ pub fn moving_region(support: &Support) -> Raster<bool> {
 /// Pixels on every side of a pixel that FLIP filters together with it, at 67 pixels per degree.
 pub const FLIP_REACH: u32 = 10;
 
-/// Marks the pixels whose shading at the instant scores look at: those of [`Region::Moving`], and those that FLIP filters together
-/// with them.
+/// Marks the pixels whose shading at the instant scores look at: those of [`Region::Moving`], and
+/// those that FLIP filters together with them.
 pub fn shaded_region(support: &Support) -> Raster<bool> {
     let margin = motion_margin(support.moving.height) + FLIP_REACH;
     dilate(&support.moving, margin)
 }
 
-/// Returns the margin around motion that is searched for blur, in pixels: a fifteenth of a picture's height, because bleed
-/// leaves the support. The moving region and accumulations include it.
+/// Returns the margin around motion that is searched for blur, in pixels: a fifteenth of a
+/// picture's height, because bleed leaves the support. The moving region and accumulations include
+/// it.
 pub fn motion_margin(height: u32) -> u32 {
     (f64::from(height) / 15.0).round() as u32
 }

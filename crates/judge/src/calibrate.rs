@@ -16,13 +16,15 @@ use crate::numbers::number;
 
 /// Margin, in standard deviations.
 const DEVIATIONS: f64 = 3.0;
-/// Smallest margin as a fraction of the worst score: rounding and another compiler may change as much.
+/// Smallest margin as a fraction of the worst score: rounding and another compiler may change as
+/// much.
 const LEAST_PART: f64 = 0.05;
 /// Factor above the strictest limit that the truth's noise allows, since that varies too.
 const ABOVE_STRICTEST: f64 = 1.2;
 
-/// Metrics that react to small changes of a kernel. Only the first has a default bound, which allows far more than a filter changes
-/// that leaves still pixels alone; the others have none, since a good filter's scores differ from scene to scene.
+/// Metrics that react to small changes of a kernel. Only the first has a default bound, which
+/// allows far more than a filter changes that leaves still pixels alone; the others have none,
+/// since a good filter's scores differ from scene to scene.
 const SENSITIVE: [Metric; 4] = [
     Metric::StaticContamination,
     Metric::Probe(ProbeMetric::GatherSpread),
@@ -30,9 +32,10 @@ const SENSITIVE: [Metric; 4] = [
     Metric::Label(LabelMetric::P95),
 ];
 
-/// Smallest limit on an error, by its unit: a tenth of a pixel, half a hundredth of a number without a unit. If a score is 0 in every
-/// run, its spread says nothing, and another adapter need not agree to the last bit. `static_contamination` compares still pixels with
-/// the frame and knows no noise: its limit once came out as 6.5e-9, which is rounding alone.
+/// Smallest limit on an error, by its unit: a tenth of a pixel, half a hundredth of a number
+/// without a unit. If a score is 0 in every run, its spread says nothing, and another adapter need
+/// not agree to the last bit. `static_contamination` compares still pixels with the frame and knows
+/// no noise: its limit once came out as 6.5e-9, which is rounding alone.
 const LEAST_LIMITS: [(&str, f64); 4] = [
     ("px", 0.1),
     ("white", 1e-5),
@@ -62,8 +65,8 @@ struct Sample {
     interval: Option<Interval>,
 }
 
-/// Gathers scores from several runs of the same scenes, size, frames and filters: `metrics`, or [`default_metrics`] and all scores of
-/// sequences if none are given.
+/// Gathers scores from several runs of the same scenes, size, frames and filters: `metrics`, or
+/// [`default_metrics`] and all scores of sequences if none are given.
 pub fn calibrate<'a>(
     runs: &[Run],
     bounds: impl Fn(&Case) -> &'a SceneBounds,
@@ -109,18 +112,20 @@ pub fn calibrate<'a>(
     calibration
 }
 
-/// Lists the metrics to limit for a filter preset if none are named: the scene's bounded ones, and those that react to kernel changes which
-/// these let pass.
+/// Lists the metrics to limit for a filter preset if none are named: the scene's bounded ones, and
+/// those that react to kernel changes which these let pass.
 pub fn default_metrics(bounds: &SceneBounds, filter: &str, preset: &str) -> Vec<Metric> {
     let bounded = bounds.of(filter, preset).into_keys();
     let metrics: BTreeSet<Metric> = bounded.chain(SENSITIVE).collect();
     metrics.into_iter().collect()
 }
 
-/// Proposes a limit from the scores of one metric, with its reason in one line. It is the worst value in any interval, as a check demands,
-/// plus a margin: three standard deviations between runs, or a twentieth of the worst score if that is more. It is at least 1.2 times as
-/// far from perfect as the strictest limit that the truth's noise allows, and at least one of [`LEAST_LIMITS`]. It is
-/// rounded to two digits, away from perfect. Parts of JOD are parts of its distance from 10.
+/// Proposes a limit from the scores of one metric, with its reason in one line. It is the worst
+/// value in any interval, as a check demands, plus a margin: three standard deviations between
+/// runs, or a twentieth of the worst score if that is more. It is at least 1.2 times as far from
+/// perfect as the strictest limit that the truth's noise allows, and at least one of
+/// [`LEAST_LIMITS`]. It is rounded to two digits, away from perfect. Parts of JOD are parts of its
+/// distance from 10.
 fn propose(metric: Metric, samples: &[Sample]) -> (f64, String) {
     let ideal = metric.ideal();
     let worst_of = |values: &[f64]| values.iter().copied().fold(f64::NEG_INFINITY, f64::max);

@@ -25,11 +25,13 @@ pub struct Check {
     pub failures: Vec<Failure>,
     /// One per bounded score, in the order of the run.
     pub findings: Vec<Finding>,
-    /// Comparisons with a baseline, one per filter and metric with a margin; empty without a baseline.
+    /// Comparisons with a baseline, one per filter and metric with a margin; empty without a
+    /// baseline.
     pub comparisons: Vec<BaselineComparison>,
 }
 
-/// Decides on a finished run by its findings and, with a baseline, by the comparisons with it. Pure: reads nothing, prints nothing.
+/// Decides on a finished run by its findings and, with a baseline, by the comparisons with it.
+/// Pure: reads nothing, prints nothing.
 pub fn check(run: &Run, findings: Vec<Finding>, comparisons: Vec<BaselineComparison>) -> Check {
     let applies =
         |finding: &Finding| !matches!(finding.outcome, Outcome::NotApplicable | Outcome::NotJudged);
@@ -63,7 +65,8 @@ impl Check {
             .count()
     }
 
-    /// Returns the error that ends the command with the decision's exit code; none if the check passes.
+    /// Returns the error that ends the command with the decision's exit code; none if the check
+    /// passes.
     pub fn verdict(&self) -> Result<(), Error> {
         let bounds = self.findings.iter().map(Finding::decision);
         let bounds = bounds.filter(|decision| *decision == self.decision).count();

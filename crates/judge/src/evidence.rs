@@ -1,4 +1,5 @@
-//! Evidence for bounds that are not met: the worst place of a picture, and the wrong blur most like it.
+//! Evidence for bounds that are not met: the worst place of a picture, and the wrong blur most like
+//! it.
 
 use std::path::Path;
 
@@ -11,8 +12,8 @@ use crate::decoys::{Decoys, FEW_SUBFRAMES};
 use crate::finding::Finding;
 use crate::worst::{Worst, worst_block, write_crop};
 
-/// Adds evidence to every notable finding about a single frame of a run, from the run's files below `folder`, and writes a picture of
-/// each worst place into its case's folder.
+/// Adds evidence to every notable finding about a single frame of a run, from the run's files below
+/// `folder`, and writes a picture of each worst place into its case's folder.
 pub fn add_evidence(run: &Run, findings: &mut [Finding], folder: &Path) -> Result<(), Error> {
     let is_of_one = |a: &Finding, b: &Finding| a.scene == b.scene && a.filter == b.filter;
     let cases = findings.chunk_by_mut(is_of_one).filter_map(|own| {
@@ -39,7 +40,8 @@ fn add_evidence_of_truth(
     let (frame, truth) = first.read_frame_and_truth(folder)?;
     let rung = |count| first.render_path(folder, RenderFile::Rung(truth.alignment, count));
     let file = rung(FEW_SUBFRAMES);
-    // An engine may have drawn too few sub-frames for it, or it is of an earlier truth: a check renders only the first rung.
+    // An engine may have drawn too few sub-frames for it, or it is of an earlier truth: a check
+    // renders only the first rung.
     let hash = |file: &Path| read_attribute(file, "content_hash");
     let few_subframes = if file.exists() && hash(&file) == hash(&rung(SHARP)) {
         Some(Ladder::read_rung(&file, FEW_SUBFRAMES)?)

@@ -46,7 +46,8 @@ pub struct Finding {
     /// Frames per second that the limit is for; none for a score that does not depend on them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fps: Option<f64>,
-    /// Frame of the sequence with the worst score, from 0; none for a score that single frames have no share in.
+    /// Frame of the sequence with the worst score, from 0; none for a score that single frames have
+    /// no share in.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub worst_frame: Option<u32>,
     /// Reason for the limit.
@@ -68,7 +69,8 @@ pub struct Finding {
     pub pictures: PathBuf,
 }
 
-/// Estimates the samples per pixel that would settle the score, whose interval excludes the limit then. Assumes that its middle stays.
+/// Estimates the samples per pixel that would settle the score, whose interval excludes the limit
+/// then. Assumes that its middle stays.
 fn samples_to_settle(
     samples_per_pixel: u32,
     metric: Metric,
@@ -80,7 +82,8 @@ fn samples_to_settle(
     settling_samples(samples_per_pixel, (high - low) / 2.0, apart)
 }
 
-/// Doubles samples per pixel until an uncertainty, which shrinks with their root, is as small as a distance.
+/// Doubles samples per pixel until an uncertainty, which shrinks with their root, is as small as a
+/// distance.
 pub(crate) fn settling_samples(samples_per_pixel: u32, uncertainty: f64, distance: f64) -> u64 {
     let more = (uncertainty / distance).powi(2);
     let present = u64::from(samples_per_pixel);
@@ -91,11 +94,13 @@ pub(crate) fn settling_samples(samples_per_pixel: u32, uncertainty: f64, distanc
     samples
 }
 
-/// Upper limit on the samples per pixel of a truth: a score that needs as many or more stays undecided.
+/// Upper limit on the samples per pixel of a truth: a score that needs as many or more stays
+/// undecided.
 pub const MAX_SAMPLES: u64 = tracer::MAX_SAMPLES as u64;
 
 impl Finding {
-    /// Makes the finding about a judged score of a case, or of the sequence that starts with it, without evidence.
+    /// Makes the finding about a judged score of a case, or of the sequence that starts with it,
+    /// without evidence.
     pub(super) fn new(
         run: &Run,
         case: &Case,
@@ -190,7 +195,8 @@ mod tests {
     fn four_times_the_samples_settle_what_is_half_an_uncertainty_from_its_limit() {
         let psnr: Metric = "psnr_moving".parse().unwrap();
         for (metric, ends, limit, expected) in [
-            // The half width is 0.0625, and the middle is that, a half, a quarter and a little more away.
+            // The half width is 0.0625, and the middle is that, a half, a quarter and a little more
+            // away.
             (Metric::FLIP, [0.0625, 0.1875], 0.1875, 64),
             (Metric::FLIP, [0.0625, 0.1875], 0.15625, 256),
             (Metric::FLIP, [0.0625, 0.1875], 0.140625, 1024),

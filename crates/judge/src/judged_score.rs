@@ -23,7 +23,8 @@ pub struct JudgedScore {
 }
 
 impl JudgedScore {
-    /// Compares a score with its limit: by its interval if `intervals` are given, otherwise by its value.
+    /// Compares a score with its limit: by its interval if `intervals` are given, otherwise by its
+    /// value.
     fn new(
         metric: Metric,
         bound: &Bound,
@@ -40,8 +41,8 @@ impl JudgedScore {
     }
 }
 
-/// Compares every bounded score of one picture with its limit: by its interval if `intervals` are given, otherwise by its value. Ignores
-/// limits on sequences.
+/// Compares every bounded score of one picture with its limit: by its interval if `intervals` are
+/// given, otherwise by its value. Ignores limits on sequences.
 pub fn judge_scores(
     scores: &Scores,
     intervals: Option<&Intervals>,
@@ -53,8 +54,9 @@ pub fn judge_scores(
         .collect()
 }
 
-/// Compares every bounded score of one sequence with its limit, like [`judge_scores`] for a picture. `frames` are the run's; limits on
-/// sequences of another length are not judged. `sequence` is none if a frame failed.
+/// Compares every bounded score of one sequence with its limit, like [`judge_scores`] for a
+/// picture. `frames` are the run's; limits on sequences of another length are not judged.
+/// `sequence` is none if a frame failed.
 pub(crate) fn judge_sequence(
     sequence: Option<&Sequence>,
     frames: Frames,

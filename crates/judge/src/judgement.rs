@@ -66,8 +66,8 @@ impl Judgement {
         )?)
     }
 
-    /// Reads the judgement of `run`, with its `run.json` in `folder`; none if the run was never judged. Refuses a judgement of another run,
-    /// and one that names places or files elsewhere.
+    /// Reads the judgement of `run`, with its `run.json` in `folder`; none if the run was never
+    /// judged. Refuses a judgement of another run, and one that names places or files elsewhere.
     pub fn read(run: &Run, folder: &Path) -> Result<Option<Self>, Error> {
         let path = folder.join(JUDGEMENT_FILE);
         if !path.exists() {

@@ -58,8 +58,9 @@ pub use worst::{BLOCK, CROP, Worst, worst_block};
 /// The bounds of a run's scenes.
 pub type RunBounds = BTreeMap<SceneId, SceneBounds>;
 
-/// Compares every bounded score of a run with its limit: one finding per filter, scene and bound, in the order of the run's cases, each
-/// followed by its sequence's findings. References have no bounds. Pure: reads nothing, writes nothing.
+/// Compares every bounded score of a run with its limit: one finding per filter, scene and bound,
+/// in the order of the run's cases, each followed by its sequence's findings. References have no
+/// bounds. Pure: reads nothing, writes nothing.
 pub fn judge(run: &Run, bounds: &RunBounds) -> Vec<Finding> {
     let filters = run.cases.iter().filter(|case| !case.is_reference);
     filters

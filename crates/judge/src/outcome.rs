@@ -7,13 +7,15 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
-    /// The whole interval of the score is on the right side of the limit, or its value without an interval.
+    /// The whole interval of the score is on the right side of the limit, or its value without an
+    /// interval.
     Kept,
     /// The whole interval is on the wrong side.
     Broken,
     /// The interval contains the limit, or the truth's parts cannot determine the score.
     Inconclusive,
-    /// No interval decides, and the limit is stricter than three floors: noise alone could break it.
+    /// No interval decides, and the limit is stricter than three floors: noise alone could break
+    /// it.
     TooNoisy,
     /// The metric does not apply to this scene.
     NotApplicable,
@@ -41,7 +43,8 @@ pub enum Decision {
     Inconclusive,
     /// A bound is stricter than the truth's noise allows, or no bound applies to a case.
     Misconfigured,
-    /// A required bound is broken, or a case failed. The noise of another bound does not change that.
+    /// A required bound is broken, or a case failed. The noise of another bound does not change
+    /// that.
     Broken,
 }
 
@@ -56,8 +59,8 @@ impl Decision {
     }
 }
 
-/// Compares a score with a limit: by its interval if `interval` is given, otherwise by its value. `Some(None)` is an interval that the
-/// truth cannot determine.
+/// Compares a score with a limit: by its interval if `interval` is given, otherwise by its value.
+/// `Some(None)` is an interval that the truth cannot determine.
 pub fn judge_score(
     metric: Metric,
     measured: &Measured,

@@ -64,11 +64,12 @@ pub struct ResultScores {
 }
 
 impl Results {
-    /// Joins runs of different scenes with the same settings. Leaves out references, input forms other than the full one, and scenes at
-    /// another frame rate than their files'.
+    /// Joins runs of different scenes with the same settings. Leaves out references, input forms
+    /// other than the full one, and scenes at another frame rate than their files'.
     ///
     /// # Errors
-    /// There is no run, a case failed, two runs differ in size, samples, adapter or seal, or a case appears twice.
+    /// There is no run, a case failed, two runs differ in size, samples, adapter or seal, or a case
+    /// appears twice.
     pub fn from_runs(runs: &[Run]) -> Result<Self, Error> {
         let Some(first) = runs.first() else {
             return Err(Error::Usage("no run to take results from".to_owned()));
@@ -135,7 +136,8 @@ impl Results {
     /// Adds newer scores: each replaces an older one of its case, or joins its scene.
     ///
     /// # Errors
-    /// The newer results have another size, adapter or seal, truths with other samples, or a FLIP* against another shutter.
+    /// The newer results have another size, adapter or seal, truths with other samples, or a FLIP*
+    /// against another shutter.
     pub fn update(&mut self, newer: Self) -> Result<(), Error> {
         let settings = |own: &Self| (own.file_name(), own.samples_per_pixel);
         let [(own, samples), (other, others)] = [settings(self), settings(&newer)];
@@ -215,8 +217,9 @@ impl Results {
         scenes.map(|scores| &scores[0].scene).collect()
     }
 
-    /// Finds the scene where a preset gains the least of what one frame allows: that of the lowest skill. A scene that no blur of one frame
-    /// can mend has none. Without any skill, the scene of the worst FLIP; none if no FLIP is known.
+    /// Finds the scene where a preset gains the least of what one frame allows: that of the lowest
+    /// skill. A scene that no blur of one frame can mend has none. Without any skill, the scene of
+    /// the worst FLIP; none if no FLIP is known.
     pub fn worst_of(&self, name: &str) -> Option<&ResultScores> {
         let error = |own: &&ResultScores| {
             let flip = own.score(Metric::FLIP)?;
@@ -228,8 +231,8 @@ impl Results {
             .max_by(|a, b| error(a).partial_cmp(&error(b)).expect("scores are numbers"))
     }
 
-    /// Ranks the filter presets of each shutter by FLIP. The filter that does nothing has a place in both: its FLIP* is against a centred
-    /// shutter, if any filter declares one.
+    /// Ranks the filter presets of each shutter by FLIP. The filter that does nothing has a place
+    /// in both: its FLIP* is against a centred shutter, if any filter declares one.
     pub fn ranking(&self) -> Vec<Vec<RankedFilter>> {
         let centred = Alignment::Centred;
         let has_centred = self.common_alignment == centred;

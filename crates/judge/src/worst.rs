@@ -20,7 +20,8 @@ pub struct Worst {
     pub picture: PathBuf,
 }
 
-/// Side of the compared blocks, in pixels: larger than the noise of pixels, smaller than most movers.
+/// Side of the compared blocks, in pixels: larger than the noise of pixels, smaller than most
+/// movers.
 pub const BLOCK: u32 = 16;
 /// Side of the crop around the worst block, in pixels.
 pub const CROP: u32 = 64;
@@ -29,7 +30,8 @@ const ENLARGED: u32 = 4;
 /// Gap between the panels, in shown pixels.
 const GAP: u32 = 8;
 
-/// Returns the middle of the block with the largest sum over the metric's region; the first of equal ones.
+/// Returns the middle of the block with the largest sum over the metric's region; the first of
+/// equal ones.
 pub fn worst_block(metric: Metric, map: &Plane, regions: &Regions) -> (u32, u32) {
     let mask = regions.mask(metric.region());
     let inside = |x: u32, y: u32| mask.is_none_or(|mask| *mask.at(x, y));
@@ -56,8 +58,8 @@ pub fn worst_block(metric: Metric, map: &Plane, regions: &Regions) -> (u32, u32)
     )
 }
 
-/// Writes truth, output and error around a place, enlarged, from left to right; the error's brightness is relative to the largest in the
-/// crop.
+/// Writes truth, output and error around a place, enlarged, from left to right; the error's
+/// brightness is relative to the largest in the crop.
 pub fn write_crop(
     path: &Path,
     (x, y): (u32, u32),
@@ -95,7 +97,8 @@ mod tests {
             support: Raster::from_fn(40, 40, |x, _| x < 16),
             moving,
         };
-        // A faint error over all of one block, one bright pixel in another, and the brightest in the last.
+        // A faint error over all of one block, one bright pixel in another, and the brightest in
+        // the last.
         let map = Raster::from_fn(40, 40, |x, y| match (x, y) {
             (3, 3) => 0.9,
             (39, 39) => 9.0,

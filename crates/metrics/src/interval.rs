@@ -20,8 +20,8 @@ pub struct Interval {
 }
 
 impl Interval {
-    /// Returns whether the interval contains the measured value. It may not: noise moves the score, and the
-    /// interval is for a truth without noise.
+    /// Returns whether the interval contains the measured value. It may not: noise moves the score,
+    /// and the interval is for a truth without noise.
     pub fn holds(&self, value: f64) -> bool {
         (self.low..=self.high).contains(&value)
     }
@@ -30,36 +30,42 @@ impl Interval {
 /// How noise in the pictures raises a score.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Rise {
-    /// By the inverse of the number of replicates: a smooth score of errors that are larger than the noise.
+    /// By the inverse of the number of replicates: a smooth score of errors that are larger than
+    /// the noise.
     Inverse,
-    /// By a power of that number, between this one and the inverse. A mean of absolute errors rises by the inverse if few errors are
-    /// smaller than the noise, and by the noise itself, the inverse root, if the picture is perfect.
+    /// By a power of that number, between this one and the inverse. A mean of absolute errors rises
+    /// by the inverse if few errors are smaller than the noise, and by the noise itself, the
+    /// inverse root, if the picture is perfect.
     Power(f64),
-    /// Little, and less than parts of the replicates can tell: a percentile is no smooth function of the pictures. Over nearly perfect
-    /// pictures it may rise by a power, too.
+    /// Little, and less than parts of the replicates can tell: a percentile is no smooth function
+    /// of the pictures. Over nearly perfect pictures it may rise by a power, too.
     Percentile(Option<f64>),
 }
 
-/// Estimates the interval of a score that noise raises by the inverse of the replicates: see [`jackknife_of`].
+/// Estimates the interval of a score that noise raises by the inverse of the replicates: see
+/// [`jackknife_of`].
 pub fn jackknife(whole: f64, without: &[f64]) -> Option<Interval> {
     jackknife_of(whole, without, Rise::Inverse)
 }
 
-/// Estimates the interval of a score. `whole` is its value from all replicates of the pictures that go into it; each value of
-/// `without` leaves out one of several equal groups of them. `None` for fewer than two groups.
+/// Estimates the interval of a score. `whole` is its value from all replicates of the pictures that
+/// go into it; each value of `without` leaves out one of several equal groups of them. `None` for
+/// fewer than two groups.
 ///
-/// This is the grouped jackknife (Quenouille 1956, Tukey 1958; Efron and Tibshirani, "An Introduction to the Bootstrap", 1993,
-/// chapter 11). For G groups, m being the mean of `without`:
+/// This is the grouped jackknife (Quenouille 1956, Tukey 1958; Efron and Tibshirani, "An
+/// Introduction to the Bootstrap", 1993, chapter 11). For G groups, m being the mean of `without`:
 ///
 /// - The squared standard error is (G - 1) / G times the sum of (without - m)^2.
-/// - The centre is `whole` + (G - 1)(`whole` - m): the rise that is left is G - 1 times that of leaving a group out.
-/// - The half width is the standard error times the quantile of Student's t of G - 1 degrees of freedom.
+/// - The centre is `whole` + (G - 1)(`whole` - m): the rise that is left is G - 1 times that of
+///   leaving a group out.
+/// - The half width is the standard error times the quantile of Student's t of G - 1 degrees of
+///   freedom.
 ///
-/// A rise by the power p is 1 / ((G / (G - 1))^p - 1) times that of leaving a group out. With a power, the interval reaches from one
-/// centre to the other, and a half width beyond both.
+/// A rise by the power p is 1 / ((G / (G - 1))^p - 1) times that of leaving a group out. With a
+/// power, the interval reaches from one centre to the other, and a half width beyond both.
 ///
-/// The rise of a percentile is known no better than the percentile. Its centre takes half of it out, and its standard error is about
-/// `whole`, not m, so that it contains the rise.
+/// The rise of a percentile is known no better than the percentile. Its centre takes half of it
+/// out, and its standard error is about `whole`, not m, so that it contains the rise.
 pub fn jackknife_of(whole: f64, without: &[f64], rise: Rise) -> Option<Interval> {
     if without.len() < 2 {
         return None;
@@ -113,7 +119,8 @@ mod tests {
     fn the_interval_of_a_mean_is_the_textbooks() {
         let (whole, without) = means(&[1.0, 2.0, 4.0, 7.0]);
         let interval = jackknife(whole, &without).unwrap();
-        // s = sqrt(7) over the root of 4, and the table's t for 3 degrees of freedom, 3.182: to its digits.
+        // s = sqrt(7) over the root of 4, and the table's t for 3 degrees of freedom, 3.182: to its
+        // digits.
         let error = 7f64.sqrt() / 2.0;
         assert!(
             (interval.standard_error - error).abs() < 1e-12,
@@ -131,7 +138,8 @@ mod tests {
 
     #[test]
     fn noise_that_falls_with_the_replicates_is_taken_out() {
-        // The square of a mean is too high by the variance of the mean, and the jackknife of it is unbiased.
+        // The square of a mean is too high by the variance of the mean, and the jackknife of it is
+        // unbiased.
         let numbers = [1.0, 2.0, 4.0, 7.0];
         let (whole, without) = means(&numbers);
         let squares: Vec<f64> = without.iter().map(|mean| mean * mean).collect();
@@ -145,7 +153,8 @@ mod tests {
 
     #[test]
     fn noise_that_falls_with_the_root_of_the_replicates_is_held() {
-        // The mean absolute error of a perfect picture, for noise of 1 in each group: its limit is 0.
+        // The mean absolute error of a perfect picture, for noise of 1 in each group: its limit is
+        // 0.
         let noise = |groups: f64| 1.0 / groups.sqrt();
         let interval = jackknife_of(noise(4.0), &[noise(3.0); 4], Rise::Power(0.5)).unwrap();
         assert!(interval.low.abs() < 1e-12, "{interval:?}");

@@ -4,8 +4,8 @@ use frame::{Plane, Raster};
 
 use crate::math::raster::index_pixels;
 
-/// Maps half the sum over objects of `|a - a*|`, in [0, 1] for mattes that sum to 1: the fraction of the shutter during which a
-/// pixel shows the wrong object. Texture does not matter.
+/// Maps half the sum over objects of `|a - a*|`, in [0, 1] for mattes that sum to 1: the fraction
+/// of the shutter during which a pixel shows the wrong object. Texture does not matter.
 pub fn label_variation(output: &[Plane], truth: &[Plane]) -> Raster<f64> {
     let first = truth.first().expect("a truth has a background");
     index_pixels(first, |at| {
@@ -17,8 +17,8 @@ pub fn label_variation(output: &[Plane], truth: &[Plane]) -> Raster<f64> {
     })
 }
 
-/// Averages a map of errors over the pixels of `inside`, weighted by the object's true matte: the error on the object
-/// itself. `None` if the object is not seen inside.
+/// Averages a map of errors over the pixels of `inside`, weighted by the object's true matte: the
+/// error on the object itself. `None` if the object is not seen inside.
 pub fn average_on_object<T: Copy + Into<f64>>(
     errors: &Raster<T>,
     truth: &Plane,

@@ -1,8 +1,9 @@
 //! Scores of a picture against the truth.
 //!
-//! [`measure`] compares a filter's output with the truth and returns [`Scores`] with the [`Maps`] that they were pooled
-//! from. Every score has a floor: the score of the truth's own noise. If a score would mean nothing in a scene, a reason
-//! replaces it. The crate's `README.md` defines each score and says what fools it; [`Metric`] names them all.
+//! [`measure`] compares a filter's output with the truth and returns [`Scores`] with the [`Maps`]
+//! that they were pooled from. Every score has a floor: the score of the truth's own noise. If a
+//! score would mean nothing in a scene, a reason replaces it. The crate's `README.md` defines each
+//! score and says what fools it; [`Metric`] names them all.
 //!
 //! | module | contents |
 //! |---|---|
@@ -63,8 +64,8 @@ pub use viewing::Viewing;
 
 use frame::{Frame, Ladder, Picture, Truth};
 
-/// Measures one picture. To measure several against the same truth, make a [`Reference`] once: it keeps everything that
-/// does not depend on the picture (regions, floors, the ladder's errors).
+/// Measures one picture. To measure several against the same truth, make a [`Reference`] once: it
+/// keeps everything that does not depend on the picture (regions, floors, the ladder's errors).
 pub fn measure(
     output: &Picture,
     frame: &Frame,

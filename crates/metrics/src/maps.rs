@@ -2,7 +2,8 @@
 
 use frame::{Image, Plane};
 
-/// Declares error maps: a plane for each in the struct that holds it, its name as a variant and as a channel of errors.exr.
+/// Declares error maps: a plane for each in the struct that holds it, its name as a variant and as
+/// a channel of errors.exr.
 macro_rules! maps {
     (
         output { $($(#[$doc:meta])* $Map:ident => $field:ident $name:literal)* }
@@ -11,7 +12,8 @@ macro_rules! maps {
         /// One error map per kind of score, each of the output's size.
         #[derive(Clone, Debug, PartialEq)]
         pub struct Maps {
-            /// Output minus the truth's mean: radiance, signed. It is for looking at; the squared error comes from the halves.
+            /// Output minus the truth's mean: radiance, signed. It is for looking at; the squared
+            /// error comes from the halves.
             pub signed_error: Image,
             $($(#[$doc])* pub $field: Plane,)*
         }
@@ -59,7 +61,8 @@ macro_rules! maps {
 
 maps! {
     output {
-        /// `(F - A)(F - B)` at the viewing exposure, mean over the channels; MSE and PSNR are pooled from it.
+        /// `(F - A)(F - B)` at the viewing exposure, mean over the channels; MSE and PSNR are
+        /// pooled from it.
         SquaredError => squared_error "squared_error"
         /// `squared_error` over the squared truth; relMSE is pooled from it.
         RelativeSquaredError => relative_squared_error "relative_squared_error"
@@ -77,17 +80,20 @@ maps! {
         LabelTotalVariation => label_total_variation "label_tv"
         /// Sum over moving objects of their matte where the truth never shows them.
         Bleed => bleed "bleed"
-        /// Sum over moving objects of the squared difference of their mattes' gradient magnitudes, per square pixel.
+        /// Sum over moving objects of the squared difference of their mattes' gradient magnitudes,
+        /// per square pixel.
         GradientError => gradient_error "gradient_error"
         /// `squared_error` against the truth with frozen shading.
         FrozenSquaredError => frozen_squared_error "frozen_squared_error"
-        /// `|F - I|` over the brightness, root mean square of the channels, I being the instant; 0 where anything moves.
+        /// `|F - I|` over the brightness, root mean square of the channels, I being the instant; 0
+        /// where anything moves.
         StaticChange => static_change "static_change"
     }
     probes {
         /// Difference of the sum of weights from 1.
         Unity => unity "unity"
-        /// Distance between the centres of the gathered and the true origins, in pixels; 0 where undefined, and outside the knowable region.
+        /// Distance between the centres of the gathered and the true origins, in pixels; 0 where
+        /// undefined, and outside the knowable region.
         GatherOffset => offset "gather_offset"
         /// Difference of the spreads, in pixels; 0 there too.
         GatherSpread => spread "gather_spread"

@@ -1,5 +1,5 @@
-//! Comparison of scores with scikit-image, SciPy and NumPy: `tests/fixtures/metrics/make.py` makes the same planes and stores the
-//! numbers.
+//! Comparison of scores with scikit-image, SciPy and NumPy: `tests/fixtures/metrics/make.py` makes
+//! the same planes and stores the numbers.
 
 use std::collections::BTreeMap;
 

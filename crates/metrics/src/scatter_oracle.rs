@@ -1,4 +1,5 @@
-//! One-frame oracle: about the best picture that one frame with straight motion can give, far too slow for a filter.
+//! One-frame oracle: about the best picture that one frame with straight motion can give, far too
+//! slow for a filter.
 
 use frame::{Efficiency, Frame, Picture, Raster, Shutter, ShutterProfile, Truth};
 use rayon::prelude::*;
@@ -25,7 +26,8 @@ struct Sources<'a> {
     delays: Vec<f64>,
 }
 
-/// The numbers of each pixel that are not 0: its colour, then its coverages, for each of the pictures.
+/// The numbers of each pixel that are not 0: its colour, then its coverages, for each of the
+/// pictures.
 struct Content {
     /// Index of each pixel's first number; after the last pixel that of all.
     starts: Vec<usize>,
@@ -41,15 +43,16 @@ struct Fill {
     distance: u32,
 }
 
-/// Moves every pixel of the frame along its velocity for many instants of the shutter, lets the nearer hide the farther,
-/// fills each hole with the farthest of the pixels that are nearest to it in the four directions, and averages. The picture is as large as
-/// the frame, guard band included.
+/// Moves every pixel of the frame along its velocity for many instants of the shutter, lets the
+/// nearer hide the farther, fills each hole with the farthest of the pixels that are nearest to it
+/// in the four directions, and averages. The picture is as large as the frame, guard band included.
 pub fn scatter_oracle(frame: &Frame, shutter: Shutter, profile: &ShutterProfile) -> Picture {
     let own = frame.picture();
     scatter_oracles(frame, &[&own], shutter, profile).remove(0)
 }
 
-/// Scatters several pictures as [`scatter_oracle`] does the frame's own, all with the frame's velocity and depth.
+/// Scatters several pictures as [`scatter_oracle`] does the frame's own, all with the frame's
+/// velocity and depth.
 pub fn scatter_oracles(
     frame: &Frame,
     pictures: &[&Picture],
@@ -92,7 +95,8 @@ pub fn make_oracle(frame: &Frame, truth: &Truth) -> Picture {
     scatter_oracle(frame, truth.shutter, &truth.shutter_profile).cropped(frame.guard_band)
 }
 
-/// Makes the oracle's pictures of the frame and of parts of its replicates, as [`make_oracle`] does.
+/// Makes the oracle's pictures of the frame and of parts of its replicates, as [`make_oracle`]
+/// does.
 pub fn make_oracles(frame: &Frame, parts: &[Picture], truth: &Truth) -> (Picture, Vec<Picture>) {
     let own = frame.picture();
     let pictures: Vec<&Picture> = std::iter::once(&own).chain(parts).collect();
@@ -149,7 +153,8 @@ impl<'a> Sources<'a> {
         }
     }
 
-    /// Finds, per pixel, which pixel of the frame is there at a time: the nearest to the camera, and the first of several.
+    /// Finds, per pixel, which pixel of the frame is there at a time: the nearest to the camera,
+    /// and the first of several.
     fn at(&self, time: f64) -> Vec<u32> {
         let (width, height) = self.frame.size();
         let depth = |source: u32| self.frame.depth.pixels[source as usize];
@@ -195,8 +200,8 @@ impl Content {
     }
 }
 
-/// Fills the places that no pixel reached. Of the pixels that are met first to the left, to the right, above and below, the farthest wins,
-/// then the nearest in the picture.
+/// Fills the places that no pixel reached. Of the pixels that are met first to the left, to the
+/// right, above and below, the farthest wins, then the nearest in the picture.
 fn fill_holes(frame: &Frame, mut seen: Vec<u32>) -> Vec<u32> {
     let width = frame.color.width as usize;
     let holes: Vec<usize> = (0..seen.len())

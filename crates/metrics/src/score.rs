@@ -9,12 +9,14 @@ use crate::Interval;
 pub struct Score {
     /// The score, in its metric's unit.
     pub value: f64,
-    /// Noise floor: the score of the truth's own noise, near which a picture without error scores. If high values are good,
-    /// it is the highest value that the truth supports; if a target is good, it is the distance from the target.
+    /// Noise floor: the score of the truth's own noise, near which a picture without error scores.
+    /// If high values are good, it is the highest value that the truth supports; if a target is
+    /// good, it is the distance from the target.
     pub floor: f64,
 }
 
-/// A score, or the reason why it would mean nothing here. As JSON: `{"value": .., "floor": ..}` or `{"not_applicable": ".."}`.
+/// A score, or the reason why it would mean nothing here. As JSON: `{"value": .., "floor": ..}` or
+/// `{"not_applicable": ".."}`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Measured {
@@ -49,7 +51,8 @@ impl Measured {
         Self::Score(Score { value, floor })
     }
 
-    /// Makes a score of a value and its floor, if there are both; `reason` says why one may be missing.
+    /// Makes a score of a value and its floor, if there are both; `reason` says why one may be
+    /// missing.
     pub(crate) fn of(value: Option<f64>, floor: Option<f64>, reason: impl Into<String>) -> Self {
         match value.zip(floor) {
             Some((value, floor)) => Self::score(value, floor),

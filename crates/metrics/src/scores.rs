@@ -25,7 +25,8 @@ pub struct Scores {
     pub unknowable: ImageScores,
     /// Errors against the truth with frozen shading.
     pub frozen: FrozenScores,
-    /// Root mean square change of the instant's colour where nothing moves, relative to its brightness.
+    /// Root mean square change of the instant's colour where nothing moves, relative to its
+    /// brightness.
     pub static_contamination: Measured,
     /// Errors of labels: the objects that the shutter's time was given to.
     pub label_total_variation: LabelScores,
@@ -40,8 +41,8 @@ pub struct Scores {
 }
 
 impl Scores {
-    /// Returns the score of a metric. A score per object is the worst of the objects that move (or, for
-    /// occluder contamination, that do not).
+    /// Returns the score of a metric. A score per object is the worst of the objects that move (or,
+    /// for occluder contamination, that do not).
     pub fn get(&self, metric: Metric) -> Measured {
         match metric {
             Metric::Image(metric, region) => self.of_region(region).get(metric).clone(),
@@ -90,8 +91,8 @@ impl Scores {
         }
     }
 
-    /// Finds the largest of the three bleeds of the worst moving objects, and its metric; `None` if no bleed applies. Of equal ones,
-    /// lateral comes before leading and trailing.
+    /// Finds the largest of the three bleeds of the worst moving objects, and its metric; `None` if
+    /// no bleed applies. Of equal ones, lateral comes before leading and trailing.
     pub fn largest_bleed(&self) -> Option<(ObjectMetric, Score)> {
         let bleeds = [
             ObjectMetric::BleedLateral,
@@ -111,7 +112,8 @@ impl Scores {
         })
     }
 
-    /// Finds the name of the object with the worst score, and that score; `None` for metrics that are not per object.
+    /// Finds the name of the object with the worst score, and that score; `None` for metrics that
+    /// are not per object.
     pub fn worst_object(&self, metric: Metric) -> Option<(&str, Score)> {
         let (object, moves) = match metric {
             Metric::Object(object) => (object, true),
@@ -145,7 +147,8 @@ impl Scores {
         }
     }
 
-    /// Replaces every score that depends on what was seen at the instant by the reason why that is not known.
+    /// Replaces every score that depends on what was seen at the instant by the reason why that is
+    /// not known.
     pub(crate) fn take_out_instant(&mut self, reason: &'static str) {
         self.knowable = ImageScores::not_applicable(reason);
         self.unknowable = ImageScores::not_applicable(reason);

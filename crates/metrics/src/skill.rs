@@ -16,7 +16,8 @@ pub struct Ends {
     pub best: Pooled,
 }
 
-/// Scores skill by each of its errors. `moving` is the picture that is scored; `ends` are missing if their pictures were not given.
+/// Scores skill by each of its errors. `moving` is the picture that is scored; `ends` are missing
+/// if their pictures were not given.
 pub fn score_skill(moving: &Found, ends: Option<&Ends>) -> SkillScores {
     let score = |error: fn(&Pooled) -> f64| match (moving, ends) {
         (Ok((own, noise)), Some(ends)) => measure_skill(error, own, noise, ends),
@@ -30,8 +31,8 @@ pub fn score_skill(moving: &Found, ends: Option<&Ends>) -> SkillScores {
     }
 }
 
-/// Divides the error that the picture removes by the error that the one-frame oracle removes. The floor is the skill of a
-/// picture without error: the highest that the truth's noise supports.
+/// Divides the error that the picture removes by the error that the one-frame oracle removes. The
+/// floor is the skill of a picture without error: the highest that the truth's noise supports.
 fn measure_skill(error: fn(&Pooled) -> f64, own: &Pooled, noise: &Pooled, ends: &Ends) -> Measured {
     let [sharp, best, own, noise] = [&ends.sharp, &ends.best, own, noise].map(error);
     let way = sharp - best;

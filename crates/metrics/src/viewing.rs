@@ -2,10 +2,12 @@
 
 use frame::Display;
 
-/// The photographic exposures of a comparison; a scene declares them, so that no picture chooses its own.
+/// The photographic exposures of a comparison; a scene declares them, so that no picture chooses
+/// its own.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Viewing {
-    /// Exposure of LDR-FLIP, PSNR, MSE and relMSE, in stops: radiance times `2^stops` is 1 at display white.
+    /// Exposure of LDR-FLIP, PSNR, MSE and relMSE, in stops: radiance times `2^stops` is 1 at
+    /// display white.
     pub stops: f32,
     /// Darkest exposure of HDR-FLIP, in stops.
     pub flip_start: f32,

@@ -7,7 +7,8 @@ use rustix::process::{
     Pid, Signal, WaitOptions, getpid, kill_process, set_child_subreaper, waitpid,
 };
 
-/// Longest wait for killed processes to disappear. One that waits for a broken disk may take for ever.
+/// Longest wait for killed processes to disappear. One that waits for a broken disk may take for
+/// ever.
 const LONGEST_WAIT: Duration = Duration::from_secs(1);
 
 /// Time between two checks.
@@ -21,8 +22,8 @@ pub struct Descendants {
 impl Descendants {
     /// Makes this process the parent of orphans, and remembers its current children.
     ///
-    /// If the parent of a process that calls `setsid` ends, the nearest such parent adopts the process instead of init. So it
-    /// stays below this process, and is found.
+    /// If the parent of a process that calls `setsid` ends, the nearest such parent adopts the
+    /// process instead of init. So it stays below this process, and is found.
     pub fn new() -> Self {
         // If the system refuses, init adopts such orphans, and they are not found.
         let _ = set_child_subreaper(Some(getpid()));
@@ -31,8 +32,8 @@ impl Descendants {
         }
     }
 
-    /// Kills all of them, and those that they start meanwhile. The children of a killed child become children of this process
-    /// and are killed at the next check.
+    /// Kills all of them, and those that they start meanwhile. The children of a killed child
+    /// become children of this process and are killed at the next check.
     pub fn kill(&self) {
         let start = Instant::now();
         loop {
@@ -42,7 +43,8 @@ impl Descendants {
                 return;
             }
             for pid in alive.filter_map(|id| Pid::from_raw(*id)) {
-                // A process of another user cannot be killed; one that has ended is as good as killed.
+                // A process of another user cannot be killed; one that has ended is as good as
+                // killed.
                 let _ = kill_process(pid, Signal::KILL);
                 let _ = waitpid(Some(pid), WaitOptions::NOHANG);
             }

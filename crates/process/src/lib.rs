@@ -1,5 +1,5 @@
-//! Other programs that this one runs: compilers of shaders, filters that are commands, git. Only this
-//! crate starts them.
+//! Other programs that this one runs: compilers of shaders, filters that are commands, git. Only
+//! this crate starts them.
 
 #[cfg(target_os = "linux")]
 mod descendants;

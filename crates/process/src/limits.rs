@@ -40,8 +40,9 @@ pub fn half_of_memory() -> u64 {
 }
 
 impl Limits {
-    /// Makes the system enforce the limits on a process and on what it starts from now on. They hold
-    /// even if this program is killed: the process then ends when it has used its time on every core.
+    /// Makes the system enforce the limits on a process and on what it starts from now on. They
+    /// hold even if this program is killed: the process then ends when it has used its time on
+    /// every core.
     #[cfg(target_os = "linux")]
     pub(crate) fn enforce(&self, process: u32) -> io::Result<()> {
         use rustix::process::{Pid, Resource, Rlimit, prlimit};

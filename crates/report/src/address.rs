@@ -25,7 +25,8 @@ pub fn case_anchor(case: &CaseId) -> String {
     )
 }
 
-/// Escapes characters that an address may not contain, or that end a name in it: a space becomes `~20`.
+/// Escapes characters that an address may not contain, or that end a name in it: a space becomes
+/// `~20`.
 fn escape(name: &str) -> String {
     let escaped = name.chars().map(|letter| match letter {
         'a'..='z' | 'A'..='Z' | '0'..='9' | '_' | '-' | '.' | ':' | '@' => letter.to_string(),

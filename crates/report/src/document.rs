@@ -15,8 +15,8 @@ const STYLES: [&str; 9] = [
     include_str!("assets/media.css"),
 ];
 
-/// Permissions of a page: a browser may show its contents, and fetch only the allowed files next to it. Browsers differ in what counts as
-/// files next to a page on a disk.
+/// Permissions of a page: a browser may show its contents, and fetch only the allowed files next to
+/// it. Browsers differ in what counts as files next to a page on a disk.
 fn policy(siblings: Siblings) -> String {
     let [pictures, scripts] = [Siblings::Pictures, Siblings::Scripts].map(|kind| match kind {
         _ if kind == siblings => " 'self' file:",

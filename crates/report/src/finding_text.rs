@@ -70,7 +70,8 @@ impl Tally {
     }
 }
 
-/// Formats a finding in one line: `BROKEN flip_moving 0.0921 (95 % CI 0.0893 to 0.0950); limit 0.0500, floor 0.0021`
+/// Formats a finding in one line: `BROKEN flip_moving 0.0921 (95 % CI 0.0893 to 0.0950); limit
+/// 0.0500, floor 0.0021`
 pub fn finding_line(finding: &Finding) -> String {
     format!("{} {}", finding_status(finding), finding_score(finding))
 }
@@ -90,8 +91,9 @@ pub fn finding_status(finding: &Finding) -> &'static str {
     }
 }
 
-/// Formats the score with its limit: `flip_moving 0.0921 (95 % CI 0.0893 to 0.0950); limit 0.0500, floor 0.0021`. For a limit on the
-/// distance from an ideal, formats the distance: `extent 0.0385 from 1 (95 % CI 0.0354 to 0.0416); limit 0.0400`.
+/// Formats the score with its limit: `flip_moving 0.0921 (95 % CI 0.0893 to 0.0950); limit 0.0500,
+/// floor 0.0021`. For a limit on the distance from an ideal, formats the distance: `extent 0.0385
+/// from 1 (95 % CI 0.0354 to 0.0416); limit 0.0400`.
 pub fn finding_score(finding: &Finding) -> String {
     let ideal = finding.metric.ideal();
     let limited = |value: f64| match ideal {
@@ -123,7 +125,8 @@ pub fn finding_score(finding: &Finding) -> String {
     text
 }
 
-/// Formats the limit for display next to its score: `0.0500`, or `0.0400 from 1` for a limit on the distance from an ideal.
+/// Formats the limit for display next to its score: `0.0500`, or `0.0400 from 1` for a limit on the
+/// distance from an ideal.
 pub fn limit_text(finding: &Finding) -> String {
     let limit = number(finding.limit);
     match finding.metric.ideal() {
@@ -132,7 +135,8 @@ pub fn limit_text(finding: &Finding) -> String {
     }
 }
 
-/// Formats the length of the limit's sequence, `4 frames` or `4 frames at 60 per second`; none for a score of a single frame.
+/// Formats the length of the limit's sequence, `4 frames` or `4 frames at 60 per second`; none for
+/// a score of a single frame.
 pub fn length_text(finding: &Finding) -> Option<String> {
     let length = Length {
         frames: finding.frames?,
@@ -146,7 +150,8 @@ pub fn worst_frame_text(finding: &Finding) -> Option<String> {
     Some(format!("worst in frame {}", finding.worst_frame?))
 }
 
-/// Formats `95 % CI 0.05198 to 0.05332, measured 0.05364`; the measured value only if the truth's noise moved it out of the interval.
+/// Formats `95 % CI 0.05198 to 0.05332, measured 0.05364`; the measured value only if the truth's
+/// noise moved it out of the interval.
 pub fn interval_text(interval: &Interval, measured: f64) -> String {
     let [low, high] = [interval.low, interval.high].map(number);
     let raw = if interval.holds(measured) {

@@ -1,4 +1,5 @@
-//! Picture files of a run: the gallery of best and worst filters, a contact sheet of all truths, and the strip of a case.
+//! Picture files of a run: the gallery of best and worst filters, a contact sheet of all truths,
+//! and the strip of a case.
 
 use std::path::{Path, PathBuf};
 
@@ -24,7 +25,8 @@ struct Extremes<'a> {
     worst: &'a Case,
 }
 
-/// Writes `README.md`, the contact sheet and a picture per scene below `out`, from the files of a run in `folder`. Returns the page's path.
+/// Writes `README.md`, the contact sheet and a picture per scene below `out`, from the files of a
+/// run in `folder`. Returns the page's path.
 pub fn write_gallery(run: &Run, folder: &Path, out: &Path) -> Result<PathBuf, Error> {
     let scenes = find_extremes(run);
     if scenes.is_empty() {
@@ -123,7 +125,8 @@ fn section(shutters: &[Extremes]) -> String {
     )
 }
 
-/// Reads the two rows of a shutter: truth, best filter and its error map; instant, worst filter and its error map.
+/// Reads the two rows of a shutter: truth, best filter and its error map; instant, worst filter and
+/// its error map.
 fn rows(folder: &Path, extremes: &Extremes) -> Result<Vec<Image>, Error> {
     let Extremes { best, worst } = extremes;
     let instant = read_png(&folder.join(best.scene.folder()).join("frame.png"))?;
@@ -135,7 +138,8 @@ fn rows(folder: &Path, extremes: &Extremes) -> Result<Vec<Image>, Error> {
         .collect())
 }
 
-/// Reads truth, output and FLIP of a case, and labels them; `truth` and `score` follow the truth's and the error's labels.
+/// Reads truth, output and FLIP of a case, and labels them; `truth` and `score` follow the truth's
+/// and the error's labels.
 fn strip(case: &Case, folder: &Path, truth: &str, score: &str) -> Result<[Image; 3], Error> {
     let flip = read_png(&folder.join(&case.folder).join("flip.png"))?;
     let output = read_png(&folder.join(&case.folder).join("output.png"))?;
@@ -150,7 +154,8 @@ fn strip(case: &Case, folder: &Path, truth: &str, score: &str) -> Result<[Image;
     ])
 }
 
-/// Writes truth, output and FLIP of a case side by side to the PNG file `out`; `folder` is its run.json's.
+/// Writes truth, output and FLIP of a case side by side to the PNG file `out`; `folder` is its
+/// run.json's.
 ///
 /// # Errors
 /// A picture of the case cannot be read, or the file cannot be written.

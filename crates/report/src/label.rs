@@ -15,7 +15,8 @@ const PITCH: [u32; 2] = [6, 10];
 /// Picture width at which a dot of a letter is one pixel.
 const DOT_WIDTH: u32 = 160;
 
-/// Adds a bar with a text above a picture. Characters that presets and scores do not use leave a gap.
+/// Adds a bar with a text above a picture. Characters that presets and scores do not use leave a
+/// gap.
 pub fn label(picture: &Image, text: &str) -> Image {
     let dot = (picture.width / DOT_WIDTH).max(1);
     let bar = PITCH[1] * dot;

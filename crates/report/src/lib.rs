@@ -51,11 +51,14 @@ pub use tuning::{TuneFolder, tuning_page};
 /// Approximate bytes of the tables of a case.
 const CASE_BYTES: usize = 25_000;
 
-/// Writes the page of the run in `folder` to `html`; returns its path, then the paths of the files next to it.
+/// Writes the page of the run in `folder` to `html`; returns its path, then the paths of the files
+/// next to it.
 ///
-/// Costs come from a bench.json in the folder. Without `findings` the page shows no bounds; a check's verdict comes first. If the page would have more than `largest`
-/// bytes, such as [`LARGEST_PAGE`], its numbers go into files; if its tables alone are larger, so do they. Filters and frames of live
-/// cases are always in files. The same run makes the same bytes. The page is written last: an existing page is complete.
+/// Costs come from a bench.json in the folder. Without `findings` the page shows no bounds; a
+/// check's verdict comes first. If the page would have more than `largest` bytes, such as
+/// [`LARGEST_PAGE`], its numbers go into files; if its tables alone are larger, so do they. Filters
+/// and frames of live cases are always in files. The same run makes the same bytes. The page is
+/// written last: an existing page is complete.
 ///
 /// # Errors
 /// A file of the run is missing or broken, or a file of the report cannot be written.

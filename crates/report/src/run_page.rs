@@ -117,7 +117,8 @@ fn script_note(has_tables: bool) -> &'static str {
     }
 }
 
-/// Embeds the numbers, and names the folder of files next to the page: base64 contains no character that HTML escapes.
+/// Embeds the numbers, and names the folder of files next to the page: base64 contains no character
+/// that HTML escapes.
 fn scene_numbers(content: &PageContent, page: &Path) -> Markup {
     let folder = content.has_siblings().then(|| folder_name(page));
     html! {

@@ -11,8 +11,8 @@ use crate::folder::walk_error;
 use crate::record::CASE_RECORD;
 use crate::render_file::RenderFile;
 
-/// Removes frame, truths, replicates and ladders from a scene's folder, with their records and its cases' records. Refuses links
-/// to folders: nothing outside is removed.
+/// Removes frame, truths, replicates and ladders from a scene's folder, with their records and its
+/// cases' records. Refuses links to folders: nothing outside is removed.
 ///
 /// # Errors
 /// A folder is a link, or a file cannot be removed.

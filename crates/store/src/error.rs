@@ -1,6 +1,7 @@
 //! Errors of stored files.
 
-/// A folder or a file that is not as it must be. Its text names the place, what was found, what is allowed and the way out.
+/// A folder or a file that is not as it must be. Its text names the place, what was found, what is
+/// allowed and the way out.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// A file cannot be read or written.

@@ -7,8 +7,8 @@ use tracer::Scene;
 
 use crate::Error;
 
-/// Upper limit on the bytes of a folder's name, of a scene or a case. File systems allow 255, and some names of files add an ending
-/// to it.
+/// Upper limit on the bytes of a folder's name, of a scene or a case. File systems allow 255, and
+/// some names of files add an ending to it.
 pub const LONGEST_FOLDER_NAME: usize = 240;
 /// Number of characters of a too long name that an error shows.
 const SHOWN: usize = 40;
@@ -51,7 +51,8 @@ pub(crate) fn walk_error(error: walkdir::Error) -> FileError {
     FileError::io(&path, "read", source.expect("links are not followed"))
 }
 
-/// Returns whether a path stays below its first folder and has no control characters. Nothing is read or written elsewhere.
+/// Returns whether a path stays below its first folder and has no control characters. Nothing is
+/// read or written elsewhere.
 pub fn is_below(path: &Path) -> bool {
     let mut parts = path.components().peekable();
     parts.peek().is_some()

@@ -19,7 +19,8 @@ const LOCK_FILE: &str = ".shuttertruth.lock";
 pub enum Sharing {
     /// None: run.json, a journal or cases are written.
     Alone,
-    /// Those that render frames and truths: each file is written whole and identified by its content.
+    /// Those that render frames and truths: each file is written whole and identified by its
+    /// content.
     Together,
 }
 
@@ -30,8 +31,9 @@ pub struct FolderLock {
     _lock: Option<File>,
 }
 
-/// Locks `out`, and makes it if it does not exist. Refuses a folder that contains one of the scenes, one that another process
-/// has locked, and names of scenes that no folder can have. A process that is alone removes what killed ones left half written.
+/// Locks `out`, and makes it if it does not exist. Refuses a folder that contains one of the
+/// scenes, one that another process has locked, and names of scenes that no folder can have. A
+/// process that is alone removes what killed ones left half written.
 pub fn lock_folder<'a>(
     out: &Path,
     scenes: impl IntoIterator<Item = &'a Scene>,

@@ -16,7 +16,8 @@ pub const MAX_TAKEN_BYTES: u64 = 1 << 32;
 /// The source of each file, by its path below the parts.
 pub type Files = BTreeMap<PathBuf, PathBuf>;
 
-/// Gathers the files of several folders by their paths below each. Several may have the same file, if its bytes are equal.
+/// Gathers the files of several folders by their paths below each. Several may have the same file,
+/// if its bytes are equal.
 ///
 /// # Errors
 /// Two files of one path differ, or a file cannot be read.
@@ -63,11 +64,12 @@ pub fn place_files(files: &Files, out: &Path) -> Result<(), FileError> {
     (files.iter()).try_for_each(|(below, file)| place_file(file, &out.join(below)))
 }
 
-/// Links the file `from` at `to`, replacing any file there, or copies it if the file system has no hard links. This program
-/// replaces files as a whole, so neither name changes the other.
+/// Links the file `from` at `to`, replacing any file there, or copies it if the file system has no
+/// hard links. This program replaces files as a whole, so neither name changes the other.
 ///
 /// # Errors
-/// Fails if `from` is not a regular file, if `to` is a folder, or if a file cannot be read or written.
+/// Fails if `from` is not a regular file, if `to` is a folder, or if a file cannot be read or
+/// written.
 pub fn place_file(from: &Path, to: &Path) -> Result<(), FileError> {
     let found = fs::symlink_metadata(from).map_err(|source| FileError::io(from, "read", source))?;
     if !found.is_file() {

@@ -1,11 +1,14 @@
-//! JSON with a line for each entry of the outer lists, so that large files stay small, and two of them differ in few lines.
+//! JSON with a line for each entry of the outer lists, so that large files stay small, and two of
+//! them differ in few lines.
 
 use serde::Serialize;
 
-/// Depth down to which every value has a line of its own: the keys of the outer object, and the entries of their lists.
+/// Depth down to which every value has a line of its own: the keys of the outer object, and the
+/// entries of their lists.
 const LINES: usize = 2;
 
-/// Writes plain data: an object with a line per key, and a line per entry of a key's list or object.
+/// Writes plain data: an object with a line per key, and a line per entry of a key's list or
+/// object.
 ///
 /// # Panics
 /// A map has keys that are not strings.

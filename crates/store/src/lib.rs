@@ -1,5 +1,5 @@
-//! The folder of finished work: who writes there, names of rendered files, records of results with their inputs, and files
-//! from other folders and from archives.
+//! The folder of finished work: who writes there, names of rendered files, records of results with
+//! their inputs, and files from other folders and from archives.
 
 mod clear;
 mod error;

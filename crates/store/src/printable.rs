@@ -6,11 +6,13 @@ use std::path::Path;
 
 use frame::is_hidden;
 
-/// Mark before every line of a message but the first, so that no line begins with what a log reads as a command.
+/// Mark before every line of a message but the first, so that no line begins with what a log reads
+/// as a command.
 const CONTINUED: &str = "  | ";
 
-/// Puts text on one line: control characters, line breaks among them, and characters that change the direction of writing
-/// become escapes such as `\n` and `\u001b`, as in JSON. Other text stays as it is.
+/// Puts text on one line: control characters, line breaks among them, and characters that change
+/// the direction of writing become escapes such as `\n` and `\u001b`, as in JSON. Other text stays
+/// as it is.
 pub fn printable(text: &str) -> Cow<'_, str> {
     if text.chars().any(is_hidden) {
         Cow::Owned(text.chars().fold(String::new(), |mut line, letter| {
@@ -27,8 +29,8 @@ pub fn printable_path(path: &Path) -> String {
     printable(&path.to_string_lossy()).into_owned()
 }
 
-/// Escapes each line of a message as [`printable`] does, and puts a mark before all but the first. Lines of a compiler that quote
-/// a source after a mark of their own get none.
+/// Escapes each line of a message as [`printable`] does, and puts a mark before all but the first.
+/// Lines of a compiler that quote a source after a mark of their own get none.
 pub fn printable_lines(text: &str) -> String {
     let mut lines = text.split('\n').map(printable);
     let mut message = lines.next().unwrap_or_default().into_owned();

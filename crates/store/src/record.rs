@@ -31,7 +31,8 @@ struct Record<T> {
     made: T,
 }
 
-/// Writes what was `made` of these inputs to `path`, after the `files` next to it have been written.
+/// Writes what was `made` of these inputs to `path`, after the `files` next to it have been
+/// written.
 pub fn put<T: Serialize>(
     path: &Path,
     inputs: String,
@@ -50,8 +51,8 @@ pub fn put<T: Serialize>(
     write_atomically(path, record.text().as_bytes())
 }
 
-/// Reads what was made of these inputs. None if there is no such record, if it is broken, or if any of its files is missing
-/// or altered.
+/// Reads what was made of these inputs. None if there is no such record, if it is broken, or if any
+/// of its files is missing or altered.
 pub fn look_up<T: DeserializeOwned>(path: &Path, inputs: &str) -> Option<T> {
     let record = read_whole::<T>(path, inputs)?;
     record.altered_files(path).is_empty().then_some(record.made)
@@ -114,14 +115,14 @@ impl<T> Record<T> {
     }
 }
 
-/// Hashes inputs by their debug output, which includes every field, so that a new one is not forgotten, and numbers that read
-/// back equal.
+/// Hashes inputs by their debug output, which includes every field, so that a new one is not
+/// forgotten, and numbers that read back equal.
 pub fn hash_inputs(inputs: &dyn Debug) -> String {
     hex(format!("{inputs:?}").as_bytes())
 }
 
-/// Hashes the running program. Its bytes change with sources, dependencies, compiler and options: everything that may change a
-/// number and is no other input. None if the bytes cannot be read.
+/// Hashes the running program. Its bytes change with sources, dependencies, compiler and options:
+/// everything that may change a number and is no other input. None if the bytes cannot be read.
 pub fn hash_program() -> Option<String> {
     hash_file(&std::env::current_exe().ok()?).ok()
 }

@@ -185,10 +185,12 @@ pub fn ladder_folder(alignment: Alignment) -> String {
     format!("ladder_{alignment}")
 }
 
-/// Greatest depth of a file below a run's folder: in those of scene, later frame, and case or replicates.
+/// Greatest depth of a file below a run's folder: in those of scene, later frame, and case or
+/// replicates.
 const DEPTH: usize = 4;
 
-/// Lists the rendered files below a run's folder, by scene and frame. Looks nowhere else, and follows no links.
+/// Lists the rendered files below a run's folder, by scene and frame. Looks nowhere else, and
+/// follows no links.
 ///
 /// # Errors
 /// A folder cannot be read.
@@ -202,8 +204,8 @@ pub fn list_renders(root: &Path) -> Result<Vec<RenderPath>, FileError> {
     Ok(found)
 }
 
-/// Lists the files at most as deep below a run's folder as its own, except hidden ones: a killed process may have left some.
-/// Follows no links.
+/// Lists the files at most as deep below a run's folder as its own, except hidden ones: a killed
+/// process may have left some. Follows no links.
 ///
 /// # Errors
 /// A folder cannot be read.

@@ -22,10 +22,11 @@ const ELSEWHERE: [&str; 4] = [
 /// Longest time that git may take.
 const TIME_LIMIT: Duration = Duration::from_secs(60);
 
-/// Refuses a file that git tracks, and a folder with such files: a change may not bring its own evidence. The error ends with
-/// `way_out`, which says what to do instead.
+/// Refuses a file that git tracks, and a folder with such files: a change may not bring its own
+/// evidence. The error ends with `way_out`, which says what to do instead.
 ///
-/// A folder that does not exist or is in no work tree has none, and needs no git. Refuses the folder if git fails.
+/// A folder that does not exist or is in no work tree has none, and needs no git. Refuses the
+/// folder if git fails.
 pub fn refuse_tracked(out: &Path, way_out: &str) -> Result<(), Error> {
     if !out.exists() || !is_in_work_tree(out)? {
         return Ok(());

@@ -12,7 +12,8 @@ pub fn magma(error: &Plane) -> Image {
     })
 }
 
-/// Shows direction as hue and speed as brightness, full at the frame's fastest pixel. Still pixels are black.
+/// Shows direction as hue and speed as brightness, full at the frame's fastest pixel. Still pixels
+/// are black.
 pub fn velocity_wheel(frame: &Frame) -> Image {
     let speed = |v: &[f32; 2]| v[0].hypot(v[1]);
     let fastest = frame.velocity.pixels.iter().map(speed).fold(1e-6, f32::max);

@@ -183,7 +183,8 @@ impl EngineScene {
         }
     }
 
-    /// Reads the mask of what a blur leaves alone, as wide as a frame with a border; none if the capture had none.
+    /// Reads the mask of what a blur leaves alone, as wide as a frame with a border; none if the
+    /// capture had none.
     pub(crate) fn read_exclusion(&self, frame: &Frame) -> Result<Option<Plane>, Error> {
         if !self.further_inputs.iter().any(|name| name == EXCLUSION) {
             return Ok(None);
@@ -224,7 +225,8 @@ pub fn engine_name(engine: &str) -> &str {
     engine.split(" (").next().unwrap_or(engine).trim()
 }
 
-/// Makes one word of a text for folders, tables and addresses: `three.js 0.187.0` becomes `three.js_0.187.0`.
+/// Makes one word of a text for folders, tables and addresses: `three.js 0.187.0` becomes
+/// `three.js_0.187.0`.
 pub fn name_in_one_word(text: &str) -> String {
     let letters = text.trim().chars().map(|letter| {
         let is_kept = letter.is_ascii_alphanumeric() || "._-+".contains(letter);
@@ -233,7 +235,8 @@ pub fn name_in_one_word(text: &str) -> String {
     letters.collect()
 }
 
-/// Returns whether a text can be the name of an engine's scene: it names the scene's folder, and its engine names the picture's subfolder.
+/// Returns whether a text can be the name of an engine's scene: it names the scene's folder, and
+/// its engine names the picture's subfolder.
 fn is_engine_scene(id: &SceneId) -> bool {
     let is_word = |word: &str| !word.is_empty() && name_in_one_word(word) == word;
     let is_engine = |engine: &String| is_word(engine) && !engine.starts_with('.');

@@ -1,6 +1,7 @@
 //! Errors that end the work.
 
-/// An error that ends the work. Its text names the place, what was found, what is allowed and the way out.
+/// An error that ends the work. Its text names the place, what was found, what is allowed and the
+/// way out.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// A scene cannot be loaded.
@@ -24,7 +25,8 @@ pub enum Error {
     /// A truth with more noise than requested; its files are written all the same.
     #[error("{0}")]
     TooNoisy(String),
-    /// Required bounds are broken, scores are worse than the baseline's, or cases failed; the report lists them.
+    /// Required bounds are broken, scores are worse than the baseline's, or cases failed; the
+    /// report lists them.
     #[error("{0}")]
     Broken(String),
     /// The truth is too noisy to decide whether required bounds are met.

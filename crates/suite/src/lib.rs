@@ -1,5 +1,5 @@
-//! Rendering and measuring of filters over scenes, with inputs as in engines. Nothing here prints: results are data, and progress goes to a
-//! [`Monitor`].
+//! Rendering and measuring of filters over scenes, with inputs as in engines. Nothing here prints:
+//! results are data, and progress goes to a [`Monitor`].
 
 mod bench;
 mod colors;

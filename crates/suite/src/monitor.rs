@@ -34,7 +34,8 @@ impl Monitor {
         }
     }
 
-    /// Does a step of long work, shows its progress under a label, and tells it to stop if the caller interrupts.
+    /// Does a step of long work, shows its progress under a label, and tells it to stop if the
+    /// caller interrupts.
     pub fn watch<T>(&self, label: &str, work: impl FnOnce(Watch) -> T) -> T {
         let step = (self.begin)(label);
         work(&|progress| {

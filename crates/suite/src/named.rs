@@ -1,6 +1,7 @@
 //! Enums with names for people: in run.json and on the command line.
 
-/// Defines an enum with `ALL` its values, their `name()`, and their documentation as `help()`. The first value is the default.
+/// Defines an enum with `ALL` its values, their `name()`, and their documentation as `help()`. The
+/// first value is the default.
 #[macro_export]
 macro_rules! named {
     (

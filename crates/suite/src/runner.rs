@@ -14,8 +14,8 @@ pub enum Runner<'g> {
     Command(Box<CommandBlur>),
 }
 
-/// Opens the adapter for the filters; none if all of them are commands and none was requested by name. Refuses a filter with kernels that
-/// exceed the adapter's limits.
+/// Opens the adapter for the filters; none if all of them are commands and none was requested by
+/// name. Refuses a filter with kernels that exceed the adapter's limits.
 pub fn open_gpu(
     choices: &[FilterChoice],
     adapter: Option<&str>,
@@ -55,8 +55,8 @@ impl<'g> Runner<'g> {
         Ok(Self::Kernels(Box::new(blur)))
     }
 
-    /// Prepares a filter with colours that the suite never rounds, for numbers that are not colours; none if [`Runner::new`] already does
-    /// that, or if the adapter cannot.
+    /// Prepares a filter with colours that the suite never rounds, for numbers that are not
+    /// colours; none if [`Runner::new`] already does that, or if the adapter cannot.
     pub fn with_wide_colors(
         gpu: Option<&'g Gpu>,
         choice: &FilterChoice,
@@ -77,8 +77,8 @@ impl<'g> Runner<'g> {
         Ok(Self::Command(Box::new(blur)))
     }
 
-    /// Blurs the first colour image of the input once per frame index; none if the index changes nothing, which a program shows by its
-    /// second picture.
+    /// Blurs the first colour image of the input once per frame index; none if the index changes
+    /// nothing, which a program shows by its second picture.
     pub fn run_noise(
         &mut self,
         input: &Input,
@@ -103,7 +103,8 @@ impl<'g> Runner<'g> {
         }
     }
 
-    /// Blurs every colour image of the input with the same weights, in order. Kernels with history read the previous frame.
+    /// Blurs every colour image of the input with the same weights, in order. Kernels with history
+    /// read the previous frame.
     pub fn run_after(&mut self, input: &Input, before: &Input) -> Result<Vec<Image>, FilterError> {
         match self {
             Self::Kernels(blur) => blur.run_after(input, before),
@@ -111,7 +112,8 @@ impl<'g> Runner<'g> {
         }
     }
 
-    /// Blurs every colour image of the input with the same weights, in order; the previous frame is the input itself.
+    /// Blurs every colour image of the input with the same weights, in order; the previous frame is
+    /// the input itself.
     pub fn run(&mut self, input: &Input) -> Result<Vec<Image>, FilterError> {
         self.run_after(input, input)
     }

@@ -40,7 +40,8 @@ impl AlignedShutter {
     }
 }
 
-/// Lists the alignments that overlap with this one and are used with it: they share their numbers of samples.
+/// Lists the alignments that overlap with this one and are used with it: they share their numbers
+/// of samples.
 pub(crate) fn list_family(alignment: Alignment) -> &'static [Alignment] {
     match alignment {
         Alignment::Trailing | Alignment::Centred => &[Alignment::Trailing, Alignment::Centred],

@@ -9,18 +9,20 @@ use crate::geometry::ray::Hit;
 use crate::scene::Scene;
 use crate::stage::Stage;
 
-/// Number of rays through the picture of the instant: with three of them, a hundredth of a hundredth of the picture is found.
+/// Number of rays through the picture of the instant: with three of them, a hundredth of a
+/// hundredth of the picture is found.
 const RAYS: u32 = 32_768;
 /// Rays that must see a pair before it counts: one may meet the edge at which two surfaces touch.
 const LEAST_RAYS: usize = 3;
-/// Steps of the R2 sequence, which fills the unit square evenly (Roberts 2018, "The unreasonable effectiveness of quasirandom
-/// sequences").
+/// Steps of the R2 sequence, which fills the unit square evenly (Roberts 2018, "The unreasonable
+/// effectiveness of quasirandom sequences").
 const STEPS: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_2];
 
 /// An object, and a material of the scene.
 type Painted = (usize, usize);
 
-/// Finds surfaces of different materials that the camera sees in one place at the instant, and describes each pair of objects.
+/// Finds surfaces of different materials that the camera sees in one place at the instant, and
+/// describes each pair of objects.
 ///
 /// # Errors
 /// An object is too far away.

@@ -11,8 +11,9 @@ use crate::stage::Stage;
 
 const PROGRAM: &str = concat!("shuttertruth ", env!("CARGO_PKG_VERSION"));
 
-/// The content hash of the frame with these settings and replicates, on its picture's own pixels. It covers the scene's own hash,
-/// the settings and the tracer's sources, so equal hashes mean equal pixels.
+/// The content hash of the frame with these settings and replicates, on its picture's own pixels.
+/// It covers the scene's own hash, the settings and the tracer's sources, so equal hashes mean
+/// equal pixels.
 pub fn frame_hash(scene: &Scene, settings: &RenderSettings) -> String {
     let own = RenderSettings {
         exposure: Some(settings.exposure(scene)),
@@ -22,8 +23,8 @@ pub fn frame_hash(scene: &Scene, settings: &RenderSettings) -> String {
     content_hash(scene, "frame", &(own, &scene.shutter_profile))
 }
 
-/// The content hash of the frame that [`trace_frame_part`](crate::trace_frame_part) would render; on the picture's own
-/// pixels it equals [`frame_hash`].
+/// The content hash of the frame that [`trace_frame_part`](crate::trace_frame_part) would render;
+/// on the picture's own pixels it equals [`frame_hash`].
 pub(crate) fn grid_hash(scene: &Scene, settings: &RenderSettings, grid: &PixelGrid) -> String {
     let frame = frame_hash(scene, settings);
     if *grid == PixelGrid::of_picture(settings.width, settings.height) {
@@ -32,7 +33,8 @@ pub(crate) fn grid_hash(scene: &Scene, settings: &RenderSettings, grid: &PixelGr
     content_hash(scene, "grid", &(frame, grid))
 }
 
-/// The content hash that all replicates of a truth share, independent of their number; see [`frame_hash`].
+/// The content hash that all replicates of a truth share, independent of their number; see
+/// [`frame_hash`].
 pub fn replicate_hash(scene: &Scene, settings: &RenderSettings, alignment: Alignment) -> String {
     let each = settings.with_replicates(1);
     content_hash(
@@ -42,14 +44,15 @@ pub fn replicate_hash(scene: &Scene, settings: &RenderSettings, alignment: Align
     )
 }
 
-/// The content hash of the truth that [`trace_truth`](crate::trace_truth) would render; see [`frame_hash`].
+/// The content hash of the truth that [`trace_truth`](crate::trace_truth) would render; see
+/// [`frame_hash`].
 pub fn truth_hash(scene: &Scene, settings: &RenderSettings, alignment: Alignment) -> String {
     let each = replicate_hash(scene, settings, alignment);
     frame::truth_hash(&each, settings.replicates)
 }
 
-/// The content hash of the ladder that [`trace_ladder`](crate::trace_ladder) would render from the truth of the same
-/// settings; see [`frame_hash`].
+/// The content hash of the ladder that [`trace_ladder`](crate::trace_ladder) would render from the
+/// truth of the same settings; see [`frame_hash`].
 pub fn ladder_hash(
     scene: &Scene,
     settings: &RenderSettings,

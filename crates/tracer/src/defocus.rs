@@ -1,4 +1,5 @@
-//! Depth of field as a pass over a picture of a pinhole: the best that one can do with the geometry of the instant.
+//! Depth of field as a pass over a picture of a pinhole: the best that one can do with the geometry
+//! of the instant.
 
 use frame::{Image, Picture, Plane, Raster};
 use glam::DVec3;
@@ -19,7 +20,8 @@ use crate::scene::Scene;
 use crate::settings::RenderSettings;
 use crate::stage::Stage;
 
-/// Rays per pixel, a power of two. Time grows with them; noise falls with about their number to the power of 0.75.
+/// Rays per pixel, a power of two. Time grows with them; noise falls with about their number to the
+/// power of 0.75.
 const SAMPLES: u32 = 256;
 /// Seed of the rays, the same for all pictures, so that the pass depends on scene and size alone.
 const SEED: u64 = 0;
@@ -44,11 +46,12 @@ struct Recipe {
 
 /// A depth of field that is applied to pictures of a scene's pinhole.
 ///
-/// The rays of a pixel go through all of the lens at the instant. Each reads the picture where the pinhole shows the point
-/// that it meets. Behind edges and outside the picture, a ray may meet a point that the pinhole does not show: it is traced
-/// instead, at the instant. So without motion the pass gives the lens' own picture of the instant, except for noise and for
-/// edges, which are read with the width of a pixel. It knows nothing of motion: light that a blur smeared over a pixel counts
-/// as a part of that pixel at the instant.
+/// The rays of a pixel go through all of the lens at the instant. Each reads the picture where the
+/// pinhole shows the point that it meets. Behind edges and outside the picture, a ray may meet a
+/// point that the pinhole does not show: it is traced instead, at the instant. So without motion
+/// the pass gives the lens' own picture of the instant, except for noise and for edges, which are
+/// read with the width of a pixel. It knows nothing of motion: light that a blur smeared over a
+/// pixel counts as a part of that pixel at the instant.
 pub struct Defocus(Raster<Recipe>);
 
 /// Prepares the pass of a scene, for pictures of the settings' size without a guard band.

@@ -85,7 +85,8 @@ pub enum TraceError {
         /// Time, in frames.
         time: f64,
     },
-    /// A time at which the scene is not defined, of a later frame or at another frame rate than its file's.
+    /// A time at which the scene is not defined, of a later frame or at another frame rate than its
+    /// file's.
     #[error(
         "scene {scene}: needs {what} at frame {time}, and the keys {edge}; allowed: motions of two keys, which go on steadily, and \
          others from their first key or shape to their last; take fewer frames, a higher frame rate or a shorter shutter, leave the \

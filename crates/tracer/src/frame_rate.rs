@@ -6,14 +6,14 @@ use serde::{Deserialize, Serialize};
 
 use crate::limits::{FASTEST_RATE, FASTEST_SHUTTER, SLOWEST_RATE, SLOWEST_SHUTTER};
 
-/// A frame rate, and the rule by which the shutter follows it. In names it is the last word after the scene and its variant:
-/// `fan@144fps`, `fan@unlit@24fps_1-48s`.
+/// A frame rate, and the rule by which the shutter follows it. In names it is the last word after
+/// the scene and its variant: `fan@144fps`, `fan@unlit@24fps_1-48s`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FrameRate {
     /// Frames per second, from 1 to 1000.
     pub per_second: f64,
-    /// Number of exposures that fill a second, 48 for a shutter time of 1/48 s; none for a shutter that keeps its share of the frame
-    /// interval.
+    /// Number of exposures that fill a second, 48 for a shutter time of 1/48 s; none for a shutter
+    /// that keeps its share of the frame interval.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shutters_per_second: Option<f64>,
 }
@@ -34,7 +34,8 @@ impl Default for FrameRate {
 }
 
 impl FrameRate {
-    /// The rate at which scenes are as their files say: 60 frames per second, and a shutter in frames.
+    /// The rate at which scenes are as their files say: 60 frames per second, and a shutter in
+    /// frames.
     pub const WRITTEN: Self = Self {
         per_second: 60.0,
         shutters_per_second: None,
@@ -59,7 +60,8 @@ impl FrameRate {
         }
     }
 
-    /// Reads the word of a name; none for another word. The numbers may be beyond what [`FrameRate::check`] allows.
+    /// Reads the word of a name; none for another word. The numbers may be beyond what
+    /// [`FrameRate::check`] allows.
     pub fn in_word(word: &str) -> Option<Self> {
         let (rate, shutter) = match word.split_once("fps")? {
             (rate, "") => (rate, None),

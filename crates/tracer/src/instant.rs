@@ -62,9 +62,10 @@ impl PointLayers {
     }
 }
 
-/// Renders the instant `t = 0` in one replicate. Colour and coverage are filtered over each pixel or sampled at its centre.
-/// Velocity, depth and object id come from the point at the centre, through translucent surfaces unless a material says otherwise.
-/// All rasters extend beyond the picture by the guard band of the settings.
+/// Renders the instant `t = 0` in one replicate. Colour and coverage are filtered over each pixel
+/// or sampled at its centre. Velocity, depth and object id come from the point at the centre,
+/// through translucent surfaces unless a material says otherwise. All rasters extend beyond the
+/// picture by the guard band of the settings.
 pub fn trace_frame(
     scene: &Scene,
     settings: &RenderSettings,
@@ -102,7 +103,8 @@ impl<'a> OpenShutter<'a> {
         }
     }
 
-    /// Chooses the samples of every pixel in a replicate: the truths', so that what stands still has the same samples in both.
+    /// Chooses the samples of every pixel in a replicate: the truths', so that what stands still
+    /// has the same samples in both.
     fn choose_samples(
         &self,
         settings: &RenderSettings,
@@ -142,9 +144,10 @@ fn film_instant<'f>(stage: &'f Stage, settings: &RenderSettings, canvas: Canvas)
     }
 }
 
-/// Renders the instant as [`trace_frame`] does, in the replicates of the settings, on another grid of pixels over their picture, and
-/// all of it or a tile. Guard band and tile are in pixels of the grid; a tile counts from the band's corner. Its rasters have its
-/// size, and the content of the whole frame's there.
+/// Renders the instant as [`trace_frame`] does, in the replicates of the settings, on another grid
+/// of pixels over their picture, and all of it or a tile. Guard band and tile are in pixels of the
+/// grid; a tile counts from the band's corner. Its rasters have its size, and the content of the
+/// whole frame's there.
 ///
 /// # Errors
 /// The settings or the grid do not fit the scene, a pixel is not finite, or the watcher cancelled.
@@ -221,7 +224,8 @@ pub fn trace_motion(
     trace_motion_on(scene, settings, motion, &own)
 }
 
-/// Samples a rasteriser's output as [`trace_motion`] does, on another grid of pixels over the picture of the settings.
+/// Samples a rasteriser's output as [`trace_motion`] does, on another grid of pixels over the
+/// picture of the settings.
 ///
 /// # Errors
 /// The settings or the grid do not fit the scene, or a velocity is not finite.
@@ -243,11 +247,13 @@ pub fn trace_motion_on(
     PointLayers::new(scene, &sample_points(&stage, canvas, settings, motion))
 }
 
-/// Samples the velocities of a frame that few filters read: the motion to the next frame, and the change of depth over the interval of
-/// its velocity. With velocity from only the camera, objects stand still in both.
+/// Samples the velocities of a frame that few filters read: the motion to the next frame, and the
+/// change of depth over the interval of its velocity. With velocity from only the camera, objects
+/// stand still in both.
 ///
 /// # Errors
-/// The settings or the grid do not fit the scene, it is not defined up to the next frame, or a velocity is not finite.
+/// The settings or the grid do not fit the scene, it is not defined up to the next frame, or a
+/// velocity is not finite.
 pub fn trace_further_velocities(
     scene: &Scene,
     settings: &RenderSettings,

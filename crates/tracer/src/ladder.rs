@@ -28,21 +28,24 @@ use crate::stage::Stage;
 const FEWEST_GROUPS: u32 = 2;
 /// Samples of a pixel in which nothing moves, but only light may change, relative to others.
 const SHARE_OF_MARGIN: f64 = 0.25;
-/// Part of a sample's cost that is saved if it sees the background (measured: about 0.2 against 1.6 microseconds for
-/// lit surfaces).
+/// Part of a sample's cost that is saved if it sees the background (measured: about 0.2 against 1.6
+/// microseconds for lit surfaces).
 const SAVED_BY_A_MISS: f64 = 0.875;
 
-/// A scene prepared to render the rungs of a ladder, one at a time: all together take more memory than the truth.
+/// A scene prepared to render the rungs of a ladder, one at a time: all together take more memory
+/// than the truth.
 ///
-/// A rung is the difference of two pictures with the same random numbers: the sub-frames' and the whole shutter's. Each sample
-/// of the whole shutter has a partner at the middle of the sub-frame that it falls into, so that the two see nearly the same if
-/// sub-frames are many. All rungs share these random numbers, which are independent of the truth's.
+/// A rung is the difference of two pictures with the same random numbers: the sub-frames' and the
+/// whole shutter's. Each sample of the whole shutter has a partner at the middle of the sub-frame
+/// that it falls into, so that the two see nearly the same if sub-frames are many. All rungs share
+/// these random numbers, which are independent of the truth's.
 ///
-/// Only pixels near motion are rendered, because an accumulation can differ from the truth only there. Elsewhere differences
-/// are 0, even in a moving shadow on a still floor that is far from anything that moves.
+/// Only pixels near motion are rendered, because an accumulation can differ from the truth only
+/// there. Elsewhere differences are 0, even in a moving shadow on a still floor that is far from
+/// anything that moves.
 ///
-/// A pixel's samples are in proportion to the truth's, and as many in all rungs: the most with which all rungs together cost
-/// no more than the truth, but no more than the truth's own.
+/// A pixel's samples are in proportion to the truth's, and as many in all rungs: the most with
+/// which all rungs together cost no more than the truth, but no more than the truth's own.
 pub struct LadderTracer<'a> {
     stage: Stage<'a>,
     seed: u64,
@@ -63,7 +66,8 @@ pub struct LadderTracer<'a> {
 }
 
 impl<'a> LadderTracer<'a> {
-    /// Prepares the ladder of these numbers of `subframes` over the shutter of `truth`, which was rendered with `settings`.
+    /// Prepares the ladder of these numbers of `subframes` over the shutter of `truth`, which was
+    /// rendered with `settings`.
     pub fn new(
         scene: &'a Scene,
         settings: &RenderSettings,
@@ -95,8 +99,9 @@ impl<'a> LadderTracer<'a> {
         })
     }
 
-    /// Renders the rung of a number of sub-frames, as a ladder of it alone. It does not depend on the other rungs. The first
-    /// rung also renders the whole shutter, which takes as long as a rung.
+    /// Renders the rung of a number of sub-frames, as a ladder of it alone. It does not depend on
+    /// the other rungs. The first rung also renders the whole shutter, which takes as long as a
+    /// rung.
     pub fn trace(&self, subframes: u32, watch: Watch) -> Result<Ladder, TraceError> {
         let (width, height) = self.size;
         let pixels = &self.pixels;
@@ -127,7 +132,8 @@ impl<'a> LadderTracer<'a> {
         )
     }
 
-    /// Renders a tile of that rung. The rasters have the tile's size, and the content of [`LadderTracer::trace`] there.
+    /// Renders a tile of that rung. The rasters have the tile's size, and the content of
+    /// [`LadderTracer::trace`] there.
     pub fn trace_tile(
         &self,
         subframes: u32,
@@ -199,8 +205,8 @@ impl<'a> LadderTracer<'a> {
     }
 }
 
-/// Renders one accumulation per number of `subframes`, over the shutter of `truth`, which was rendered with `settings`, as
-/// [`LadderTracer`] does.
+/// Renders one accumulation per number of `subframes`, over the shutter of `truth`, which was
+/// rendered with `settings`, as [`LadderTracer`] does.
 pub fn trace_ladder(
     scene: &Scene,
     settings: &RenderSettings,
@@ -263,8 +269,8 @@ fn share_samples(truth: &Truth, pixels: &[u32], groups: u32, rungs: usize) -> Sa
     SampleCounts::PerPixel(counts.collect())
 }
 
-/// Subtracts the whole shutter's means from those of sub-frames; other places of the tile hold 0. Without places there are no
-/// means of objects, either.
+/// Subtracts the whole shutter's means from those of sub-frames; other places of the tile hold 0.
+/// Without places there are no means of objects, either.
 fn subtract(
     (tile, objects): (Tile, usize),
     places: &[usize],

@@ -1,4 +1,5 @@
-//! A CPU path tracer: from a scene of moving OBJ meshes to the frame of one instant and the truth of a shutter interval.
+//! A CPU path tracer: from a scene of moving OBJ meshes to the frame of one instant and the truth
+//! of a shutter interval.
 //!
 //! It follows the conventions of the [`frame`] crate.
 

@@ -1,7 +1,7 @@
 //! The limits of scenes and renders. `docs/limits.md` lists these numbers; a test compares the two.
 //!
-//! Each is far above the needs of scenes, and low enough to bound memory and time. A file beyond a limit is refused before
-//! memory is allocated for it.
+//! Each is far above the needs of scenes, and low enough to bound memory and time. A file beyond a
+//! limit is refused before memory is allocated for it.
 
 /// Widest and highest picture, in pixels.
 pub const LARGEST_SIDE: u32 = 16_384;
@@ -30,7 +30,8 @@ pub const MAX_TEXELS: u64 = 67_108_864;
 /// Most texels of all textures of a scene together: two of 8192 x 8192.
 pub const MAX_TEXELS_TOGETHER: u64 = 134_217_728;
 
-/// Most texels of an environment: 8192 x 4096. One takes 44 bytes, because it is sampled as a light too.
+/// Most texels of an environment: 8192 x 4096. One takes 44 bytes, because it is sampled as a light
+/// too.
 pub const MAX_ENVIRONMENT_TEXELS: u64 = 33_554_432;
 
 /// Most values of all channels and layers of an EXR file that holds an environment.
@@ -66,10 +67,12 @@ pub const MAX_KEYS: usize = 16_384;
 /// Greatest magnitude of a number in a scene's files: metres, watts, degrees and frames alike.
 pub const LARGEST_NUMBER: f64 = 1e12;
 
-/// Greatest distance of anything in a scene file from the world's origin, in metres, summed up over sizes and motions.
+/// Greatest distance of anything in a scene file from the world's origin, in metres, summed up over
+/// sizes and motions.
 pub const FARTHEST: f64 = 1e12;
 
-/// Largest angle of an object since a key, in degrees, its parents' angles added: 64-bit numbers place it to 1e-5 radians.
+/// Largest angle of an object since a key, in degrees, its parents' angles added: 64-bit numbers
+/// place it to 1e-5 radians.
 pub const LARGEST_ANGLE: f64 = 4e12;
 
 /// Smallest factor by which all scales together, those of parents included, may shrink an object.
@@ -105,9 +108,10 @@ pub const SMALLEST_SUN: f64 = 0.001;
 /// Brightest radiance.
 pub const BRIGHTEST: f32 = 1e12;
 
-/// Greatest coordinate of anything that is rendered, in metres: the areas of boxes must be 32-bit numbers, and positions
-/// exact to less than a metre.
+/// Greatest coordinate of anything that is rendered, in metres: the areas of boxes must be 32-bit
+/// numbers, and positions exact to less than a metre.
 pub const LARGEST_COORDINATE: f64 = 1e15;
 
-/// Greatest value of a pixel, in any layer but depth: sums and products of pixels must be 32-bit numbers.
+/// Greatest value of a pixel, in any layer but depth: sums and products of pixels must be 32-bit
+/// numbers.
 pub const LARGEST_VALUE: f32 = 1e36;

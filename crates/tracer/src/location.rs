@@ -100,7 +100,8 @@ impl Location {
     /// Reads a file of at most `limit` bytes.
     ///
     /// # Errors
-    /// Fails if there is no such file, if it is not a regular file, or if it is larger than `limit`.
+    /// Fails if there is no such file, if it is not a regular file, or if it is larger than
+    /// `limit`.
     pub fn read(&self, limit: u64) -> Result<Vec<u8>, FileError> {
         let Some(bundle) = self.bundle else {
             return read_bounded(&self.path, limit);
@@ -116,7 +117,8 @@ impl Location {
         }
     }
 
-    /// The name in the bundle, with `/` between its parts; empty for the bundle itself. None for a path that leaves it.
+    /// The name in the bundle, with `/` between its parts; empty for the bundle itself. None for a
+    /// path that leaves it.
     fn name_in(&self, bundle: &Bundle) -> Option<String> {
         let path = self.path.strip_prefix(bundle.name).ok()?;
         let parts: Option<Vec<&str>> = (path.components())

@@ -7,8 +7,8 @@ use frame::{Camera, Reprojection};
 pub struct PixelGrid {
     /// Pixels per row and rows, guard band left out.
     pub size: [u32; 2],
-    /// Distance by which every pixel looks to the right of its own place, and below it, in pixels of the grid: the jitter of a
-    /// camera, or the place of a sample from the centre.
+    /// Distance by which every pixel looks to the right of its own place, and below it, in pixels
+    /// of the grid: the jitter of a camera, or the place of a sample from the centre.
     pub offset: [f64; 2],
 }
 
@@ -21,7 +21,8 @@ impl PixelGrid {
         }
     }
 
-    /// Returns the width and the height of a pixel of the grid, in pixels of a picture of `width` x `height`.
+    /// Returns the width and the height of a pixel of the grid, in pixels of a picture of `width` x
+    /// `height`.
     pub(crate) fn step(&self, width: u32, height: u32) -> [f64; 2] {
         [
             f64::from(width) / f64::from(self.size[0]),

@@ -9,7 +9,8 @@ const JOINT_BOUNCES: u32 = 2;
 /// Number of the lens' set, which no bounce has.
 const LENS_SET: u32 = u32::MAX;
 
-/// Independent streams of random numbers, so that renders of a scene share no noise but what they are meant to.
+/// Independent streams of random numbers, so that renders of a scene share no noise but what they
+/// are meant to.
 #[derive(Clone, Copy)]
 pub(crate) enum Stream {
     /// Truths, and the frame that goes with them: they differ by nothing where nothing changes.
@@ -30,7 +31,8 @@ pub(crate) struct Sampler {
     seed: u32,
 }
 
-/// The seed of one replicate of one pixel: different for each replicate of a pixel, unrelated between pixels.
+/// The seed of one replicate of one pixel: different for each replicate of a pixel, unrelated
+/// between pixels.
 pub(crate) fn pixel_seed(seed: u64, stream: Stream, pixel: u32, replicate: u32) -> u32 {
     let stream = match stream {
         Stream::Picture => 1,
@@ -49,13 +51,14 @@ impl Sampler {
         Self { index, seed }
     }
 
-    /// Numbers for the place in the pixel (x, y) and in the shutter interval, stratified together; one is spare.
+    /// Numbers for the place in the pixel (x, y) and in the shutter interval, stratified together;
+    /// one is spare.
     pub fn camera(&self) -> [f64; 4] {
         draw(self.index, 0, self.seed)
     }
 
-    /// Numbers for the point of the lens, stratified together. They change no others, so that a pinhole's samples are the same
-    /// with and without them.
+    /// Numbers for the point of the lens, stratified together. They change no others, so that a
+    /// pinhole's samples are the same with and without them.
     pub fn lens(&self) -> [f64; 2] {
         let [u, v, ..] = self.shuffled_set(LENS_SET);
         [u, v]
@@ -71,22 +74,25 @@ impl Sampler {
         self.set(depth, 1)
     }
 
-    /// Numbers for the direction to the sky (two) and the choice of a lobe; the last is [`Sampler::passage`].
+    /// Numbers for the direction to the sky (two) and the choice of a lobe; the last is
+    /// [`Sampler::passage`].
     pub fn sky(&self, depth: u32) -> [f64; 4] {
         self.set(depth, 2)
     }
 
-    /// Number that chooses where the ray of a bounce stops among translucent surfaces: the spare one of [`Sampler::sky`].
+    /// Number that chooses where the ray of a bounce stops among translucent surfaces: the spare
+    /// one of [`Sampler::sky`].
     pub fn passage(&self, depth: u32) -> f64 {
         self.sky(depth)[3]
     }
 
     /// One set of numbers.
     ///
-    /// The first bounces are stratified together with the camera. In high dimensions of the sequence small counts are
-    /// correlated: all paths that survive one roulette would survive or die together in the next. There each set uses the
-    /// sequence's first four dimensions with a seed of its own, which shuffles the samples as well (Burley 2020, "Practical
-    /// Hash-based Owen Scrambling", section 4).
+    /// The first bounces are stratified together with the camera. In high dimensions of the
+    /// sequence small counts are correlated: all paths that survive one roulette would survive or
+    /// die together in the next. There each set uses the sequence's first four dimensions with a
+    /// seed of its own, which shuffles the samples as well (Burley 2020, "Practical Hash-based Owen
+    /// Scrambling", section 4).
     fn set(&self, depth: u32, which: u32) -> [f64; 4] {
         let set = 1 + SETS_PER_BOUNCE * depth + which;
         if depth < JOINT_BOUNCES {

@@ -13,7 +13,8 @@ use crate::frame_rate::FrameRate;
 /// The word before the seed in the name of a sealed variant: `fan@seal7`.
 const SEAL: &str = "seal";
 
-/// Identity of a scene, also as a text: `fan`, `sliding_panel@64px_45deg`, `fan@seal7@24fps/0003`. Ordered by that text.
+/// Identity of a scene, also as a text: `fan`, `sliding_panel@64px_45deg`, `fan@seal7@24fps/0003`.
+/// Ordered by that text.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(into = "String", try_from = "String")]
 pub struct SceneId {
@@ -30,7 +31,8 @@ pub struct SceneId {
 }
 
 impl SceneId {
-    /// Makes the identity of a scene from its name and the part after it: `seal7@24fps`. Any other variant is one of its file.
+    /// Makes the identity of a scene from its name and the part after it: `seal7@24fps`. Any other
+    /// variant is one of its file.
     pub fn new(name: impl Into<String>, choice: Option<&str>) -> Self {
         let mut id = Self {
             name: name.into(),

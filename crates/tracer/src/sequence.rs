@@ -7,11 +7,13 @@ use crate::frame_rate::FrameRate;
 use crate::scene::{Motion, Scene};
 
 impl Scene {
-    /// Makes the scene as it is `frame` frames later: that time becomes time 0 of the result, for which frame and truth are
-    /// rendered. All keys and key shapes move; the settings, the seed and everything without keys stay. The result has an
-    /// identity and a hash of its own. Frame 0 is the scene itself.
+    /// Makes the scene as it is `frame` frames later: that time becomes time 0 of the result, for
+    /// which frame and truth are rendered. All keys and key shapes move; the settings, the seed and
+    /// everything without keys stay. The result has an identity and a hash of its own. Frame 0 is
+    /// the scene itself.
     ///
-    /// Renders of a later frame refuse times at which the scene is not defined; see [`TraceError::Undefined`].
+    /// Renders of a later frame refuse times at which the scene is not defined; see
+    /// [`TraceError::Undefined`].
     pub fn at_frame(&self, frame: u32) -> Self {
         assert_eq!(self.id.frame, 0, "frames are counted from the scene's own");
         if frame == 0 {
@@ -24,15 +26,15 @@ impl Scene {
         scene
     }
 
-    /// Makes the scene as it is some frames later, or earlier if `later` is negative. Its identity and its hash stay, so
-    /// nothing made from it may be stored in files.
+    /// Makes the scene as it is some frames later, or earlier if `later` is negative. Its identity
+    /// and its hash stay, so nothing made from it may be stored in files.
     pub fn later_by(mut self, later: f64) -> Self {
         self.change_times(|time| time - later);
         self
     }
 
-    /// Converts the scene to another frame rate. All times in its file, and the delay of a rolling shutter, stay the same in
-    /// seconds. The instant stays. The caller sets identity and hash.
+    /// Converts the scene to another frame rate. All times in its file, and the delay of a rolling
+    /// shutter, stay the same in seconds. The instant stays. The caller sets identity and hash.
     pub(crate) fn at_rate(mut self, rate: FrameRate) -> Self {
         let frames = rate.frames_per_written_frame();
         self.change_times(|time| time * frames);
@@ -41,8 +43,9 @@ impl Scene {
         self
     }
 
-    /// Refuses times at which the scene is not defined, `open` to `close` in frames after the instant: for a later frame those
-    /// beyond the end of its keys, and at another frame rate those before their beginning as well.
+    /// Refuses times at which the scene is not defined, `open` to `close` in frames after the
+    /// instant: for a later frame those beyond the end of its keys, and at another frame rate those
+    /// before their beginning as well.
     pub(crate) fn check_defined(&self, open: f64, close: f64) -> Result<(), TraceError> {
         let is_own_rate = self.rate() == FrameRate::WRITTEN;
         if is_own_rate && self.id.frame == 0 {
@@ -78,8 +81,8 @@ impl Scene {
         Ok(())
     }
 
-    /// Lists paths and key shapes, which are defined from their first key or shape to their last, with the times of both.
-    /// Steady motions go on for ever.
+    /// Lists paths and key shapes, which are defined from their first key or shape to their last,
+    /// with the times of both. Steady motions go on for ever.
     fn list_timelines(&self) -> Vec<(String, f64, f64)> {
         let motions = (self.named_motions().into_iter()).map(|(what, motion)| {
             let times = motion.keys.iter().map(|key| key.time).collect();
@@ -109,10 +112,12 @@ impl Scene {
     }
 }
 
-/// Keys that make a steady motion, which goes on for ever. More of them make a path, which ends at the last.
+/// Keys that make a steady motion, which goes on for ever. More of them make a path, which ends at
+/// the last.
 const STEADY_KEYS: usize = 2;
 
-/// Finds the last key of a motion whose scale passes 0 between that key and `time`; none if it keeps its sign.
+/// Finds the last key of a motion whose scale passes 0 between that key and `time`; none if it
+/// keeps its sign.
 fn end_of_scale(motion: &Motion, time: f64) -> Option<f64> {
     let last = motion.keys.last()?;
     let segment = motion.segment(time.max(last.time));

@@ -15,10 +15,12 @@ pub struct RenderSettings {
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// Mean samples per pixel of a frame or of a truth over all its replicates; each takes a power of two up to 65536. Time grows
-    /// with them, noise falls faster than their square root: a pilot shares them out.
+    /// Mean samples per pixel of a frame or of a truth over all its replicates; each takes a power
+    /// of two up to 65536. Time grows with them, noise falls faster than their square root: a pilot
+    /// shares them out.
     pub samples_per_pixel: u32,
-    /// Independent, complete renders; an even number for a truth. More of them measure the noise better and stratify worse.
+    /// Independent, complete renders; an even number for a truth. More of them measure the noise
+    /// better and stratify worse.
     pub replicates: u32,
     /// Seed of the random numbers.
     pub seed: u64,
@@ -27,7 +29,8 @@ pub struct RenderSettings {
     pub options: FrameOptions,
     /// Pixels by which the frame's rasters extend beyond the picture on every side.
     pub guard_band: u32,
-    /// Length of the shutter interval in frames; none means the scene's. Not in run.json, where every case has its own.
+    /// Length of the shutter interval in frames; none means the scene's. Not in run.json, where
+    /// every case has its own.
     #[serde(skip)]
     pub exposure: Option<f64>,
 }
@@ -108,7 +111,8 @@ impl RenderSettings {
     }
 }
 
-/// Refuses a scene that is not defined up to the next frame, so that its points cannot be followed there.
+/// Refuses a scene that is not defined up to the next frame, so that its points cannot be followed
+/// there.
 pub fn check_next_frame(scene: &Scene) -> Result<(), TraceError> {
     scene.check_defined(0.0, 1.0)?;
     check_field_of_view(scene, 0.0, 1.0)

@@ -17,7 +17,8 @@ use crate::scene::{Material, Scene};
 
 /// A scene between two times, prepared for rays.
 ///
-/// A ray is transformed into an object's space by the exact pose at its time; motion is not linearised.
+/// A ray is transformed into an object's space by the exact pose at its time; motion is not
+/// linearised.
 pub struct Stage<'a> {
     pub(crate) scene: &'a Scene,
     tree: SceneTree<'a>,
@@ -53,13 +54,14 @@ macro_rules! traverse {
 }
 
 impl<'a> Stage<'a> {
-    /// Prepares the scene for rays at times in `[from, to]` (frames). Panics if [`Stage::try_new`] refuses.
+    /// Prepares the scene for rays at times in `[from, to]` (frames). Panics if [`Stage::try_new`]
+    /// refuses.
     pub fn new(scene: &'a Scene, from: f64, to: f64) -> Self {
         Self::try_new(scene, from, to).expect("no object is too far away")
     }
 
-    /// Prepares the scene for rays at times in `[from, to]` (frames). Refuses objects with coordinates above
-    /// [`LARGEST_COORDINATE`](crate::limits::LARGEST_COORDINATE).
+    /// Prepares the scene for rays at times in `[from, to]` (frames). Refuses objects with
+    /// coordinates above [`LARGEST_COORDINATE`](crate::limits::LARGEST_COORDINATE).
     pub fn try_new(scene: &'a Scene, from: f64, to: f64) -> Result<Self, TraceError> {
         assert!(from <= to, "a stage's interval runs forwards in time");
         let mut poses = Poses::new(scene, from, to);
@@ -91,8 +93,8 @@ impl<'a> Stage<'a> {
         self.poses.clone()
     }
 
-    /// Finds the nearest surface at `t > 0`, opaque or translucent; among equally near ones, that of
-    /// the lowest object, then triangle.
+    /// Finds the nearest surface at `t > 0`, opaque or translucent; among equally near ones, that
+    /// of the lowest object, then triangle.
     pub fn closest(&self, poses: &mut Poses, ray: &Ray) -> Option<Hit> {
         self.closest_in_sight(poses, ray, Sight::Everything)
     }
@@ -112,7 +114,8 @@ impl<'a> Stage<'a> {
         traverse!(self.closest_behind(poses, ray, last))
     }
 
-    /// Finds a surface at the place of a hit of the same ray, of those that `is_other` names by object and triangle.
+    /// Finds a surface at the place of a hit of the same ray, of those that `is_other` names by
+    /// object and triangle.
     pub(crate) fn coincident(
         &self,
         poses: &mut Poses,
@@ -123,8 +126,9 @@ impl<'a> Stage<'a> {
         traverse!(self.coincident(poses, ray, hit, is_other))
     }
 
-    /// The share of the light that passes along a ray at `0 < t < limit`: the product of all surfaces' shares. It does not
-    /// depend on the order of the traversal, since surfaces are met from near to far.
+    /// The share of the light that passes along a ray at `0 < t < limit`: the product of all
+    /// surfaces' shares. It does not depend on the order of the traversal, since surfaces are met
+    /// from near to far.
     pub(crate) fn transmittance(&self, poses: &mut Poses, ray: &Ray, limit: f64) -> Vec3 {
         if self.is_blocked(poses, ray, limit) {
             return Vec3::ZERO;

@@ -26,8 +26,8 @@ use crate::stage::Stage;
 
 /// A scene prepared to render the replicates of its truths, for one alignment or several.
 ///
-/// Alignments of one exposure overlap. The common part of their intervals is traced once. A replicate has the same bytes
-/// whether it is rendered alone or with others.
+/// Alignments of one exposure overlap. The common part of their intervals is traced once. A
+/// replicate has the same bytes whether it is rendered alone or with others.
 pub struct TruthTracer<'a> {
     stage: Stage<'a>,
     settings: RenderSettings,
@@ -63,8 +63,8 @@ pub fn trace_truth(
 }
 
 impl<'a> TruthTracer<'a> {
-    /// Prepares a scene for one truth per alignment: one alone, or trailing and centred. Refuses settings with which the scene
-    /// cannot be rendered.
+    /// Prepares a scene for one truth per alignment: one alone, or trailing and centred. Refuses
+    /// settings with which the scene cannot be rendered.
     pub fn new(
         scene: &'a Scene,
         settings: &RenderSettings,
@@ -94,14 +94,16 @@ impl<'a> TruthTracer<'a> {
         })
     }
 
-    /// Renders one replicate of every truth, in the order of the alignments. The index seeds its random numbers and changes
-    /// nothing else; it may exceed the number of replicates in the settings.
+    /// Renders one replicate of every truth, in the order of the alignments. The index seeds its
+    /// random numbers and changes nothing else; it may exceed the number of replicates in the
+    /// settings.
     pub fn trace(&self, index: u32, watch: Watch) -> Result<Vec<Replicate>, TraceError> {
         self.trace_tile(index, self.canvas().whole(), watch)
     }
 
-    /// Renders a tile of one replicate of every truth. The rasters have the tile's size, and the content of
-    /// [`TruthTracer::trace`] there. Takes the time of the tile's samples, and of the whole picture's pilot and support.
+    /// Renders a tile of one replicate of every truth. The rasters have the tile's size, and the
+    /// content of [`TruthTracer::trace`] there. Takes the time of the tile's samples, and of the
+    /// whole picture's pilot and support.
     pub fn trace_tile(
         &self,
         index: u32,
@@ -193,12 +195,14 @@ impl<'a> TruthTracer<'a> {
         })
     }
 
-    /// The samples of every pixel, which are the same for every replicate and every alignment of the family.
+    /// The samples of every pixel, which are the same for every replicate and every alignment of
+    /// the family.
     fn samples(&self, watch: Watch) -> Result<&SampleCounts, TraceError> {
         get_or_try_init(&self.samples, || self.samples_on(self.canvas(), watch))
     }
 
-    /// Chooses the samples of every pixel of a canvas in a replicate: a truth's, or those of the frame that goes with it.
+    /// Chooses the samples of every pixel of a canvas in a replicate: a truth's, or those of the
+    /// frame that goes with it.
     pub(crate) fn samples_on(
         &self,
         canvas: Canvas,
@@ -235,7 +239,8 @@ impl<'a> TruthTracer<'a> {
     }
 }
 
-/// Returns the content of a cell; fills it first if it is empty. Another thread may be faster, with the same result.
+/// Returns the content of a cell; fills it first if it is empty. Another thread may be faster, with
+/// the same result.
 fn get_or_try_init<T>(
     cell: &OnceLock<T>,
     make: impl FnOnce() -> Result<T, TraceError>,

@@ -8,13 +8,15 @@ use crate::options::TuneOptions;
 use crate::selection::{Choice, Loss, trial_settings};
 use crate::trial::Trial;
 
-/// Sets the changed parameters of a choice back to the start, one after the other in the order of the axes, and measures the result. A
-/// parameter stays at the start if the loss to the best remains acceptable. Returns the trial that is left, with the chosen one's
-/// number, and updates `choice` (compare Fawcett and Hoos, "Analysing differences between algorithm configurations through ablation",
-/// Journal of Heuristics 22, 2016).
+/// Sets the changed parameters of a choice back to the start, one after the other in the order of
+/// the axes, and measures the result. A parameter stays at the start if the loss to the best
+/// remains acceptable. Returns the trial that is left, with the chosen one's number, and updates
+/// `choice` (compare Fawcett and Hoos, "Analysing differences between algorithm configurations
+/// through ablation", Journal of Heuristics 22, 2016).
 ///
-/// A search moves a parameter without effect at random, and the trial nearest to the start still has some of that. The trials here depend
-/// on the choice alone and are not in the journal: a search that goes on is not disturbed, and one that was interrupted repeats them.
+/// A search moves a parameter without effect at random, and the trial nearest to the start still
+/// has some of that. The trials here depend on the choice alone and are not in the journal: a
+/// search that goes on is not disturbed, and one that was interrupted repeats them.
 pub fn ablate_choice(
     options: &TuneOptions,
     evaluator: &mut Evaluator,

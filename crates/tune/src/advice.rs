@@ -3,7 +3,8 @@
 use crate::comparison::{Difference, PairedComparison, Preference, pair_scores};
 use crate::tuning::Tuning;
 
-/// Smallest change of the log of the error that justifies another value: half of the last digit of a change in tables.
+/// Smallest change of the log of the error that justifies another value: half of the last digit of
+/// a change in tables.
 const LEAST_CHANGE: f64 = 5e-4;
 
 /// Advice on the choice of a tuning.

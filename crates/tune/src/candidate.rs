@@ -13,7 +13,8 @@ pub struct Candidate<'a> {
 pub type Blurred = (Image, Option<Vec<Plane>>);
 
 impl<'a> Candidate<'a> {
-    /// Makes a candidate for pictures of one size. `kernels` are the filter's, none if it is a program.
+    /// Makes a candidate for pictures of one size. `kernels` are the filter's, none if it is a
+    /// program.
     pub fn new(
         filter: &Filter,
         settings: &Settings,

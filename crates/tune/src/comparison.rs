@@ -19,7 +19,8 @@ pub struct PairedComparison {
     pub scenes: BTreeMap<String, [SceneScore; 2]>,
     /// Difference in log(FLIP): log(FLIP of the second / FLIP of the first).
     pub flip: Difference,
-    /// The second's lateral bleed minus the first's, in pixels; none if it was not measured or applies to no scene.
+    /// The second's lateral bleed minus the first's, in pixels; none if it was not measured or
+    /// applies to no scene.
     pub bleed: Option<Difference>,
 }
 

@@ -13,7 +13,8 @@ use crate::candidate::Candidate;
 use crate::loss::{mean_log_ratio, worst_bleed};
 use crate::target::{RenderedScene, SceneScore, SceneScores, Target};
 
-/// Rounds that alternate between one candidate and the start; odd, so that the median is one of them.
+/// Rounds that alternate between one candidate and the start; odd, so that the median is one of
+/// them.
 const ROUNDS: usize = 5;
 
 /// A filter on scenes that are loaded once; remembers earlier scores.
@@ -75,10 +76,12 @@ impl<'a> Evaluator<'a> {
         known.extend(scores.clone());
     }
 
-    /// Scores one candidate on some scenes, by their indices. Calls `on_score` with each score as soon as it is known.
+    /// Scores one candidate on some scenes, by their indices. Calls `on_score` with each score as
+    /// soon as it is known.
     ///
     /// # Errors
-    /// The filter fails, or `on_score` returned false before all scenes had a score, which cancels the work.
+    /// The filter fails, or `on_score` returned false before all scenes had a score, which cancels
+    /// the work.
     pub(crate) fn score(
         &mut self,
         settings: &Settings,
@@ -146,8 +149,9 @@ impl<'a> Evaluator<'a> {
         Ok(found)
     }
 
-    /// Times all passes of a candidate and of the start alternately on one scene, by its index, and returns the median ratio, after one
-    /// round that does not count. None for a program, which no GPU can time.
+    /// Times all passes of a candidate and of the start alternately on one scene, by its index, and
+    /// returns the median ratio, after one round that does not count. None for a program, which no
+    /// GPU can time.
     pub(crate) fn measure_cost(
         &self,
         settings: &Settings,
@@ -192,8 +196,8 @@ pub struct Evaluation {
     pub scenes: SceneScores,
 }
 
-/// Evaluates a candidate on scenes by their indices. Calls `on_score` with each score as soon as it is known; if that ends the evaluation
-/// early, by returning false, the result is an error.
+/// Evaluates a candidate on scenes by their indices. Calls `on_score` with each score as soon as it
+/// is known; if that ends the evaluation early, by returning false, the result is an error.
 pub fn evaluate_candidate(
     evaluator: &mut Evaluator,
     settings: &Settings,

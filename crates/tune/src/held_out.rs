@@ -1,4 +1,5 @@
-//! Results on held-out scenes, which no trial uses: evaluated once at the end, and every evaluation is counted.
+//! Results on held-out scenes, which no trial uses: evaluated once at the end, and every evaluation
+//! is counted.
 
 use std::collections::BTreeMap;
 use std::path::Path;

@@ -24,8 +24,8 @@ pub struct Journal {
 }
 
 impl Journal {
-    /// Opens the journal at `path`, or begins it. Cuts off a line that a killed process left half-written: its trial is run again. Refuses
-    /// another command's journal.
+    /// Opens the journal at `path`, or begins it. Cuts off a line that a killed process left
+    /// half-written: its trial is run again. Refuses another command's journal.
     pub fn open(path: &Path, header: &JournalHeader) -> Result<Self, Error> {
         let fail = |action, source| FileError::io(path, action, source);
         if let Some(folder) = path.parent() {
@@ -85,7 +85,8 @@ impl Journal {
     }
 }
 
-/// Reads the complete lines of the journal at `path`: the last line of a running tuning may be half-written. None without any.
+/// Reads the complete lines of the journal at `path`: the last line of a running tuning may be
+/// half-written. None without any.
 pub fn read_journal(path: &Path) -> Result<Option<(JournalHeader, Vec<Trial>)>, Error> {
     if !path.exists() {
         return Ok(None);
@@ -135,7 +136,8 @@ pub fn journal_error(path: &Path, index: usize, reason: &str) -> Error {
     ))
 }
 
-/// Refuses a header that differs from the expected one; names the first differing setting, and how to continue the journal.
+/// Refuses a header that differs from the expected one; names the first differing setting, and how
+/// to continue the journal.
 fn check_header(path: &Path, line: &str, expected: &JournalHeader) -> Result<(), Error> {
     let found: Value = serde_json::from_str(line)
         .map_err(|error| journal_error(path, 0, &format!("is no journal of a tuning: {error}")))?;

@@ -8,7 +8,8 @@ pub const FAILED: f64 = 3.0;
 pub const LEAST_BLEED: f64 = 0.01;
 /// FLIP that counts as none: half a step of 8 bits in one pixel of a thousand.
 const LEAST_FLIP: f64 = 1e-6;
-/// Weight of an exceeded limit or bound, per fraction of the limit: 10 % too much cost weighs as much as an error 22 % larger.
+/// Weight of an exceeded limit or bound, per fraction of the limit: 10 % too much cost weighs as
+/// much as an error 22 % larger.
 const PENALTY: f64 = 2.0;
 /// Divisor for smaller limits, such as the bleed of a start that never bleeds.
 const SMALLEST_LIMIT: f64 = 0.05;

@@ -36,7 +36,8 @@ pub fn run_next_trial(
     run_trial(options, evaluator, trials, &settings)
 }
 
-/// Runs a candidate after other trials. A candidate that the filter fails on is a failed trial, unless it is the start.
+/// Runs a candidate after other trials. A candidate that the filter fails on is a failed trial,
+/// unless it is the start.
 pub fn run_trial(
     options: &TuneOptions,
     evaluator: &mut Evaluator,

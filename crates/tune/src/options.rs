@@ -92,7 +92,8 @@ impl TuneOptions {
         }
     }
 
-    /// Returns the limits of the choice, from the limits relative to the start, which is the first trial.
+    /// Returns the limits of the choice, from the limits relative to the start, which is the first
+    /// trial.
     pub fn choice_limits(&self, start: &Trial) -> ChoiceLimits {
         ChoiceLimits {
             cost: self.cost_at_most,

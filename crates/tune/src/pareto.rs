@@ -5,8 +5,8 @@ pub fn round_bleed(bleed: f64) -> f64 {
     (1000.0 * bleed).round() / 1000.0
 }
 
-/// Returns the indices of the rows that no other row beats: no other is as low in every column and lower in one. Keeps the first of equal
-/// rows.
+/// Returns the indices of the rows that no other row beats: no other is as low in every column and
+/// lower in one. Keeps the first of equal rows.
 pub fn pareto_front(rows: &[Vec<f64>]) -> Vec<usize> {
     let beats = |a: &[f64], b: &[f64]| {
         let no_worse = a.iter().zip(b).all(|(a, b)| a <= b);

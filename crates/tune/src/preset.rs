@@ -5,8 +5,9 @@ use filters::TuningRecord;
 use crate::options::TuneOptions;
 use crate::tuning::Tuning;
 
-/// Formats a `[[preset]]` called `tuned`, with a record of the tuning and the values that differ from the parameters' defaults. Values in
-/// pixels that were scaled to the width of the scenes are for that width.
+/// Formats a `[[preset]]` called `tuned`, with a record of the tuning and the values that differ
+/// from the parameters' defaults. Values in pixels that were scaled to the width of the scenes are
+/// for that width.
 pub fn tuned_preset_toml(tuning: &Tuning, options: &TuneOptions) -> String {
     let render = &options.render;
     let journal = &tuning.journal;

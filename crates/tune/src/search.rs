@@ -13,9 +13,9 @@ const LOSS_STEP: f64 = 1e-5;
 /// Difference between coordinates that counts as none.
 const COORDINATE_STEP: f64 = 1e-3;
 
-/// Ask-and-tell search: the presets, then a Sobol design that fills the cube, then CMA-ES from the best of them; once that has settled,
-/// again from another point with twice the population (Auger and Hansen, "A Restart CMA Evolution Strategy with Increasing Population
-/// Size", CEC 2005).
+/// Ask-and-tell search: the presets, then a Sobol design that fills the cube, then CMA-ES from the
+/// best of them; once that has settled, again from another point with twice the population (Auger
+/// and Hansen, "A Restart CMA Evolution Strategy with Increasing Population Size", CEC 2005).
 #[derive(Clone, Debug)]
 pub struct Search {
     /// Seed of all randomness.
@@ -37,8 +37,8 @@ impl Search {
         Self { seed, design, axes }
     }
 
-    /// Returns the next point, given the losses of the points so far. It depends on nothing else: the whole search is repeated, which takes
-    /// some milliseconds after hundreds of losses.
+    /// Returns the next point, given the losses of the points so far. It depends on nothing else:
+    /// the whole search is repeated, which takes some milliseconds after hundreds of losses.
     pub fn ask(&self, losses: &[f64]) -> Vec<f64> {
         if let Some(point) = self.design.get(losses.len()) {
             return point.clone();
@@ -59,7 +59,8 @@ impl Search {
         unreachable!("a run that asks for nothing new has used up losses")
     }
 
-    /// Runs CMA-ES over the losses from `used` on, and returns the first point without a loss; none if it settles before.
+    /// Runs CMA-ES over the losses from `used` on, and returns the first point without a loss; none
+    /// if it settles before.
     fn run_cma_es(
         &self,
         mean: Vec<f64>,

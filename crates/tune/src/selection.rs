@@ -9,7 +9,8 @@ use crate::loss::{log_ratios, mean_log_ratio};
 use crate::space::Space;
 use crate::trial::Trial;
 
-/// Largest mean log(error / error of the best) that a choice may have: an error 1 % larger, which few tables show.
+/// Largest mean log(error / error of the best) that a choice may have: an error 1 % larger, which
+/// few tables show.
 const LARGEST_LOSS: f64 = 0.01;
 
 /// Upper limits on the choice.
@@ -44,7 +45,8 @@ pub struct Choice {
     pub best: usize,
     /// Distance of the choice from the best.
     pub loss: Loss,
-    /// Parameters of the chosen trial that were set back to the start afterwards: the scenes do not show their effect.
+    /// Parameters of the chosen trial that were set back to the start afterwards: the scenes do not
+    /// show their effect.
     pub reset: Vec<String>,
 }
 
@@ -53,12 +55,14 @@ pub struct Choice {
 pub struct Loss {
     /// Mean; above 0 if the best is better.
     pub mean: f64,
-    /// Standard error of the mean, from the differences scene by scene; 0 for a single scene, which says nothing about others.
+    /// Standard error of the mean, from the differences scene by scene; 0 for a single scene, which
+    /// says nothing about others.
     pub standard_error: f64,
 }
 
 impl Loss {
-    /// Compares a trial with the best on the scenes that `counts` selects, of which there is at least one.
+    /// Compares a trial with the best on the scenes that `counts` selects, of which there is at
+    /// least one.
     pub fn new(trial: &Trial, best: &Trial, counts: impl Fn(&str) -> bool) -> Self {
         let ratios = log_ratios(&trial.scenes, &best.scenes, counts);
         let count = ratios.len() as f64;
@@ -73,30 +77,36 @@ impl Loss {
         }
     }
 
-    /// Returns true if the scenes do not tell the trial from the best: its loss is within one standard error of 0.
+    /// Returns true if the scenes do not tell the trial from the best: its loss is within one
+    /// standard error of 0.
     ///
-    /// No trial that is worse on all of several scenes is: numbers above 0 have a mean above its standard error. Among equals, a loss
-    /// is beyond one standard error about as often on few scenes as on many (25 % of the time on two, 18 % on six, 16 % on hundreds, by
-    /// Student's t). A test at 5 % would let pass whatever few scenes cannot exclude: on two scenes, losses of up to six standard
-    /// errors.
+    /// No trial that is worse on all of several scenes is: numbers above 0 have a mean above its
+    /// standard error. Among equals, a loss is beyond one standard error about as often on few
+    /// scenes as on many (25 % of the time on two, 18 % on six, 16 % on hundreds, by Student's t).
+    /// A test at 5 % would let pass whatever few scenes cannot exclude: on two scenes, losses of up
+    /// to six standard errors.
     fn is_within_noise(&self) -> bool {
         self.mean <= self.standard_error
     }
 
-    /// Returns true if a trial can replace the best: the scenes do not tell them apart, and it gives away at most [`LARGEST_LOSS`]
-    /// even so, since few or unlike scenes have a large standard error.
+    /// Returns true if a trial can replace the best: the scenes do not tell them apart, and it
+    /// gives away at most [`LARGEST_LOSS`] even so, since few or unlike scenes have a large
+    /// standard error.
     pub fn is_acceptable(&self) -> bool {
         self.is_within_noise() && self.mean <= LARGEST_LOSS
     }
 }
 
-/// Chooses among the trials that keep the limits, by the scenes that `counts` selects. None if no scene counts.
+/// Chooses among the trials that keep the limits, by the scenes that `counts` selects. None if no
+/// scene counts.
 ///
-/// The start wins if the scenes do not tell it from the best. Otherwise, the trial nearest to the start wins among those with an
-/// acceptable [`Loss`]. This is the one-standard-error rule (Breiman, Friedman, Olshen and Stone, "Classification and Regression
-/// Trees", 1984, section 3.4.3) with the standard error of the difference to the best (Yates, Aandahl, Richards and Brook, "Cross
-/// validation for model selection", Ecological Monographs 93, 2023). The standard error of the best one's own mean would include how
-/// much scenes differ in what there is to gain, which all candidates share.
+/// The start wins if the scenes do not tell it from the best. Otherwise, the trial nearest to the
+/// start wins among those with an acceptable [`Loss`]. This is the one-standard-error rule
+/// (Breiman, Friedman, Olshen and Stone, "Classification and Regression Trees", 1984, section
+/// 3.4.3) with the standard error of the difference to the best (Yates, Aandahl, Richards and
+/// Brook, "Cross validation for model selection", Ecological Monographs 93, 2023). The standard
+/// error of the best one's own mean would include how much scenes differ in what there is to gain,
+/// which all candidates share.
 pub fn choose_trial(
     trials: &[Trial],
     space: &Space,
@@ -154,8 +164,9 @@ pub struct Fold {
     pub gap: f64,
 }
 
-/// Leaves each family out of the choice in turn; returns nothing for a single family. The search for trials used all scenes: folds show
-/// how much the choice among them overfits, and held-out scenes show it for the search as well.
+/// Leaves each family out of the choice in turn; returns nothing for a single family. The search
+/// for trials used all scenes: folds show how much the choice among them overfits, and held-out
+/// scenes show it for the search as well.
 pub fn cross_validate(
     trials: &[Trial],
     space: &Space,

@@ -13,12 +13,14 @@ use crate::loss::{FAILED, mean_log_ratio};
 use crate::sobol::{SobolIndices, sobol_indices};
 use crate::space::Space;
 
-/// An axis may become a constant if its total index, including its interval, is below this: it causes less than a fiftieth of the variance.
+/// An axis may become a constant if its total index, including its interval, is below this: it
+/// causes less than a fiftieth of the variance.
 const CONSTANT_TOTAL: f64 = 0.02;
 /// Points of a slice along an axis.
 const SLICE: usize = 9;
 
-/// Effect of each parameter on the error: `sensitivity.json`. The error is the mean over scenes of log(FLIP / FLIP of the start).
+/// Effect of each parameter on the error: `sensitivity.json`. The error is the mean over scenes of
+/// log(FLIP / FLIP of the start).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sensitivity {
     /// Number of scored candidates.
@@ -55,7 +57,8 @@ pub fn count_candidates(space: &Space, rows: usize) -> usize {
     rows * (axes + 2) + slices.sum::<usize>()
 }
 
-/// Lists the points along an axis with its values there, all others at the start: fewer than [`SLICE`] if some round to one value.
+/// Lists the points along an axis with its values there, all others at the start: fewer than
+/// [`SLICE`] if some round to one value.
 fn slice_points(space: &Space, axis: usize) -> Vec<(Value, Vec<f64>)> {
     let points = (0..SLICE).map(|step| {
         let mut point = space.point(&space.start);
@@ -68,8 +71,8 @@ fn slice_points(space: &Space, axis: usize) -> Vec<(Value, Vec<f64>)> {
     points
 }
 
-/// Scores candidates all over the space, `rows` x (axes + 2) for Sobol indices and some more for slices along each axis. Reports each to
-/// `watch`.
+/// Scores candidates all over the space, `rows` x (axes + 2) for Sobol indices and some more for
+/// slices along each axis. Reports each to `watch`.
 pub fn analyze_sensitivity(
     evaluator: &mut Evaluator,
     space: &Space,

@@ -28,16 +28,18 @@ pub struct Estimate {
     pub high: f64,
 }
 
-/// Values of the function at one row of the two matrices, and with one coordinate at a time taken from the second.
+/// Values of the function at one row of the two matrices, and with one coordinate at a time taken
+/// from the second.
 struct Row {
     a: f64,
     b: f64,
     mixed: Vec<f64>,
 }
 
-/// Estimates the indices after Jansen (1999), from `rows` rows of a Sobol sequence: calls the function `rows` x (`axes` + 2) times
-/// (Saltelli and others, "Variance based sensitivity analysis of model output", Computer Physics Communications 181, 2010,
-/// table 2). All indices of a constant function are 0.
+/// Estimates the indices after Jansen (1999), from `rows` rows of a Sobol sequence: calls the
+/// function `rows` x (`axes` + 2) times (Saltelli and others, "Variance based sensitivity analysis
+/// of model output", Computer Physics Communications 181, 2010, table 2). All indices of a constant
+/// function are 0.
 pub fn sobol_indices<E>(
     axes: usize,
     rows: usize,

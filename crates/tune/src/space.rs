@@ -14,7 +14,8 @@ pub struct Space {
 }
 
 impl Space {
-    /// Makes an axis from each parameter that `vary` names, as `name` or `name=low..high`; from every tunable one if it names none.
+    /// Makes an axis from each parameter that `vary` names, as `name` or `name=low..high`; from
+    /// every tunable one if it names none.
     pub fn new(filter: &Filter, start: Settings, vary: &[String]) -> Result<Self, Error> {
         let tunable = filter.parameters.iter().filter(|it| it.tunable);
         let tunable: Vec<&Parameter> = tunable.collect();
@@ -90,7 +91,8 @@ impl Space {
             .collect()
     }
 
-    /// Returns the distance between two sets of values: root mean square over the axes, each of length 1.
+    /// Returns the distance between two sets of values: root mean square over the axes, each of
+    /// length 1.
     pub fn distance(&self, a: &Settings, b: &Settings) -> f64 {
         let (a, b) = (self.point(a), self.point(b));
         let squares: f64 = a.iter().zip(&b).map(|(a, b)| (a - b).powi(2)).sum();
@@ -136,8 +138,8 @@ fn can_vary(kind: &Kind) -> bool {
     }
 }
 
-/// Returns the ends and the scale of a coordinate's range. A whole number has half a step on either side, so that the first and the last
-/// occur as often as any other.
+/// Returns the ends and the scale of a coordinate's range. A whole number has half a step on either
+/// side, so that the first and the last occur as often as any other.
 fn coordinate_range(kind: &Kind) -> (f64, f64, Scale) {
     match kind {
         Kind::Integer { min, max, scale } => (f64::from(*min) - 0.5, f64::from(*max) + 0.5, *scale),

@@ -106,8 +106,8 @@ impl<'a> Target<'a> {
         }
     }
 
-    /// Returns by how much the scores exceed their limits, as a fraction of the limits; 0 if they keep all of them. A bound that the start
-    /// breaks is relaxed to the start's score.
+    /// Returns by how much the scores exceed their limits, as a fraction of the limits; 0 if they
+    /// keep all of them. A bound that the start breaks is relaxed to the start's score.
     pub fn excess(&self, score: &SceneScore, start: &SceneScore) -> f64 {
         let bleed = Metric::Object(ObjectMetric::BleedLateral);
         let measured = [

@@ -38,9 +38,11 @@ pub struct JournalHeader {
     pub values: BTreeMap<String, Value>,
     /// Parameters that may change, each with its range in words.
     pub vary: BTreeMap<String, String>,
-    /// Initial points of the search, one coordinate per line of `vary` in the order of the filter's parameters.
+    /// Initial points of the search, one coordinate per line of `vary` in the order of the filter's
+    /// parameters.
     pub design: Vec<Vec<f64>>,
-    /// Scene names in the order in which candidates run on them, each with the content hash of its truth.
+    /// Scene names in the order in which candidates run on them, each with the content hash of its
+    /// truth.
     pub scenes: Vec<(String, String)>,
     /// Measured scores.
     pub objectives: Vec<Objective>,
@@ -63,7 +65,8 @@ pub struct Trial {
     pub values: BTreeMap<String, Value>,
     /// Outcome of the trial.
     pub outcome: TrialOutcome,
-    /// Loss that the search minimises: mean over scenes of log(error / error of the start), plus penalties.
+    /// Loss that the search minimises: mean over scenes of log(error / error of the start), plus
+    /// penalties.
     pub loss: f64,
     /// Mean without penalties; none if nothing was measured.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -94,7 +97,8 @@ pub enum TrialOutcome {
 }
 
 impl Trial {
-    /// Refuses a trial that no tuning with this header could write as its trial `number`, from 0: the search relies on it.
+    /// Refuses a trial that no tuning with this header could write as its trial `number`, from 0:
+    /// the search relies on it.
     pub fn check(&self, header: &JournalHeader, number: usize) -> Result<(), String> {
         if self.trial != number {
             return Err(format!("trial {}, expected {number}", self.trial));

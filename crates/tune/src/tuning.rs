@@ -96,8 +96,8 @@ pub fn tune(
     Ok(tuning)
 }
 
-/// Hands the scores of a journal to the evaluator, which then need not measure them again. Refuses trials with values that the filter does
-/// not accept.
+/// Hands the scores of a journal to the evaluator, which then need not measure them again. Refuses
+/// trials with values that the filter does not accept.
 fn remember_trials(
     evaluator: &mut Evaluator,
     options: &TuneOptions,
@@ -117,8 +117,8 @@ fn remember_trials(
     Ok(())
 }
 
-/// Makes a search that begins with the start and the other presets, except presets that tuning itself found: another search has to find
-/// them again.
+/// Makes a search that begins with the start and the other presets, except presets that tuning
+/// itself found: another search has to find them again.
 fn make_search(options: &TuneOptions) -> Result<Search, Error> {
     let space = &options.space;
     let mut points = vec![space.point(&space.start)];

@@ -1,8 +1,9 @@
 //! Wilcoxon's signed-rank test.
 
-/// Returns the one-sided p-value of paired differences: the probability that their rank sum above 0 is this large or larger if each is
-/// as likely below 0. Exact; equal sizes share their ranks, and zeros are left out (Wilcoxon, "Individual Comparisons by Ranking
-/// Methods", 1945). 1 for no differences.
+/// Returns the one-sided p-value of paired differences: the probability that their rank sum above 0
+/// is this large or larger if each is as likely below 0. Exact; equal sizes share their ranks, and
+/// zeros are left out (Wilcoxon, "Individual Comparisons by Ranking Methods", 1945). 1 for no
+/// differences.
 ///
 /// Counts all 2^n signs by their doubled rank sums, which are whole numbers even for shared ranks.
 pub fn signed_rank_p_value(differences: &[f64]) -> f64 {

@@ -81,7 +81,8 @@ fn fullness(v: f64) -> f64 {
     tail * nose
 }
 
-/// Adds a swept wing of lens-shaped sections from `root` outwards; chords at root and tip in metres.
+/// Adds a swept wing of lens-shaped sections from `root` outwards; chords at root and tip in
+/// metres.
 fn add_wing(
     mesh: &mut Mesh,
     material: &'static str,

@@ -1,4 +1,5 @@
-//! A road along the Z axis between trees, house walls and marker posts, for a driver who heads for -Z.
+//! A road along the Z axis between trees, house walls and marker posts, for a driver who heads for
+//! -Z.
 
 use glam::{DVec2, DVec3};
 

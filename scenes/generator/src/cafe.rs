@@ -1,4 +1,5 @@
-//! A café's front in the plane z = 0, its pavement, its sign, a table with chairs, and planters. The ground is y = 0.
+//! A café's front in the plane z = 0, its pavement, its sign, a table with chairs, and planters.
+//! The ground is y = 0.
 
 use glam::{DAffine3, DVec2, DVec3};
 

@@ -83,7 +83,8 @@ fn bottom(x: f64) -> f64 {
     }
 }
 
-/// Distance from the middle to the side at a height: widest at the doors, narrower towards the roof.
+/// Distance from the middle to the side at a height: widest at the doors, narrower towards the
+/// roof.
 fn half_width(y: f64) -> f64 {
     if y < 0.9 {
         0.85 - 0.3 * (y - 0.65).powi(2)
@@ -92,7 +93,8 @@ fn half_width(y: f64) -> f64 {
     }
 }
 
-/// Adds a flank: rows below the windows, then rows of windows, which shrink to nothing at bonnet and boot.
+/// Adds a flank: rows below the windows, then rows of windows, which shrink to nothing at bonnet
+/// and boot.
 fn add_side(mesh: &mut Mesh, side: f64) {
     let (columns, rows, rows_below) = (60, 14, 8);
     let position = |u: f64, v: f64| {

@@ -10,7 +10,8 @@ use crate::noise::soft_noise;
 /// Texels around the horizon, and twice the texels from nadir to zenith.
 const AROUND: u32 = 1024;
 
-/// Lowest and highest angle of clouds above the horizon, in radians. The even sky above them compresses well.
+/// Lowest and highest angle of clouds above the horizon, in radians. The even sky above them
+/// compresses well.
 const CLOUDS: [f64; 2] = [0.03, 0.6];
 
 pub(crate) fn files() -> Files {

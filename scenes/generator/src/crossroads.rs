@@ -1,4 +1,5 @@
-//! A crossing of two roads at y = 0, seen from above: asphalt, lines, zebra crossings and pavements.
+//! A crossing of two roads at y = 0, seen from above: asphalt, lines, zebra crossings and
+//! pavements.
 
 use glam::{DVec2, DVec3};
 

@@ -75,8 +75,8 @@ fn stripe(column: usize, row: usize) -> &'static str {
     }
 }
 
-/// Position of a point of the cloth: a wave runs away from the pole and grows; the cloth keeps its length and sags
-/// towards its free end.
+/// Position of a point of the cloth: a wave runs away from the pole and grows; the cloth keeps its
+/// length and sags towards its free end.
 fn cloth(u: f64, v: f64, time: f64) -> DVec3 {
     let phase = TAU * (1.5 * u - WAVES_PER_FRAME * time) + 0.9 * v;
     let growth = u * (1.4 - 0.4 * u);

@@ -1,4 +1,5 @@
-//! The glass front of a glasshouse: its bars, its panes with frosted stripes, and a sliding door. The front stands at z = 0 and faces +Z.
+//! The glass front of a glasshouse: its bars, its panes with frosted stripes, and a sliding door.
+//! The front stands at z = 0 and faces +Z.
 
 use glam::DVec3;
 
@@ -75,7 +76,8 @@ fn bars() -> Mesh {
     mesh
 }
 
-/// Panes in all fields, with upright stripes of frost in the upper ones and a row of level ones below.
+/// Panes in all fields, with upright stripes of frost in the upper ones and a row of level ones
+/// below.
 fn panes() -> Mesh {
     let mut mesh = Mesh::default();
     for column in UPRIGHTS.windows(2) {

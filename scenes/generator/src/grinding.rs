@@ -1,4 +1,5 @@
-//! A grindstone, the sparks that fly from it, and the smoke above it: cards with soft textures, as particle systems draw them.
+//! A grindstone, the sparks that fly from it, and the smoke above it: cards with soft textures, as
+//! particle systems draw them.
 
 use std::f64::consts::TAU;
 

@@ -11,7 +11,8 @@ use crate::texture::encode_png;
 const HALF_WIDTH: f64 = 170.0;
 const LENGTH: f64 = 200.0;
 
-/// Length of the verge across the road, in metres; it ends where the road begins, and a texture on it is 4 m long.
+/// Length of the verge across the road, in metres; it ends where the road begins, and a texture on
+/// it is 4 m long.
 const VERGE: f64 = 7.8;
 
 /// Texels along an edge of the texture.

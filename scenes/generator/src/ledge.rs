@@ -1,4 +1,5 @@
-//! Two ledges of a garden wall along the X axis, one above the other, with their tops at y = 0 and y = `STOREY`.
+//! Two ledges of a garden wall along the X axis, one above the other, with their tops at y = 0 and
+//! y = `STOREY`.
 
 use glam::{DVec2, DVec3};
 

@@ -1,4 +1,5 @@
-//! The program `generator`, which writes the meshes and textures of the built-in scenes: `cargo run -p generator`.
+//! The program `generator`, which writes the meshes and textures of the built-in scenes: `cargo run
+//! -p generator`.
 
 use std::path::Path;
 

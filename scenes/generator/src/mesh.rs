@@ -38,8 +38,9 @@ impl Mesh {
         });
     }
 
-    /// Adds the surface `position(u, v)` over the unit square as `columns` x `rows` quads, with smooth normals and the
-    /// texture coordinates (u, v). Its outside is the side from which u runs right and v up.
+    /// Adds the surface `position(u, v)` over the unit square as `columns` x `rows` quads, with
+    /// smooth normals and the texture coordinates (u, v). Its outside is the side from which u runs
+    /// right and v up.
     pub(crate) fn add_surface(
         &mut self,
         [columns, rows]: [usize; 2],
@@ -127,7 +128,8 @@ impl Mesh {
     }
 }
 
-/// Writes a statement. Rounding hides differences between the sines of machines; for the same reason -0 becomes 0.
+/// Writes a statement. Rounding hides differences between the sines of machines; for the same
+/// reason -0 becomes 0.
 fn write_statement(text: &mut String, keyword: &str, numbers: &[f64], decimals: i32) {
     let unit = 10f64.powi(decimals);
     *text += keyword;
@@ -138,7 +140,8 @@ fn write_statement(text: &mut String, keyword: &str, numbers: &[f64], decimals: 
     *text += "\n";
 }
 
-/// Normal of a surface from its slopes; where the surface shrinks to a point, from the slopes a little inside.
+/// Normal of a surface from its slopes; where the surface shrinks to a point, from the slopes a
+/// little inside.
 fn normal(position: impl Fn(f64, f64) -> DVec3, u: f64, v: f64) -> DVec3 {
     const STEP: f64 = 1e-4;
     // Less than a slope of millimetres, more than the rounding of a sine.

@@ -9,7 +9,8 @@ pub(crate) fn noise(x: u32, y: u32) -> f64 {
     f64::from(h) / 2f64.powi(32)
 }
 
-/// Smooth noise in [0, 1) with blobs of `size` texels. It repeats every `period` texels, a multiple of `size`.
+/// Smooth noise in [0, 1) with blobs of `size` texels. It repeats every `period` texels, a multiple
+/// of `size`.
 pub(crate) fn soft_noise(x: u32, y: u32, size: u32, period: u32) -> f64 {
     let corner = |dx: u32, dy: u32| {
         let cells = period / size;

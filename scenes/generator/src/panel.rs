@@ -10,8 +10,8 @@ use crate::texture::encode_png;
 /// Edge of the front face, in metres.
 const EDGE: f64 = 0.8;
 
-/// Thickness behind the front face at z = 0, in metres. The sides appear as less than a tenth of a pixel, so that the smear
-/// is that of a square.
+/// Thickness behind the front face at z = 0, in metres. The sides appear as less than a tenth of a
+/// pixel, so that the smear is that of a square.
 const THICKNESS: f64 = 0.004;
 
 /// Texels along an edge.
@@ -40,7 +40,8 @@ pub(crate) fn files() -> Files {
     files
 }
 
-/// Color of a warm checkerboard with a light frame and a disc, brighter than the walls so that its smear shows.
+/// Color of a warm checkerboard with a light frame and a disc, brighter than the walls so that its
+/// smear shows.
 fn color(x: u32, y: u32) -> [f64; 3] {
     let border = x.min(y).min(TEXELS - 1 - x).min(TEXELS - 1 - y);
     let middle = f64::from(TEXELS - 1) / 2.0;

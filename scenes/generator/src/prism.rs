@@ -4,8 +4,8 @@ use glam::{DVec2, DVec3};
 
 use crate::mesh::{Mesh, Vertex};
 
-/// Adds a prism from z = `back` to z = `front` within an outline, counter-clockwise seen from the front. Straight lines
-/// from the middle of the corners to the edge must not leave the outline.
+/// Adds a prism from z = `back` to z = `front` within an outline, counter-clockwise seen from the
+/// front. Straight lines from the middle of the corners to the edge must not leave the outline.
 pub(crate) fn add_prism(
     mesh: &mut Mesh,
     material: &'static str,

@@ -6,9 +6,9 @@ use glam::{DAffine3, DVec3};
 
 use crate::mesh::Mesh;
 
-/// Revolves the outline `(radius, height)` about the Z axis in `around` quads, with a material for each column. Seen with +Z
-/// up and the radius to the right, the outside lies to the right of the outline's direction. Corners stay sharp: each piece
-/// is a surface of its own.
+/// Revolves the outline `(radius, height)` about the Z axis in `around` quads, with a material for
+/// each column. Seen with +Z up and the radius to the right, the outside lies to the right of the
+/// outline's direction. Corners stay sharp: each piece is a surface of its own.
 pub(crate) fn revolve(
     mesh: &mut Mesh,
     material: impl Fn(usize) -> &'static str,
@@ -44,8 +44,8 @@ pub(crate) fn revolve_upright(
     mesh.append(&about_z, DAffine3::from_translation(foot) * upright);
 }
 
-/// Adds a ring about the Z axis at `height`, of `parts` quads around the axis and around the tube. The tube has the radius
-/// `tube`; its middle runs at `radius`.
+/// Adds a ring about the Z axis at `height`, of `parts` quads around the axis and around the tube.
+/// The tube has the radius `tube`; its middle runs at `radius`.
 pub(crate) fn add_ring(
     mesh: &mut Mesh,
     material: &'static str,

@@ -1,4 +1,5 @@
-//! A meadow just below y = 0 that ends at ridges of hills, one behind the other and paler with distance.
+//! A meadow just below y = 0 that ends at ridges of hills, one behind the other and paler with
+//! distance.
 
 use glam::DVec3;
 

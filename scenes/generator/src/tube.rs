@@ -6,8 +6,8 @@ use glam::DVec3;
 
 use crate::mesh::Mesh;
 
-/// Adds a tube of `sides` quads around with a ring per point of the path; `radius`, in metres, runs from 0 to 1 along it. Its
-/// ends are open: let the radius go to 0 there, or hide them.
+/// Adds a tube of `sides` quads around with a ring per point of the path; `radius`, in metres, runs
+/// from 0 to 1 along it. Its ends are open: let the radius go to 0 there, or hide them.
 pub(crate) fn add_tube(
     mesh: &mut Mesh,
     material: &'static str,

@@ -79,7 +79,8 @@ fn patch_color(x: u32, y: u32) -> [f64; 3] {
     color.map(|component| if light { component } else { component * 0.3 })
 }
 
-/// Color of bricks of 64 x 32 texels with mortar of 4 texels, every second course shifted by half a brick.
+/// Color of bricks of 64 x 32 texels with mortar of 4 texels, every second course shifted by half a
+/// brick.
 fn brick_color(x: u32, y: u32) -> [f64; 3] {
     let course = y / 32;
     let along = (x + 32 * (course % 2)) % 256;

@@ -14,7 +14,8 @@ use crate::sandbox::{Sandbox, split, stderr, stdout};
 /// A bound that the identity keeps.
 const KEPT: &str = "label_tv = { limit = 0.9, why = \"it serves a test\" }\n";
 
-/// Makes a sandbox whose scene bounds the identity's `flip_moving`, which is about 0.3, with the identity already measured.
+/// Makes a sandbox whose scene bounds the identity's `flip_moving`, which is about 0.3, with the
+/// identity already measured.
 fn make_bounded(limit: f64, level: &str) -> Sandbox {
     let sandbox = Sandbox::once(|sandbox| {
         sandbox.write("bounds.toml", &bound("flip_moving", 0.9, "required"));
@@ -58,7 +59,8 @@ pub fn calibrate(sandbox: &Sandbox, more: &str) -> (String, String) {
     (printed, fs::read_to_string(file).unwrap())
 }
 
-/// Checks that the gather keeps its limits with a seed that neither run used, and that two taps break them.
+/// Checks that the gather keeps its limits with a seed that neither run used, and that two taps
+/// break them.
 pub fn assert_limits(sandbox: &Sandbox, more: &str, met: &str, broken: &str) {
     let fine = format!("--filters velocity_gather:fine --seed 9 {more}");
     assert_ends(&sandbox.check(&split(&fine)), 0, &[met]);

@@ -58,8 +58,8 @@ fn a_broken_bound_gives_exit_code_1_and_its_evidence() {
 #[test]
 fn a_blur_unlike_every_decoy_is_reported_as_such() {
     let sandbox = make_bounded(0.04, "required");
-    // A box over everything that moves, with front and back swapped: wrong in a way that no decoy is. Scaled to 64 pixels, its
-    // tiles would be too small to blur anything.
+    // A box over everything that moves, with front and back swapped: wrong in a way that no decoy
+    // is. Scaled to 64 pixels, its tiles would be too small to blur anything.
     let filters = "--filters mcguire:motion_blur_demo,mcguire:paper --as-written";
     let found = json(&sandbox, filters);
     let [own, short] = [0, 1].map(|filter| &found["findings"][filter]);
@@ -88,7 +88,8 @@ fn a_limit_inside_the_interval_gives_exit_code_4_and_the_samples_to_decide() {
     let sandbox = make_bounded(0.9, "required");
     let found = &json(&sandbox, "--filters identity")["findings"][0];
     let [low, high] = ["low", "high"].map(|end| found["interval"][end].as_f64().unwrap());
-    // The limit is a little more than a quarter of the half width off the interval's middle. 16 times the samples halve the width twice.
+    // The limit is a little more than a quarter of the half width off the interval's middle. 16
+    // times the samples halve the width twice.
     let limit = 0.5 * (low + high) + 0.26 * 0.5 * (high - low);
     sandbox.write("bounds.toml", &bound("flip_moving", limit, "required"));
     let parts = "UNDECIDED flip_moving | 1024 samples per pixel would settle it | raise the samples per pixel";

@@ -8,8 +8,8 @@ use tests::text::assert_contains;
 use super::{assert_ends, assert_limits, calibrate, check, json};
 use crate::sandbox::{Sandbox, assert_refused, split};
 
-/// Makes a sandbox whose plate has limits on a single frame and on sequences of three frames. The identity's flicker is some hundredths
-/// of display white, squared.
+/// Makes a sandbox whose plate has limits on a single frame and on sequences of three frames. The
+/// identity's flicker is some hundredths of display white, squared.
 fn bounded_sequence() -> Sandbox {
     let sandbox = Sandbox::new();
     sandbox.write("bounds.toml", include_str!("sequences.toml"));
@@ -63,7 +63,8 @@ fn a_check_judges_the_sequence_and_the_first_frame_as_without_it() {
     assert_eq!(json[1]["frames"], 3);
     assert_eq!(json[2]["fps"], 60.0);
 
-    // The finished run is judged again, without an adapter; limits that it cannot judge are refused.
+    // The finished run is judged again, without an adapter; limits that it cannot judge are
+    // refused.
     let judge = |line: &str| sandbox.without_adapter(&split(line));
     assert_ends(&judge("check out"), 1, &[limit]);
     let parts = ["--frames", "cannot be used with", "RUN"];
@@ -104,7 +105,8 @@ fn calibrated_limits_of_sequences_pass_the_filter_and_fail_a_worse_one() {
     // Nothing is bounded yet: all eight scores of sequences, and four of single frames.
     assert_eq!(proposed.matches(", frames = 2, ").count(), 8, "{proposed}");
     assert_contains(&proposed, &[", frames = 2, fps = 60.0, size = [64, 32]"]);
-    // The dirt of two small frames is mostly noise of the truth, and its intervals differ from seed to seed.
+    // The dirt of two small frames is mostly noise of the truth, and its intervals differ from seed
+    // to seed.
     let mut lines: Vec<&str> = proposed.lines().collect();
     lines.retain(|line| !line.starts_with("fixed_pattern"));
     sandbox.write("bounds.toml", &lines.join("\n"));

@@ -96,7 +96,8 @@ fn no_folder_of_an_includer_leads_outside() {
     assert!(!said.contains("the_secret"), "{said}");
 }
 
-/// glslangValidator once opened these, since the program mistook them for a comment, quoted text, or no directive.
+/// glslangValidator once opened these, since the program mistook them for a comment, quoted text,
+/// or no directive.
 #[test]
 fn no_directive_is_hidden_from_the_program() {
     let sandbox = Sandbox::new();
@@ -171,7 +172,8 @@ fn honest_includes_work_and_errors_name_their_lines() {
         assert_contains(&refuse(&sandbox), &[line, "broken"]);
         fs::write(&place, honest).unwrap();
     };
-    // Before the body: two lines of the comment, two that are joined, two includes, and three lines that a condition leaves out.
+    // Before the body: two lines of the comment, two that are joined, two includes, and three lines
+    // that a condition leaves out.
     let text = shader("int a = broken;\r\n");
     breaks("blur.comp", &text, "translated/in/blur.comp:10: ");
     let joined = "#define JOINED(x) \\\n  (x) \\\n\nint a = broken;\n";

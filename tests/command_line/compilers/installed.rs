@@ -23,7 +23,8 @@ pub fn install_glslang(sandbox: &Sandbox) {
     std::os::unix::fs::symlink(found, sandbox.path("bin/glslangValidator")).unwrap();
 }
 
-/// Copies the fixtures into the folder of a filter in one language, with the documented example's head.
+/// Copies the fixtures into the folder of a filter in one language, with the documented example's
+/// head.
 fn write_fixture(sandbox: &Sandbox, language: &str, head: &str) {
     let fixtures = root().join("tests/fixtures/shaders");
     sandbox.write_files(language, &read_below(&fixtures));
@@ -32,7 +33,8 @@ fn write_fixture(sandbox: &Sandbox, language: &str, head: &str) {
     fs::write(manifest, format!("{head}{passes}")).unwrap();
 }
 
-/// One filter in three languages, each with every installed compiler for it. `glslangValidator` always is.
+/// One filter in three languages, each with every installed compiler for it. `glslangValidator`
+/// always is.
 #[test]
 fn each_compiler_makes_the_picture_that_wgsl_makes() {
     const README: &str = include_str!("../../../shaders/README.md");

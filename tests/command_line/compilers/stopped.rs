@@ -1,4 +1,5 @@
-//! Compilers that would run for long, or take much memory: their limits, and their end with the program.
+//! Compilers that would run for long, or take much memory: their limits, and their end with the
+//! program.
 
 use std::fs;
 

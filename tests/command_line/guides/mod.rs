@@ -19,8 +19,9 @@ use crate::sandbox::{stderr, stdout};
 /// Commands that are not run, each below the reason.
 const NOT_RUN: &str = include_str!("not_run.txt");
 
-/// Prerequisites of a page's command: the page and the beginning of the command, and a line of shell that makes them. The engine of
-/// docs/engine-frames.md draws a still picture: a frame file has all channels that a capture needs.
+/// Prerequisites of a page's command: the page and the beginning of the command, and a line of
+/// shell that makes them. The engine of docs/engine-frames.md draws a still picture: a frame file
+/// has all channels that a capture needs.
 const PREPARED: &str = include_str!("prepared.txt");
 
 fn list_not_run() -> impl Iterator<Item = &'static str> {

@@ -52,7 +52,8 @@ fn read_paragraph<'a>(first: &str, lines: &mut impl Iterator<Item = &'a str>) ->
     rest.fold(first.to_owned(), |text, line| text + " " + line.trim())
 }
 
-/// Returns whether a text is at most the name of a command: `shuttertruth run`, `shuttertruth tune search`.
+/// Returns whether a text is at most the name of a command: `shuttertruth run`, `shuttertruth tune
+/// search`.
 fn is_name(text: &str) -> bool {
     const GROUPS: [&str; 5] = ["tune", "engine", "truths", "limits", "people"];
     let words: Vec<&str> = text.split_whitespace().collect();

@@ -7,9 +7,11 @@ pub const REPLACED: [(&str, &str); 3] = [
     ("python3 ", "\"${PYTHON:-python3}\" -B "),
 ];
 
-/// Options that make a command quick, replacing the page's values; each is added to the named commands.
+/// Options that make a command quick, replacing the page's values; each is added to the named
+/// commands.
 ///
-/// `check` and `calibrate` stay as on the page: bounds are for one size, and few samples decide nothing.
+/// `check` and `calibrate` stay as on the page: bounds are for one size, and few samples decide
+/// nothing.
 const QUICK: [(&str, &str, &str); 5] = [
     (
         "--size",

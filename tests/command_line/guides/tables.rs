@@ -1,4 +1,5 @@
-//! The tables of scores in README.md, docs/results.md and docs/first-ten-minutes.md, against the program's output.
+//! The tables of scores in README.md, docs/results.md and docs/first-ten-minutes.md, against the
+//! program's output.
 
 use std::fs;
 use std::path::Path;
@@ -93,7 +94,8 @@ fn find_shown(page: &str) -> Vec<&str> {
     lines.collect()
 }
 
-/// Runs the commands that make a page's tables, and compares each line of the tables with their output.
+/// Runs the commands that make a page's tables, and compares each line of the tables with their
+/// output.
 fn assert_printed(path: &Path, find_rows: fn(&str) -> Vec<&str>, least: usize) {
     let reader = Reader::new();
     let page = fs::read_to_string(path).unwrap();

@@ -19,7 +19,8 @@ const NEAR: f32 = 0.1;
 
 pub const DESCRIPTION: &str = include_str!("capture.toml");
 
-/// Velocity in normalised device coordinates, upwards, and reversed depth with a far plane at infinity.
+/// Velocity in normalised device coordinates, upwards, and reversed depth with a far plane at
+/// infinity.
 pub const CONVENTION: &str = include_str!("engine.toml");
 
 /// A folder `capture` in a sandbox, with the sandbox's plate as an engine would draw it.
@@ -76,8 +77,8 @@ impl<'a> Capture<'a> {
         self.add_subframes(count, false)
     }
 
-    /// Adds sub-frames at the midpoints of equal parts of the shutter, with or without object ids, and as the engine's blur the mean
-    /// of the first four.
+    /// Adds sub-frames at the midpoints of equal parts of the shutter, with or without object ids,
+    /// and as the engine's blur the mean of the first four.
     pub fn add_subframes(self, count: u32, has_ids: bool) -> Self {
         fs::create_dir(self.path("subframes")).unwrap();
         let shutter = Alignment::Trailing.shutter(EXPOSURE).unwrap();

@@ -1,4 +1,5 @@
-//! Forms of an engine's files: one file of Blender's passes, and raw dumps; allowed and refused uses of an ingested folder.
+//! Forms of an engine's files: one file of Blender's passes, and raw dumps; allowed and refused
+//! uses of an ingested folder.
 
 use std::fs;
 
@@ -95,7 +96,8 @@ fn one_file_of_blender_s_passes_gives_the_same_frame() {
     sandbox.refuse(INGEST, &parts);
 }
 
-/// Writes the numbers of planes pixel by pixel, as halves from the top row or as floats from the bottom row.
+/// Writes the numbers of planes pixel by pixel, as halves from the top row or as floats from the
+/// bottom row.
 fn dump(planes: &[Plane], is_half: bool) -> Vec<u8> {
     let mut bytes = Vec::new();
     for row in 0..HEIGHT {

@@ -72,13 +72,14 @@ fn the_mean_of_sub_frames_is_our_truth_within_its_limit() {
     let ours = read("out/plate/truth_trailing.exr");
     assert_eq!(engines.provenance.samples_per_pixel, 16, "sub-frames");
     assert_eq!(engines.shutter, ours.shutter);
-    // No still pixel counts as moving, and few moving ones are missed: the two round the edge's path differently.
+    // No still pixel counts as moving, and few moving ones are missed: the two round the edge's
+    // path differently.
     let marks = (engines.support.moving.pixels.iter()).zip(&ours.support.moving.pixels);
     let different = marks.filter(|(one, other)| one != other).count();
     let moving = ours.support.moving.pixels.iter().filter(|it| **it).count();
     assert!(different * 10 < moving, "{different} of {moving}");
-    // The smear's ramp rises by the plate's contrast over 9.3 px. Sub-frames are 0.58 px apart, so a pixel is off by at most half of that
-    // step; noise of 64 samples and half floats come on top.
+    // The smear's ramp rises by the plate's contrast over 9.3 px. Sub-frames are 0.58 px apart, so
+    // a pixel is off by at most half of that step; noise of 64 samples and half floats come on top.
     let [engines, ours] = [engines.mean().color, ours.mean().color];
     for (at, (one, other)) in engines.pixels.iter().zip(&ours.pixels).enumerate() {
         let difference = (one[0] - other[0]).abs();
@@ -176,7 +177,8 @@ fn ids_in_the_sub_frames_bring_the_scores_of_objects() {
                  --frame-sampling antialiased";
     sandbox.done(words);
     let run = sandbox.read_run();
-    // An id is all or nothing in a pixel, unlike the shares in our frame; sub-frames are 0.58 px apart.
+    // An id is all or nothing in a pixel, unlike the shares in our frame; sub-frames are 0.58 px
+    // apart.
     for (filter, metric, most) in [
         ("identity", "label_tv", 0.03),
         ("scatter_oracle", "label_tv", 0.03),

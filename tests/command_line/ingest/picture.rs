@@ -24,7 +24,8 @@ fn the_gain_of_a_blur_is_that_of_still_pixels() {
     let capture = Capture::new(&sandbox).with_subframes(8);
     let told = ingest(&sandbox);
     assert!(!told.contains("FOUND"), "{told}");
-    // The plate passes the middle of the picture. A blur that is too bright there has another defect than a gain.
+    // The plate passes the middle of the picture. A blur that is too bright there has another
+    // defect than a gain.
     let blurred = capture.read_color("blurred.exr");
     brighten(&capture, 1.5, |x, y| {
         blurred.at(x, y)[2] != blurred.at(0, 0)[2]

@@ -183,7 +183,8 @@ fn costs_come_from_the_bench_beside_the_run() {
     let mut timed: suite::Bench = sandbox.read_json("out/bench.json");
     let mut costs = timed.cases.iter();
     let timing = costs.find(|cost| cost.filter == "identity").unwrap();
-    // Every table of scores has one cell for the filter both run and timed. Those only timed, or run with other parameters, have none.
+    // Every table of scores has one cell for the filter both run and timed. Those only timed, or
+    // run with other parameters, have none.
     let cell = "<td class=\"cost\" data-value";
     let own = format!("{cell}=\"{}\">", timing.seconds.median);
     for cell in [cell, &own] {
@@ -211,7 +212,8 @@ fn a_run_keeps_the_jump_flood_s_dilated_map() {
     let [x, y] = ["dilated.X", "dilated.Y"].map(|name| output.plane(name).unwrap());
     let motion = *frame.velocity.at(32, 16);
     assert!(motion[0] > 5.0, "the plate moves to the right: {motion:?}");
-    // The plate and one pixel behind it have the plate's own velocity. Pixels far ahead and above do not.
+    // The plate and one pixel behind it have the plate's own velocity. Pixels far ahead and above
+    // do not.
     let behind = (0..32).find(|x| *frame.object_id.at(*x, 16) == 1).unwrap() - 1;
     for (column, row, due) in [
         (32, 16, motion),

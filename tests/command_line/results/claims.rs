@@ -1,4 +1,5 @@
-//! Numbers in sentences about engines, against presets' parameters, measured lengths and quoted lines.
+//! Numbers in sentences about engines, against presets' parameters, measured lengths and quoted
+//! lines.
 
 use std::fs;
 
@@ -89,7 +90,8 @@ fn read(path: &str) -> String {
     fs::read_to_string(root().join(path)).unwrap()
 }
 
-/// Returns the window of Kino in the middle and at the end of a trail, by the line that its finding quotes: `(1.2 - t)`.
+/// Returns the window of Kino in the middle and at the end of a trail, by the line that its finding
+/// quotes: `(1.2 - t)`.
 fn kino_window() -> [String; 2] {
     let page = read("results/findings/unity-ppv2.md");
     let (before, _) = page.split_once(" - t);`").unwrap();
@@ -97,7 +99,8 @@ fn kino_window() -> [String; 2] {
     [middle, middle - 1.0].map(short)
 }
 
-/// Returns how long the Godot demo's trail is with the least and the most noise, in parts of the motion.
+/// Returns how long the Godot demo's trail is with the least and the most noise, in parts of the
+/// motion.
 fn demo_trail() -> [String; 2] {
     let steady = Steady {
         velocity: [32.0, 0.0],
@@ -112,13 +115,15 @@ fn demo_trail() -> [String; 2] {
     })
 }
 
-/// Returns the smear of Armory's mode Camera as shipped, in frames: from the pixel to the last of its taps.
+/// Returns the smear of Armory's mode Camera as shipped, in frames: from the pixel to the last of
+/// its taps.
 fn camera_trail(engine: &Engine) -> f64 {
     let taps = Preset::new(&engine.shape).number("samples");
     shipped(engine, "intensity") * (taps - 1.0) / taps
 }
 
-/// Lists the parts of an engine's sentence that hold its numbers, as the preset and its lengths have them.
+/// Lists the parts of an engine's sentence that hold its numbers, as the preset and its lengths
+/// have them.
 fn phrases(engine: &Engine) -> Vec<String> {
     let preset = Preset::new(&engine.shape);
     let number = |parameter: &str| preset.number(parameter);
@@ -361,7 +366,8 @@ fn settings_of_length_are_what_the_pages_say() {
                 "{shape}: {words}, {found}"
             );
         }
-        // Measured lengths have the same ratio, in whole degrees; O3DE's lose whole pixels, and more of the shorter smear.
+        // Measured lengths have the same ratio, in whole degrees; O3DE's lose whole pixels, and
+        // more of the shorter smear.
         let engine = setting.engine();
         let [shipped, at_180] = setting.factors(HALF_FRAME);
         let measured = f64::from(engine.length) / f64::from(engine.at_180);
@@ -465,7 +471,8 @@ fn finding_phrases(page: &str) -> Vec<String> {
     }
 }
 
-/// Returns a page's prose in one line, without places of links, code and tables; and the numbers of its quoted lines.
+/// Returns a page's prose in one line, without places of links, code and tables; and the numbers of
+/// its quoted lines.
 fn prose(page: &str) -> (String, Vec<f64>) {
     let (quoted, prose): (Vec<_>, Vec<_>) = page
         .lines()

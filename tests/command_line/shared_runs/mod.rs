@@ -14,7 +14,8 @@ const FILTERS: &str = "velocity_gather:fine,velocity_gather:coarse,kino:default"
 /// Options that measure very quickly.
 pub const QUICK: &str = "--quiet --size 64x32 --samples-per-pixel 16 --jitter-frames 2";
 
-/// Measures two scenes in one folder each, with one filter and the references; and another filter without them.
+/// Measures two scenes in one folder each, with one filter and the references; and another filter
+/// without them.
 fn parts() -> Sandbox {
     Sandbox::once(|sandbox| {
         sandbox.add_slow_scene();

@@ -16,8 +16,8 @@ fn contents(sandbox: &Sandbox) -> Files {
     files
 }
 
-/// Measures every filter on every scene by itself in one sandbox and all of them at once in another, with the same options; compares all
-/// files.
+/// Measures every filter on every scene by itself in one sandbox and all of them at once in
+/// another, with the same options; compares all files.
 #[track_caller]
 fn assert_parts_equal_one_process(scenes: &str, filters: &str, common: &str, options: &str) {
     let [shared, alone] = [(); 2].map(|()| Sandbox::two_scenes());

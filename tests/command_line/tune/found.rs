@@ -49,7 +49,8 @@ fn a_tuning_beats_its_start_and_records_the_way() {
     };
     let presets = ["paper", "july_2024", "corrected", "tuned"];
     assert_eq!(presets.map(begun), [true, true, true, false]);
-    // The published demo scales each trail by noise. On these small plates, another jitter alone lowers the error by some percent.
+    // The published demo scales each trail by noise. On these small plates, another jitter alone
+    // lowers the error by some percent.
     let tuning = read_tuning(&sandbox);
     assert!(tuning.chosen.error.unwrap() < -0.01, "{table}");
     assert_eq!(tuning.start.error, Some(0.0));

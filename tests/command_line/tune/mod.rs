@@ -100,7 +100,8 @@ fn a_choice_that_the_scenes_cannot_tell_from_the_start_gets_no_preset() {
     assert!(sandbox.path("out/params.json").is_file());
 }
 
-/// Writes a filter that is a program: it copies its input, and fails if its one parameter is above a half.
+/// Writes a filter that is a program: it copies its input, and fails if its one parameter is above
+/// a half.
 #[cfg(unix)]
 fn fails_above_a_half(sandbox: &Sandbox, name: &str, default: &str) {
     let parameter = format!(

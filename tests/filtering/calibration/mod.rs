@@ -1,5 +1,5 @@
-//! Measured lengths and positions of every filter's smear against promised ones, on the scene `sliding_panel` at several speeds and
-//! angles.
+//! Measured lengths and positions of every filter's smear against promised ones, on the scene
+//! `sliding_panel` at several speeds and angles.
 
 mod outcome;
 mod promised;
@@ -17,7 +17,8 @@ use tests::ramp::Ramp;
 #[test]
 fn the_truth_s_smear_is_as_long_as_the_exposure_and_takes_as_much_as_it_gives() {
     let shot = Shot::new(24.0, 30.0, 1.0);
-    // A trailing truth leaves half its smear behind, a centred one an eighth on each side of both edges.
+    // A trailing truth leaves half its smear behind, a centred one an eighth on each side of both
+    // edges.
     for (alignment, middle, light) in [
         (Alignment::Trailing, -0.5, [0.5, 0.0, 0.5, 0.0]),
         (Alignment::Centred, 0.0, [0.125; 4]),
@@ -47,8 +48,8 @@ fn the_truth_s_smear_is_as_long_as_the_exposure_and_takes_as_much_as_it_gives() 
     }
 }
 
-/// Returns whether the panel is long enough for the taps of a preset, and the picture too if the preset pushes taps
-/// inwards at its border.
+/// Returns whether the panel is long enough for the taps of a preset, and the picture too if the
+/// preset pushes taps inwards at its border.
 fn fits(outcome: &Outcome) -> bool {
     let steady = &outcome.steady;
     let taps: Vec<Tap> = [0.0, 0.25, 0.5, 0.75, 0.999_999]
@@ -72,8 +73,8 @@ fn fits(outcome: &Outcome) -> bool {
     reach < inside.min(room) && aside + HALF_BAND < inside
 }
 
-/// Compares the edge painted on the panel with the ramp that a preset's taps make of it, and its length with the filter's text.
-/// Returns what is wrong.
+/// Compares the edge painted on the panel with the ramp that a preset's taps make of it, and its
+/// length with the filter's text. Returns what is wrong.
 fn check_ramp(outcome: &Outcome) -> Option<String> {
     let Outcome { filter, preset, .. } = outcome;
     let trail = outcome.shot.speed * outcome.shot.exposure;
@@ -89,14 +90,15 @@ fn check_ramp(outcome: &Outcome) -> Option<String> {
         outcome.ramp
     };
     let tolerance = match preset.as_str() {
-        // Two taps at whole pixels: the noise has about nine values along a row, and rounding moves either end of a
-        // smear by up to half a pixel. The largest measured error is 1.1.
+        // Two taps at whole pixels: the noise has about nine values along a row, and rounding moves
+        // either end of a smear by up to half a pixel. The largest measured error is 1.1.
         "msaa" => 1.2,
-        // Noise in a band of 33 pixels, mostly with two taps. Of two equally near pixels, all rows may read the same one: half a pixel for
-        // the middle.
+        // Noise in a band of 33 pixels, mostly with two taps. Of two equally near pixels, all rows
+        // may read the same one: half a pixel for the middle.
         _ if filter == "babylon" => 0.7,
-        // The vignette shortens smears towards the middle. Taps along a longer motion next to a pixel reach beyond its own smear, and
-        // weigh nothing: up to a quarter of 4 pixels is missing. The largest measured error is 0.94.
+        // The vignette shortens smears towards the middle. Taps along a longer motion next to a
+        // pixel reach beyond its own smear, and weigh nothing: up to a quarter of 4 pixels is
+        // missing. The largest measured error is 0.94.
         "default" if filter == "dagor" => 0.95,
         _ => 0.2 + 0.01 * trail,
     };
@@ -114,12 +116,14 @@ fn check_ramp(outcome: &Outcome) -> Option<String> {
         promise / trail
     );
     let stated = stated_lengths(filter, preset);
-    // three.js rotates the trail, here across the motion. At lower speeds, interpolation and the pixel grid weigh more.
+    // three.js rotates the trail, here across the motion. At lower speeds, interpolation and the
+    // pixel grid weigh more.
     let is_stated = promise < 1e-9 || trail < 8.0 || stated.contains(&part);
     (!is_stated).then(|| format!("{part} of the promised length, stated {stated:?}"))
 }
 
-/// Measures every preset on shots of these speeds, in pixels per frame, angles, in degrees, and exposures, in frames.
+/// Measures every preset on shots of these speeds, in pixels per frame, angles, in degrees, and
+/// exposures, in frames.
 fn measure_presets(shots: &[(f64, f64, f64)]) {
     let shots: Vec<Shot> = (shots.iter())
         .map(|(speed, degrees, exposure)| Shot::new(*speed, *degrees, *exposure))

@@ -6,8 +6,8 @@ use tests::kernels::{
     Steady, along_motion, babylon_trail, jump_flood_trail, sees_camera_only, three_trail,
 };
 
-/// Returns the promised length of the smear in pixels: the exposure's, times the preset's factor, cut at its reach, unless the
-/// preset says otherwise.
+/// Returns the promised length of the smear in pixels: the exposure's, times the preset's factor,
+/// cut at its reach, unless the preset says otherwise.
 pub fn promised_smear(filter: &str, preset: &str, steady: &Steady) -> f64 {
     let [x, y] = steady.trail();
     let trail = x.hypot(y);
@@ -53,8 +53,8 @@ pub fn promised_smear(filter: &str, preset: &str, steady: &Steady) -> f64 {
     }
 }
 
-/// Returns an edge's spread on the panel according to the filter's text, from 8 pixels on: parts of the promised length, in whole
-/// hundredths.
+/// Returns an edge's spread on the panel according to the filter's text, from 8 pixels on: parts of
+/// the promised length, in whole hundredths.
 pub fn stated_lengths(filter: &str, preset: &str) -> RangeInclusive<f64> {
     match (filter, preset) {
         ("jump_flood" | "jump_flood_packed", "paper") => 1.26..=1.31,

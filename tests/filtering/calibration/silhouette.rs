@@ -1,6 +1,7 @@
 //! Positions of the smears at the panel's front and back edge.
 //!
-//! Each smear is measured twice: by the light that the panel adds to the wall, and by the light that it loses to the wall.
+//! Each smear is measured twice: by the light that the panel adds to the wall, and by the light
+//! that it loses to the wall.
 
 use frame::Plane;
 use tests::kernels::{along_motion, place_taps, sees_camera_only};
@@ -46,8 +47,8 @@ impl Light {
     }
 }
 
-/// Returns the average distance of taps ahead of their pixel and behind it, over all taps: the panel loses as much of itself to
-/// the wall there.
+/// Returns the average distance of taps ahead of their pixel and behind it, over all taps: the
+/// panel loses as much of itself to the wall there.
 fn average_reach(outcome: &Outcome) -> [f64; 2] {
     let steady = &outcome.steady;
     let steps = 100;
@@ -65,7 +66,8 @@ fn average_reach(outcome: &Outcome) -> [f64; 2] {
     reach
 }
 
-/// Returns the expected light behind, lost at the back, lost at the front, and ahead; none if only the filter's own references know it.
+/// Returns the expected light behind, lost at the back, lost at the front, and ahead; none if only
+/// the filter's own references know it.
 fn expected_light(outcome: &Outcome) -> [Option<f64>; 4] {
     let [forward, backward] = average_reach(outcome);
     match (outcome.filter.as_str(), outcome.preset.as_str()) {
@@ -108,7 +110,8 @@ pub fn check_light(outcome: &Outcome, found: Light) -> Option<String> {
         "    behind, lost at back, lost at front, ahead: {}",
         shares.join(" ")
     );
-    // The panel's edge is within a pixel, and the tent is 2 wide. The steps of some filters are a sixteenth.
+    // The panel's edge is within a pixel, and the tent is 2 wide. The steps of some filters are a
+    // sixteenth.
     let tolerance = 0.5 + 0.02 * outcome.shot.speed;
     let pairs = found.all().into_iter().zip(expected_light(outcome));
     let differs = |(found, expected): (f64, Option<f64>)| {
@@ -117,15 +120,16 @@ pub fn check_light(outcome: &Outcome, found: Light) -> Option<String> {
     (pairs.clone().any(differs)).then(|| format!("light of {:?}", pairs.collect::<Vec<_>>()))
 }
 
-/// Checks the growth of movers under cones and cylinders, and the trail that the published flood leaves behind slow ones. Returns what
-/// is wrong.
+/// Checks the growth of movers under cones and cylinders, and the trail that the published flood
+/// leaves behind slow ones. Returns what is wrong.
 pub fn check_growth(outcome: &Outcome, light: Light) -> Option<String> {
     let (filter, preset) = (outcome.filter.as_str(), outcome.preset.as_str());
     let speed = outcome.shot.speed * outcome.shot.exposure;
     let is_right = match (filter, preset) {
         ("mcguire", "motion_blur_demo") => true,
-        // 24 pixels are the longest that is not cut. The truth has an eighth in all four places: its smear takes as much from the
-        // panel as it gives to the wall. A mover stays opaque and grows here.
+        // 24 pixels are the longest that is not cut. The truth has an eighth in all four places:
+        // its smear takes as much from the panel as it gives to the wall. A mover stays opaque and
+        // grows here.
         ("mcguire" | "guertin", _) if speed == 24.0 => {
             let grown = match preset {
                 "tuned" => 0.11..0.125,

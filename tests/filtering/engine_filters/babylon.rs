@@ -12,7 +12,8 @@ fn the_longest_trail_has_as_many_pixels_as_there_are_samples() {
     for (speed, samples, expected) in [(90.0, "32", 32.0), (90.0, "64", 64.0), (24.0, "32", 24.0)] {
         let picture = moving_edge(256, 16, [speed, 0.0]);
         let found = ramp_length(&picture.blur("babylon", "default", &format!("samples={samples}")));
-        // The step between pixels, 8 bits of velocity, and the first tap, which the pixel itself replaces.
+        // The step between pixels, 8 bits of velocity, and the first tap, which the pixel itself
+        // replaces.
         assert_near(found, expected, 3.0);
     }
 }
@@ -37,9 +38,11 @@ fn a_wide_picture_turns_diagonals_upright() {
 
 #[test]
 fn eight_bits_of_velocity_change_the_length_by_their_step() {
-    // 31.1 of 160 pixels: the cube root is 201.4 of 255 steps. The nearest step is 30.65 pixels, a whole one and a tap less.
+    // 31.1 of 160 pixels: the cube root is 201.4 of 255 steps. The nearest step is 30.65 pixels, a
+    // whole one and a tap less.
     let picture = moving_edge(160, 16, [31.1, 0.0]);
-    // The spread of the pixel itself and 30 taps from -14 to 15, or 29 from -13.5 to 14.5, which are between two pixels each.
+    // The spread of the pixel itself and 30 taps from -14 to 15, or 29 from -13.5 to 14.5, which
+    // are between two pixels each.
     for (storage, expected) in [("exact", 29.497), ("packed", 28.548)] {
         let changes = format!("storage={storage} fetch=filtered samples=64");
         let output = picture.blur("babylon", "default", &changes);
@@ -73,8 +76,8 @@ fn the_screen_based_mode_equals_its_source_in_64_bits() {
         if *frame.depth.at(x, y) == FAR_DEPTH {
             continue;
         }
-        // The screen based branch of motionBlur.fragment.fx at 39a32df, line by line, in pixels. Its velocity points to the previous
-        // position; this frame's is only the camera's.
+        // The screen based branch of motionBlur.fragment.fx at 39a32df, line by line, in pixels.
+        // Its velocity points to the previous position; this frame's is only the camera's.
         let velocity = frame.velocity.at(x, y);
         let velocity = velocity.map(|part| -f64::from(part) * frame.exposure);
         let speed = velocity[0].hypot(velocity[1]);

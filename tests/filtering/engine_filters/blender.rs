@@ -6,7 +6,8 @@ use tests::picture::{BLACK_WALL, Picture, white};
 
 #[test]
 fn the_compositor_overlooks_movers_above_a_border_of_tiles() {
-    // Tiles have 32 pixels, and rows count from below. The mover's tile begins at its lowest row, 64.
+    // Tiles have 32 pixels, and rows count from below. The mover's tile begins at its lowest row,
+    // 64.
     let picture = Picture::new(96, 96, |x, y| match (x, y) {
         (32..64, 0..32) => white(24.0),
         _ => BLACK_WALL,

@@ -25,14 +25,15 @@ fn the_noise_of_hdrp_shifts_all_taps_of_a_pixel_to_one_side() {
     let pixels = (50..150).flat_map(|x| (0..48).map(move |y| (x, y)));
     let shifts: Vec<f32> = pixels.map(|(x, y)| output.at(x, y)[0] - x as f32).collect();
     let mean = shifts.iter().map(|shift| shift.abs()).sum::<f32>() / shifts.len() as f32;
-    // Taps shift by up to half a step of 3 pixels. With nearest fetches, a third of the noise shifts them by 1.5 pixels
-    // and the rest by 0.5. Mirrored taps would not shift.
+    // Taps shift by up to half a step of 3 pixels. With nearest fetches, a third of the noise
+    // shifts them by 1.5 pixels and the rest by 0.5. Mirrored taps would not shift.
     assert_near(mean, 5.0 / 6.0, 0.05);
 }
 
 #[test]
 fn hdrp_reads_the_nearest_pixels_and_fewer_on_short_trails() {
-    // The second trail has a little over 5 pixels. Its length counts in parts of the picture's diagonal, which makes it a tenth longer.
+    // The second trail has a little over 5 pixels. Its length counts in parts of the picture's
+    // diagonal, which makes it a tenth longer.
     for (speed, taps) in [(25.0, 8.0), (2.4, 6.0)] {
         let stripes = Picture::new(160, 64, |x, _| white(speed).gray((x % 2) as f32));
         for pixel in &stripes.blur("jimenez", "hdrp", "").pixels {
@@ -58,7 +59,8 @@ fn a_tap_that_moves_half_as_far_as_the_trail_counts_whole() {
 
 #[test]
 fn directions_count_only_where_the_pixel_itself_moves() {
-    // At the bottom, a fast surface in front sets the trail; at the top, a white one moves down past a wall.
+    // At the bottom, a fast surface in front sets the trail; at the top, a white one moves down
+    // past a wall.
     let seen = |wall: f32| {
         let picture = Picture::new(160, 64, |x, y| match (x, y) {
             (_, 40..) => white(25.0).gray(0.0),
@@ -105,11 +107,12 @@ fn hdrp_leaves_moving_background_sharp_beside_a_still_foreground() {
         let changes = (0..64).map(|y| output.at(80, y)[0] - picture.color.at(80, y)[0]);
         changes.map(|change| f64::from(change.abs())).sum::<f64>() / 64.0
     };
-    // Speckles differ by a third on average. A mean of several differs from each of them by about a quarter, and half of the taps
-    // read the pixel's own colour again.
+    // Speckles differ by a third on average. A mean of several differs from each of them by about a
+    // quarter, and half of the taps read the pixel's own colour again.
     let usual = change("slow_background");
     assert_within(usual, 0.08..);
-    // Nearly all pairs reach the still object. Its motion is zero, and both taps of a pair get its weight.
+    // Nearly all pairs reach the still object. Its motion is zero, and both taps of a pair get its
+    // weight.
     assert_within(change("fast_background"), ..0.1 * usual);
 }
 
@@ -121,7 +124,8 @@ fn steps_that_end_late_keep_still_things_out_of_the_trail_at_its_start() {
         let overrides = format!("mirror=off spread={spread} direction=ignored");
         column(&picture.blur("jimenez", "hdrp", &overrides), 80)
     };
-    // One of eight taps is less than a step to the left, and counts for the remaining part of the step.
+    // One of eight taps is less than a step to the left, and counts for the remaining part of the
+    // step.
     assert_within(seen("steps"), 0.03..);
     assert_eq!(seen("late_steps"), 0.0);
 }

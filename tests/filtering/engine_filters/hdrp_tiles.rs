@@ -5,7 +5,8 @@ use tests::picture::{BLACK_WALL, Picture, column, white};
 
 #[test]
 fn plain_tiles_forget_depth_where_motions_are_alike() {
-    // A white surface in front moves 8 pixels, and the background 24: the smallest motion in their tiles is over a quarter.
+    // A white surface in front moves 8 pixels, and the background 24: the smallest motion in their
+    // tiles is over a quarter.
     let picture = Picture::halves(160, 64, BLACK_WALL.moving(24.0, 0.0), white(8.0));
     let seen = |plain: &str| {
         let overrides = format!("plain_tiles={plain} mirror=off");
@@ -19,7 +20,8 @@ fn plain_tiles_forget_depth_where_motions_are_alike() {
 
 #[test]
 fn neighbouring_tiles_cut_long_smears_and_tiles_along_the_motion_do_not() {
-    // Half of 160 pixels to each side. Unity HDRP cuts twice that at 200, in parts of the picture's diagonal.
+    // Half of 160 pixels to each side. Unity HDRP cuts twice that at 200, in parts of the picture's
+    // diagonal.
     let picture = Picture::halves(320, 64, BLACK_WALL, white(160.0));
     let reach = |preset: &str| {
         let output = picture.blur("jimenez", preset, "tile_dither=0");
@@ -46,8 +48,8 @@ fn tiles_told_of(speed: f32) -> Vec<(u32, u32)> {
 
 #[test]
 fn unity_s_walk_over_tiles_misses_the_left_one() {
-    // Half of 100 pixels is a little over three tiles. By the integers of Cohen 1994 the walk goes from (9, 3) 5 to the right and 1
-    // down, and 2 to the left and 1 down.
+    // Half of 100 pixels is a little over three tiles. By the integers of Cohen 1994 the walk goes
+    // from (9, 3) 5 to the right and 1 down, and 2 to the left and 1 down.
     let above = [8, 10, 11].map(|x| (x, 3));
     let beside = [7, 8, 10, 11, 12, 13, 14].map(|x| (x, 4));
     assert_eq!(tiles_told_of(100.0), [&above[..], &beside[..]].concat());

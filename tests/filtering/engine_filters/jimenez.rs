@@ -12,8 +12,8 @@ fn a_mover_smears_half_its_motion_over_the_background() {
     for preset in HONEST_LENGTHS.split(' ') {
         println!("{preset}");
         let output = picture.blur("jimenez", preset, "");
-        // A ramp from a half to zero over 12 pixels contains 3 pixels of light. Half a step less, and half a pixel less for whole
-        // pixels, give 2.6.
+        // A ramp from a half to zero over 12 pixels contains 3 pixels of light. Half a step less,
+        // and half a pixel less for whole pixels, give 2.6.
         let expected = if preset == "o3de" { 2.6 } else { 3.0 };
         assert_near(light(&output, 0..80), expected, 0.4);
         assert_within(light(&output, 0..66), ..0.01);
@@ -32,8 +32,8 @@ fn mirrored_weights_show_background_from_the_other_side() {
         let output = picture.blur("jimenez", "slides_2014", &format!("mirror={mirror}"));
         column(&output, 79)
     };
-    // In all pairs the right tap reaches the mover. 8.5 of 12 pixels on the left are white, and half of the taps are on the left.
-    // One tap more or less is a sixteenth.
+    // In all pairs the right tap reaches the mover. 8.5 of 12 pixels on the left are white, and
+    // half of the taps are on the left. One tap more or less is a sixteenth.
     assert_near(seen("slow_background"), 0.5 * 8.5 / 12.0, 1.0 / 16.0);
     // A still background reaches nothing by itself, except in the half pixel of bilinear fetches.
     assert_within(seen("off"), ..0.02);

@@ -5,7 +5,8 @@ use tests::picture::{BLACK_WALL, Picture, column, light_above, slow_above_fast, 
 
 #[test]
 fn kajiya_lets_things_smear_twice_as_far_as_they_move() {
-    // The slow object should smear 12 * 3.5 / 16 = 2.6 pixels to each side; steps are 9 / 16 pixels.
+    // The slow object should smear 12 * 3.5 / 16 = 2.6 pixels to each side; steps are 9 / 16
+    // pixels.
     let picture = slow_above_fast(12.0, 48.0);
     let smear = |spread: &str| {
         let overrides = format!("strength=-1 pairs=16 spread={spread}");
@@ -57,7 +58,8 @@ fn kajiya_displaces_still_pixels_near_a_mover() {
         wall.filter(|(x, y)| (output.at(*x, *y)[0] - picture.color.at(*x, *y)[0]).abs() > 0.05)
             .count()
     };
-    // The wall has 6080 pixels. Those in tiles that know the mover change if they shift by at least half a pixel of 1.5.
+    // The wall has 6080 pixels. Those in tiles that know the mover change if they shift by at least
+    // half a pixel of 1.5.
     assert!(changed("") > 2000, "{}", changed(""));
     // Without noise the pixel does not shift, and a still pixel has no spread.
     assert_eq!(changed("noise=none"), 0);
@@ -71,7 +73,8 @@ fn taps_off_the_picture_are_dropped_or_read_its_border() {
         let output = picture.blur("jimenez", "kajiya", &format!("strength=-1 border={border}"));
         column(&output, 4)
     };
-    // Two of seven taps, 3 pixels apart around 4.5, are off the picture; one is in the first three columns.
+    // Two of seven taps, 3 pixels apart around 4.5, are off the picture; one is in the first three
+    // columns.
     let one = 1.0 / 3.0;
     assert_near(seen("clamp"), (2.0 + one) / 7.0, 0.05);
     assert_near(seen("drop"), one / 5.0, 0.04);

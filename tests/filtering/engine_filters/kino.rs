@@ -3,7 +3,8 @@
 use tests::near::{assert_near, assert_within};
 use tests::picture::{BLACK_WALL, Picture, column, moving_edge, white};
 
-/// Makes a white bar of 40 pixels that moves right, in the right or left half of a still black picture.
+/// Makes a white bar of 40 pixels that moves right, in the right or left half of a still black
+/// picture.
 fn bar(right: bool) -> Picture {
     Picture::new(160, 64, |x, _| {
         let from_middle = if right { x as i32 - 80 } else { 79 - x as i32 };
@@ -22,8 +23,9 @@ fn the_order_of_taps_makes_a_mover_s_two_sides_differ() {
         let output = bar(is_right).blur("kino", "default", overrides);
         (0..18).map(|i| column(&output, pixel(i))).sum()
     };
-    // The right tap is the first of each pair. If the bar is read first, the background counts as moving as far, and the bar's own
-    // share shrinks. Without this order both sides would be equal up to rounding.
+    // The right tap is the first of each pair. If the bar is read first, the background counts as
+    // moving as far, and the bar's own share shrinks. Without this order both sides would be equal
+    // up to rounding.
     assert_within(light(true, |i| 79 - i), ..0.97 * light(false, |i| 80 + i));
 }
 
@@ -68,7 +70,8 @@ fn a_tile_is_the_radius_rounded_up_to_eight() {
         assert_near(tiles.at(column, row)[0], radius, 1e-4);
         let moving = tiles.pixels.iter().filter(|motion| motion[0] > 0.0).count();
         assert_eq!(moving, 1);
-        // A tile's own motion counts 1.01 times, so neighbours' motion arrives shorter by that factor.
+        // A tile's own motion counts 1.01 times, so neighbours' motion arrives shorter by that
+        // factor.
         let near = picture.texture("kino", overrides, "neighbor_max");
         assert_near(near.at(column, row)[0], radius, 1e-4);
         assert_near(near.at(column - 1, row)[0], radius / 1.01, 1e-4);

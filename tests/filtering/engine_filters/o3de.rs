@@ -17,7 +17,8 @@ fn o3de_cuts_offsets_to_whole_pixels() {
     assert_near(seen("middles"), 0.25, 0.03);
 }
 
-/// Makes a still white post at 60..70 in front of a black wall; from row 40 on, a black surface moves in front of both.
+/// Makes a still white post at 60..70 in front of a black wall; from row 40 on, a black surface
+/// moves in front of both.
 fn post_above_motion() -> Picture {
     Picture::new(160, 64, |x, y| match (x, y) {
         (_, 40..) => white(240.0).gray(0.0),
@@ -29,9 +30,10 @@ fn post_above_motion() -> Picture {
 #[test]
 fn o3de_keeps_the_sign_of_its_innermost_offset() {
     let output = post_above_motion().blur("jimenez", "o3de", "pairs=24");
-    // Next to the post, and in odd rows, taps are at i - 1/4 steps of 5 pixels, cut: -1, 3, 8 .. and the same to the left. The first
-    // tap on the post is at -1/4 steps, within a still object's spread of one step: it counts whole. At 3/4 steps it counts a
-    // quarter, and farther ones do not count.
+    // Next to the post, and in odd rows, taps are at i - 1/4 steps of 5 pixels, cut: -1, 3, 8 ..
+    // and the same to the left. The first tap on the post is at -1/4 steps, within a still object's
+    // spread of one step: it counts whole. At 3/4 steps it counts a quarter, and farther ones do
+    // not count.
     for row in [37, 39] {
         assert_near(output.at(70, row)[0], (1.0 + 0.25) / 48.0, 1e-5);
     }
@@ -45,7 +47,8 @@ fn o3de_mixes_the_motion_of_tiles() {
         let output = picture.blur("jimenez", "o3de", &overrides);
         (0..200).any(|y| output.at(x, y) != picture.color.at(x, y))
     };
-    // The tile left of the mover knows it, and the next one does not. Mixed motion begins between their centres.
+    // The tile left of the mover knows it, and the next one does not. Mixed motion begins between
+    // their centres.
     assert!(changes("nearest", 180) && !changes("nearest", 179));
     assert!(changes("linear", 175) && !changes("linear", 170));
 }
@@ -60,6 +63,7 @@ fn o3de_mixes_still_things_near_a_mover_with_their_background() {
         post.map(|(x, y)| output.at(x, y)[0]).fold(1.0, f32::min)
     };
     assert_within(darkest(""), ..0.5);
-    // With the pixel's own motion in place of the tile's, only taps within a step of a still pixel count: one pair of 24.
+    // With the pixel's own motion in place of the tile's, only taps within a step of a still pixel
+    // count: one pair of 24.
     assert_within(darkest("spread=steps"), 0.9..);
 }

@@ -11,8 +11,8 @@ fn the_smear_of_wicked_depends_on_the_width_of_the_picture() {
         println!("{width} wide");
         let picture = moving_edge(width, 64, [12.0, 0.0]);
         let found = ramp_length(&picture.blur("jimenez", "wicked", "strength=-100"));
-        // 1500 pixels per picture width of motion, scaled by noise with a mean square of a third; 16 taps at
-        // (2 i - 15) / 15.
+        // 1500 pixels per picture width of motion, scaled by noise with a mean square of a third;
+        // 16 taps at (2 i - 15) / 15.
         let taps = (0..16).map(|i| ((2.0 * f64::from(i) - 15.0) / 15.0).powi(2));
         let square = taps.sum::<f64>() / 16.0 / 3.0;
         let expected = (3.0 * square).sqrt() * 1500.0 * 12.0 / f64::from(width);
@@ -30,7 +30,8 @@ fn the_kernel_of_wicked_is_peaked_and_not_a_box() {
         let reach = (37.5 * part).round() as u32;
         column(&output, 240 + reach - 1) - column(&output, 240 - reach)
     };
-    // Uniform taps times uniform noise have the density -ln|x| / 2, so x (1 - ln x) is within x of the middle.
+    // Uniform taps times uniform noise have the density -ln|x| / 2, so x (1 - ln x) is within x of
+    // the middle.
     for part in [0.2f64, 0.4] {
         // 16 taps of 128 rows, in whole pixels of 37.5.
         assert_near(share(part), part * (1.0 - part.ln()), 0.05);
@@ -39,11 +40,13 @@ fn the_kernel_of_wicked_is_peaked_and_not_a_box() {
 
 #[test]
 fn wicked_lets_slow_things_smear_as_far_as_fast_ones() {
-    // The fast half smears 750 * 24 / 320 = 56 pixels to each side, and the slow object should smear 11.
+    // The fast half smears 750 * 24 / 320 = 56 pixels to each side, and the slow object should
+    // smear 11.
     let picture = slow_above_fast(4.8, 24.0);
     let as_published = picture.blur("jimenez", "wicked", "strength=-100");
     assert_within(light_above(&as_published, 20..40), 1.0..);
-    // Compared with the taps' distances, it ends after its own length and a step of 8 pixels. Half a pixel for fetches.
+    // Compared with the taps' distances, it ends after its own length and a step of 8 pixels. Half
+    // a pixel for fetches.
     let by_steps = picture.blur("jimenez", "wicked", "strength=-100 spread=steps");
     assert_within(light_above(&by_steps, 1..8), 1.0..);
     assert_eq!(light_above(&by_steps, 20..40), 0.0);
@@ -55,7 +58,8 @@ fn wicked_counts_motion_fully_above_a_tenth_of_the_fastest_and_not_below() {
         let picture = slow_above_fast(24.0 * part, 24.0);
         light_above(&picture.blur("jimenez", "wicked", "strength=-100"), 1..40)
     };
-    // In its unit the fastest motion is 7.5, and motions from 6.5 / 75 to 7.5 / 75 of it count in part.
+    // In its unit the fastest motion is 7.5, and motions from 6.5 / 75 to 7.5 / 75 of it count in
+    // part.
     assert_eq!(light(0.08), 0.0);
     assert!(light(0.095) > 0.0 && light(0.095) < 0.9 * light(0.11));
     // Below that, the fast half hides itself; equal up to rounding.
@@ -64,7 +68,8 @@ fn wicked_counts_motion_fully_above_a_tenth_of_the_fastest_and_not_below() {
 
 #[test]
 fn wicked_pushes_trails_inwards_where_they_begin() {
-    // Everything moves far enough for taps 2 pixels apart, which spread a white column at the border.
+    // Everything moves far enough for taps 2 pixels apart, which spread a white column at the
+    // border.
     let seen = |speed: f32, border: &str| {
         let picture = Picture::new(80, 64, |x, _| white(speed).gray((x == 0).into()));
         let overrides = format!("strength=-100 noise=none tile_dither=0 border={border}");

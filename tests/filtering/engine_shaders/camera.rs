@@ -12,8 +12,8 @@ use crate::filter_files::{FilterFiles, ready};
 
 const REVERSED: &str = "depth = \"reversed\"\nnear = 0.1";
 
-/// Makes a filter from a shader that writes the velocity given by depth and the camera, in pixels. `bindings` are those of depth, the
-/// picture and the block.
+/// Makes a filter from a shader that writes the velocity given by depth and the camera, in pixels.
+/// `bindings` are those of depth, the picture and the block.
 fn declare(file: &str, [depth, picture, block]: [u32; 3], convention: &str) -> FilterFiles {
     // Only GLSL has the texture and its sampler in one variable.
     let sampler = if file.ends_with(".comp") {

@@ -10,7 +10,8 @@ const CHANGED: &str = "naga, which translates it, changes the control flow of it
 const FALLS: &str =
     "falls through into the next one, in a `switch` in which several labels share a body";
 
-/// Flows that naga gets wrong, as GLSL or as the optimised module, each with words of the refusal. All others come out right.
+/// Flows that naga gets wrong, as GLSL or as the optimised module, each with words of the refusal.
+/// All others come out right.
 const REFUSED: [(&str, &str, &str); 7] = [
     ("fall_through_default", "glsl", CHANGED),
     ("fall_through_default", "spv", CHANGED),

@@ -51,7 +51,8 @@ fn broken_pixels_and_endless_loops_are_reported_with_their_pass() {
         ("result = vec4(0.0);", "result = vec4(0.0); result.y = pixel == ivec2(3, 4) ? sqrt(uv.x - 9.0) : 0.0;", "to pixel (3, 4); every value must be finite"),
         ("for (int i = 0; i < params.samples; i++)", "for (int i = 0; params.samples > 0; i++)", "loop"),
     ];
-    // An adapter that cuts no loop would run the endless one until it is lost, and with it all tests that share it.
+    // An adapter that cuts no loop would run the endless one until it is lost, and with it all
+    // tests that share it.
     let cuts_loops = shared_gpu().loop_limit.is_some();
     for (from, to, says) in &wrong[..if cuts_loops { 3 } else { 2 }] {
         let filter = declare("").changed("gather.frag", from, to).load().unwrap();

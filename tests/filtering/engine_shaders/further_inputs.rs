@@ -8,7 +8,8 @@ use tests::text::assert_contains;
 use super::{busy_picture, make_declared};
 use crate::filter_files::ready;
 
-/// Makes filters that show both: kernels bound by name, and a shader of an engine with a convention.
+/// Makes filters that show both: kernels bound by name, and a shader of an engine with a
+/// convention.
 fn make_both() -> [Filter; 2] {
     let folder = tempfile::tempdir().unwrap();
     let shows = "let z = textureLoad(velocity_z, pixel, 0).x;

@@ -1,4 +1,5 @@
-//! Shaders in the manners of engines and sites, written for these tests: each blurs as the guide's kernel does.
+//! Shaders in the manners of engines and sites, written for these tests: each blurs as the guide's
+//! kernel does.
 
 use tests::text::assert_contains;
 

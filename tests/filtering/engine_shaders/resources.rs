@@ -1,5 +1,5 @@
-//! Textures, images and uniforms in engines' forms: packed formats, sides rounded down, images that are read and written, variables
-//! without registers.
+//! Textures, images and uniforms in engines' forms: packed formats, sides rounded down, images that
+//! are read and written, variables without registers.
 
 use filters::Limits;
 use tests::near::assert_near;

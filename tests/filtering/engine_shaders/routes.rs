@@ -1,4 +1,5 @@
-//! One blur by every route, with equal pictures; wrong bindings and shaders, each refused with its place and the remedy.
+//! One blur by every route, with equal pictures; wrong bindings and shaders, each refused with its
+//! place and the remedy.
 
 use std::fs;
 use std::process::Command;
@@ -36,7 +37,8 @@ fn spir_v_blurs_as_the_glsl_that_it_was_made_from() {
     assert_as_documented(&files.load().unwrap(), ROUNDING);
 }
 
-/// The modules are slangc 2026.14.1's output for centre_blur.slang: with images without a format, and fetches without a level.
+/// The modules are slangc 2026.14.1's output for centre_blur.slang: with images without a format,
+/// and fetches without a level.
 #[test]
 fn spir_v_of_slang_blurs_as_wgsl_does() {
     let mut passes = include_str!("../../fixtures/shaders/slang.toml").to_owned();

@@ -21,7 +21,8 @@ fn the_documented_example_loads_from_a_folder_and_blurs() {
     let outputs = blur.run(&picture.input(&[&picture.color])).unwrap();
     let output = &outputs[0];
     let row: Vec<f32> = (0..90).map(|x| output.at(x, 2)[0]).collect();
-    // Ten pixels of motion on ten pixels of bar give a triangle from 35 to 55. Taps of one weight move light, and add none.
+    // Ten pixels of motion on ten pixels of bar give a triangle from 35 to 55. Taps of one weight
+    // move light, and add none.
     let energy: f32 = row.iter().sum();
     assert_near(energy, 10.0, 1e-4);
     let moments = row.iter().enumerate().map(|(x, v)| (x as f32 + 0.5) * v);

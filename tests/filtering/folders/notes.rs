@@ -1,4 +1,5 @@
-//! Notes about filters that are allowed: a pass over too many pixels, and barriers that only some invocations reach.
+//! Notes about filters that are allowed: a pass over too many pixels, and barriers that only some
+//! invocations reach.
 
 use filters::Filter;
 use tests::text::assert_contains;

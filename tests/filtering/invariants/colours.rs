@@ -6,7 +6,8 @@ use tests::presets::{every_preset, gain, preset_name};
 use super::{HEIGHT, WIDTH, blur, blur_colors, random};
 use crate::fields::Field;
 
-/// Fails unless every preset leaves the colours of a field, except for its gain, unchanged bit for bit.
+/// Fails unless every preset leaves the colours of a field, except for its gain, unchanged bit for
+/// bit.
 fn assert_unchanged(field: &Field) {
     for (filter, settings) in every_preset() {
         let gain = gain(&filter, &settings);
@@ -54,7 +55,8 @@ fn expect_colors_of_the_frame(seed: u64) {
         for channel in 0..3 {
             let only = |image: &Image| image.map(|pixel| [pixel[channel]; 3]);
             let brightest = brightest(&only(&field.color)) * gain(&filter, &settings);
-            // Weights are not negative. Rounding of a mean of 20 taps may exceed the limits by a few parts in 1e6.
+            // Weights are not negative. Rounding of a mean of 20 taps may exceed the limits by a
+            // few parts in 1e6.
             let slack = 1e-5 * brightest;
             for [value, ..] in only(&output).pixels {
                 assert!(

@@ -16,7 +16,8 @@ const WIDTH: u32 = 71;
 const HEIGHT: u32 = 43;
 const FRAME_INDEX: u32 = 3;
 
-/// Makes highlights of up to 10000, still pixels, motion of up to 60 pixels, near surfaces and far background.
+/// Makes highlights of up to 10000, still pixels, motion of up to 60 pixels, near surfaces and far
+/// background.
 fn random(seed: u64) -> Field {
     let field = noise(WIDTH, HEIGHT, seed);
     let mut random = Random::new(seed);

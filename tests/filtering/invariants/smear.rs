@@ -29,8 +29,8 @@ fn wall(left: bool, speed: f32) -> Field {
     }
 }
 
-/// Measures the light of a white wall, with its edge at the left or right and moving right over black, on the
-/// black.
+/// Measures the light of a white wall, with its edge at the left or right and moving right over
+/// black, on the black.
 fn light_beside_a_wall(filter: &Filter, settings: &Settings, left: bool) -> f64 {
     let output = blur(&wall(left, 24.0), filter, settings);
     let black = if left { EDGE..output.width } else { 0..EDGE };
@@ -47,21 +47,24 @@ fn filters_smear_beyond_a_mover_where_they_carry_motion_and_only_there() {
         if filter.alignment == Alignment::Trailing {
             assert_eq!(ahead, 0.0);
         }
-        // An even trail of 24 pixels leaves the light of 12 behind the wall; a centred one leaves the light of 3 on either
-        // side.
+        // An even trail of 24 pixels leaves the light of 12 behind the wall; a centred one leaves
+        // the light of 3 on either side.
         match (filter.name.as_str(), settings.preset.as_str()) {
             ("jump_flood" | "jump_flood_packed", _) => assert_within(behind, 6.0..),
             ("mcguire" | "guertin" | "jimenez" | "blender" | "godot", _) | ("dagor", "mended") => {
                 assert_within(ahead.min(behind), 1.5..);
             }
-            // Smears are 4 pixels long in the middle, and taps along the longest motion near step over them.
+            // Smears are 4 pixels long in the middle, and taps along the longest motion near step
+            // over them.
             ("dagor", _) => assert_eq!(ahead.min(behind), 0.0),
-            // Of 31 rows, a tile has one pixel, and half-motions of three taps end after two: 2 to 4 of 7 colours.
+            // Of 31 rows, a tile has one pixel, and half-motions of three taps end after two: 2 to
+            // 4 of 7 colours.
             ("vort", _) => {
                 assert_within(ahead, 0.28..0.58);
                 assert_within(behind, 0.28..0.58);
             }
-            // The pixel next to the wall has a third of its motion: of 8 pixels, 3.5 lie on the wall.
+            // The pixel next to the wall has a third of its motion: of 8 pixels, 3.5 lie on the
+            // wall.
             ("centred_gather", "smoothed" | "spartan_2024") => {
                 assert_within(ahead, 0.35..0.5);
                 assert_within(behind, 0.35..0.5);

@@ -40,8 +40,9 @@ fn mirror_camera(field: &Field, axis: usize) -> Option<Reprojection> {
     Some(Reprojection { rows })
 }
 
-/// Counts pixels that differ by more than 1e-3 of the brightest tap. That is many times the rounding of positions (1e-5 pixels)
-/// times the contrast of neighbours, and far below the weight of one tap of twenty.
+/// Counts pixels that differ by more than 1e-3 of the brightest tap. That is many times the
+/// rounding of positions (1e-5 pixels) times the contrast of neighbours, and far below the weight
+/// of one tap of twenty.
 fn asymmetric_pixels(field: &Field, filter: &Filter, settings: &Settings) -> usize {
     let output = blur(field, filter, settings);
     let count = [true, false].map(|horizontal| {
@@ -86,15 +87,16 @@ fn the_jump_flood_is_symmetric_except_for_noise_equal_depths_and_rounding() {
     for preset in &filter.presets {
         let mut settings = filter.settings(Some(&preset.name)).unwrap();
         settings.set(&filter, "jitter", "none").unwrap();
-        // Between texels of random depth, rounding of a position moves replaced taps by tenths of a pixel.
+        // Between texels of random depth, rounding of a position moves replaced taps by tenths of a
+        // pixel.
         if settings.values["tap"].to_string() == "replaced" {
             settings.set(&filter, "fetch", "nearest").unwrap();
         }
         // 16 bits round positions towards the top left.
         settings.set(&filter, "map", "float32").unwrap();
         let count = asymmetric_pixels(&distinct_depths(10), &filter, &settings);
-        // Of 2 x 3053 pixels. A tap on the edge of a texel, or a decision within rounding of its threshold, may go
-        // either way.
+        // Of 2 x 3053 pixels. A tap on the edge of a texel, or a decision within rounding of its
+        // threshold, may go either way.
         assert!(count <= 6, "preset {}: {count} pixels differ", preset.name);
     }
 }

@@ -1,5 +1,5 @@
-//! The candidate that the published comparison keeps; it looks as if distances along the path mattered. `jump_flood_reference` shows
-//! that the kernel keeps the same one.
+//! The candidate that the published comparison keeps; it looks as if distances along the path
+//! mattered. `jump_flood_reference` shows that the kernel keeps the same one.
 
 use tests::random::Random;
 

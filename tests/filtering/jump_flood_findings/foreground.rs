@@ -6,12 +6,12 @@ use tests::picture::{BLACK_WALL, Picture, Surface, column, white};
 /// Source of the trail.
 const BACKGROUND: Surface = BLACK_WALL.moving(21.0, 0.0);
 
-/// Returns the weight of the one tap of eight that reaches a white surface in front. It moves right by `other`, and the trail's source
-/// by 21 pixels.
+/// Returns the weight of the one tap of eight that reaches a white surface in front. It moves right
+/// by `other`, and the trail's source by 21 pixels.
 fn weight_in_front(preset: &str, other: f32) -> f64 {
     let picture = Picture::halves(160, 24, BACKGROUND, white(other));
-    // One step of 64 pixels carries nothing, so every pixel is its own source. Taps are 3 pixels apart, on pixel
-    // centres.
+    // One step of 64 pixels carries nothing, so every pixel is its own source. Taps are 3 pixels
+    // apart, on pixel centres.
     let overrides = "jitter=none passes=1 step_multiplier=64";
     let output = picture.blur("jump_flood", preset, overrides);
     // Only the seventh tap is beyond. All others weigh 1, so it gets w / (7 + w).
@@ -23,7 +23,8 @@ fn weight_in_front(preset: &str, other: f32) -> f64 {
 fn a_tenth_root_makes_a_difference_in_motion_nearly_binary() {
     for (difference, weight) in [(0.01, 0.369), (0.1, 0.206), (0.5, 0.067), (1.0, 0.0)] {
         let found = weight_in_front("paper", 21.0 * (1.0 - difference as f32));
-        // 32-bit floats: a hundredth of the motion is known to 1e-5 of itself, and its root is known better.
+        // 32-bit floats: a hundredth of the motion is known to 1e-5 of itself, and its root is
+        // known better.
         assert_near(found, weight, 0.001);
     }
     assert_near(weight_in_front("paper", 21.0), 1.0, 1e-5);
@@ -34,7 +35,8 @@ fn the_version_of_two_days_later_weights_and_replaces_taps() {
     // A tap in front stays in place, so only its weight can exclude it.
     for (difference, weight) in [(0.1, 0.206), (1.0, 0.0)] {
         let found = weight_in_front("july_2024", 21.0 * (1.0 - difference as f32));
-        // Positions of 16 bits are 0.03 pixels off, which mixes as much of the next colour into the tap.
+        // Positions of 16 bits are 0.03 pixels off, which mixes as much of the next colour into the
+        // tap.
         assert_near(found, weight, 0.04);
     }
 }
@@ -55,7 +57,8 @@ fn a_faster_surface_in_the_same_direction_counts_fully() {
 
 #[test]
 fn a_still_surface_in_front_neither_blurs_nor_is_smeared() {
-    // Taps 3 pixels apart are on pixel centres; between them, half a pixel at the post's edge would mix.
+    // Taps 3 pixels apart are on pixel centres; between them, half a pixel at the post's edge would
+    // mix.
     let light = |depth: f32| {
         let picture = Picture::new(200, 24, |x, _| match x {
             90..110 => white(0.0).at(depth),

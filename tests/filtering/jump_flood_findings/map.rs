@@ -3,7 +3,8 @@
 use tests::near::assert_within;
 use tests::picture::{Picture, column, white};
 
-/// Returns the brightness of the first pixel of a still wall next to a mover; the wall is white from the next pixel on.
+/// Returns the brightness of the first pixel of a still wall next to a mover; the wall is white
+/// from the next pixel on.
 fn beside_a_mover(map: &str) -> f64 {
     let picture = Picture::new(200, 24, |x, _| match x {
         0..80 => white(40.0),
@@ -18,6 +19,7 @@ fn beside_a_mover(map: &str) -> f64 {
 fn a_map_of_16_bits_moves_still_pixels_beside_a_mover() {
     // Its only source is itself, and it is still.
     assert_eq!(beside_a_mover("float32"), 0.0);
-    // Its position, 80.5 of 200 pixels, is stored as 80.47, where a linear fetch mixes in 3 % of the mover's 40 pixels.
+    // Its position, 80.5 of 200 pixels, is stored as 80.47, where a linear fetch mixes in 3 % of
+    // the mover's 40 pixels.
     assert_within(beside_a_mover("float16"), 0.05..);
 }

@@ -11,7 +11,8 @@ const SPEED: f64 = 21.0;
 const AHEAD: f64 = 0.25;
 const BEHIND: f64 = 0.75;
 
-/// Makes a white bar that moves right in front of a still background, which is darker ahead of the bar than behind.
+/// Makes a white bar that moves right in front of a still background, which is darker ahead of the
+/// bar than behind.
 fn bar() -> Picture {
     Picture::new(240, 24, |x, _| match x {
         0..MOVER_START => BLACK_WALL.gray(BEHIND as f32),

@@ -4,7 +4,8 @@ use frame::Raster;
 use tests::near::assert_near;
 use tests::picture::{Picture, column, moving_edge, white};
 
-/// Measures how far ahead the mean of each pixel's taps is, in pixels, away from the border. Returns sorted distances.
+/// Measures how far ahead the mean of each pixel's taps is, in pixels, away from the border.
+/// Returns sorted distances.
 fn displacements(preset: &str, jitter: &str, speed: f32) -> Vec<f32> {
     // A pixel's brightness is its column.
     let slope = Picture::new(200, 32, |x, _| white(speed).gray(x as f32));
@@ -21,12 +22,14 @@ fn noise_scales_whole_trails_evenly_by_a_half_to_one_and_a_half() {
     // The mean of a trail of 20 pixels is 10 ahead.
     for part in [0.0, 0.25, 0.5, 0.75, 1.0] {
         let index = (part * (found.len() - 1) as f64) as usize;
-        // Noise of 3840 pixels, which is more even than random numbers: 0.024 would be 3 sigma of those.
+        // Noise of 3840 pixels, which is more even than random numbers: 0.024 would be 3 sigma of
+        // those.
         assert_near(found[index] / 10.0, 0.5 + part, 0.02);
     }
 }
 
-/// Returns the brightness this many pixels behind an edge from black to white. Everything moves right by 24 pixels.
+/// Returns the brightness this many pixels behind an edge from black to white. Everything moves
+/// right by 24 pixels.
 fn behind_an_edge(preset: &str, distance: u32) -> f64 {
     let output = moving_edge(240, 64, [24.0, 0.0]).blur("jump_flood", preset, "");
     column(&output, 120 - distance)
@@ -34,7 +37,8 @@ fn behind_an_edge(preset: &str, distance: u32) -> f64 {
 
 #[test]
 fn the_mean_trail_ends_in_a_ramp_and_not_in_a_step() {
-    // Eight taps are at i / 7 of the trail. Taps 5, 6 and 7 exceed its whole length if the scale is above 1.4, 7/6 and 1.
+    // Eight taps are at i / 7 of the trail. Taps 5, 6 and 7 exceed its whole length if the scale is
+    // above 1.4, 7/6 and 1.
     let expected = (0.1 + 1.0 / 3.0 + 0.5) / 8.0;
     // Noise of 64 rows; half a pixel of the edge.
     assert_near(behind_an_edge("paper", 24), expected, 0.03);
@@ -50,12 +54,13 @@ fn a_start_offset_makes_a_box_only_if_the_pixel_itself_shifts_too() {
     let box_filter = 1.0 - 0.5 / 24.0;
     // Two pixels of bilinear fetches, and noise of 64 rows.
     assert_near(behind_an_edge("corrected", 1), box_filter, 0.02);
-    // In the version of two days later the pixel's own colour is still one of eight taps, and black.
+    // In the version of two days later the pixel's own colour is still one of eight taps, and
+    // black.
     assert_near(behind_an_edge("july_2024", 1), 7.0 / 8.0 * box_filter, 0.02);
 }
 
-/// Returns the farthest pixel behind an edge in steady motion that still mixes in the other side, along columns or
-/// rows.
+/// Returns the farthest pixel behind an edge in steady motion that still mixes in the other side,
+/// along columns or rows.
 fn reach(preset: &str, vertical: bool, speed: f32, exposure: f64) -> u32 {
     let velocity = if vertical { [0.0, speed] } else { [speed, 0.0] };
     let mut picture = moving_edge(256, 144, velocity);
@@ -87,7 +92,8 @@ fn trails_are_cut_at_32_pixels_and_two_days_later_at_64_at_any_speed() {
 
 #[test]
 fn vertical_trails_of_a_wide_picture_are_cut_shorter() {
-    // 144 / 256: the cuts of 32 and 64 pixels are parts of the width, and a vertical path is a part of the height.
+    // 144 / 256: the cuts of 32 and 64 pixels are parts of the width, and a vertical path is a part
+    // of the height.
     assert_eq!(reach("paper", true, 60.0, 1.0), 18);
     assert_eq!(reach("july_2024", true, 60.0, 1.0), 36);
 }

@@ -48,7 +48,8 @@ impl Reference<'_> {
         (tau, both(within, beside))
     }
 
-    /// Computes the dilated map: per pixel, every source that a correct run may have after the last pass.
+    /// Computes the dilated map: per pixel, every source that a correct run may have after the last
+    /// pass.
     pub fn dilate(&self) -> Vec<Vec<Chosen>> {
         let [width, height] = self.size;
         let pixels = || (0..height).flat_map(move |y| (0..width).map(move |x| [x, y]));
@@ -63,7 +64,8 @@ impl Reference<'_> {
         map
     }
 
-    /// Returns the position of a pixel as a source in an iteration, as an earlier iteration stored it in the map.
+    /// Returns the position of a pixel as a source in an iteration, as an earlier iteration stored
+    /// it in the map.
     pub fn place(&self, pixel: [i64; 2], iteration: u32) -> Vec2 {
         match iteration {
             0 => self.uv(pixel),

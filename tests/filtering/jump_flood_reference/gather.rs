@@ -14,8 +14,8 @@ struct Share {
 }
 
 impl Reference<'_> {
-    /// Blurs one pixel with a given map of sources, in pixels. Returns the colour and its error from 32-bit noise; none if a tap is too
-    /// near an edge to determine its texel.
+    /// Blurs one pixel with a given map of sources, in pixels. Returns the colour and its error
+    /// from 32-bit noise; none if a tap is too near an edge to determine its texel.
     pub fn blur(
         &self,
         pixel: [i64; 2],
@@ -88,7 +88,8 @@ impl Reference<'_> {
         })
     }
 
-    /// Returns how far from p towards x the colour is taken: max(nb, nf), and the error of 32-bit floats.
+    /// Returns how far from p towards x the colour is taken: max(nb, nf), and the error of 32-bit
+    /// floats.
     fn share(&self, p: Vec2, own: Vec2, x: Vec2, extent: f64) -> Share {
         let [source, here, tap] = [own, p, x].map(|uv| self.depth(uv));
         let [source_reverse, here_reverse] = [source, here].map(|depth| 0.05 / depth);
@@ -111,7 +112,8 @@ impl Reference<'_> {
         }
     }
 
-    /// Computes w = 1 - fg * D^0.1; none if the root would amplify rounding noise in D and the weight matters.
+    /// Computes w = 1 - fg * D^0.1; none if the root would amplify rounding noise in D and the
+    /// weight matters.
     fn weight(&self, own: Vec2, other: Vec2) -> Option<f64> {
         let v = self.to_path_space(self.velocity(own));
         let w = self.to_path_space(self.velocity(other));

@@ -103,8 +103,9 @@ fn the_dilation_agrees_with_a_64_bit_reference() {
             ties += usize::from(outcomes.len() > 1);
             found += usize::from(chosen.valid && chosen.pixel != pixel);
         }
-        // A decision is a tie within 4e-6 of its threshold. A pixel makes up to 9 x 3 decisions in each of up to 8 passes: one pixel in a
-        // thousand has a tie, and most ties do not change the winner. The factor of two is for chance.
+        // A decision is a tie within 4e-6 of its threshold. A pixel makes up to 9 x 3 decisions in
+        // each of up to 8 passes: one pixel in a thousand has a tie, and most ties do not change
+        // the winner. The factor of two is for chance.
         let count = seeds.len();
         assert!(500 * ties <= count, "{}: {ties} ties of {count}", run.name);
         all += count;
@@ -141,7 +142,8 @@ fn rejection_and_the_way_back_agree_with_the_reference() {
             moved += usize::from(texel[3] == 0.0 && texel[0].floor() as i64 != pixel[0]);
         }
         let count = sources.len();
-        // Up to 33 probes per pixel, each with a chance of 2 x 2e-4 per axis to lie on the edge of a texel.
+        // Up to 33 probes per pixel, each with a chance of 2 x 2e-4 per axis to lie on the edge of
+        // a texel.
         assert!(37 * ties <= count, "{}: {ties} ties of {count}", run.name);
         all += count;
     }
@@ -161,14 +163,15 @@ fn the_gather_weights_taps_like_the_reference() {
         let mut compared = 0;
         for pixel in run.pixels() {
             if let Some((expected, misplaced)) = reference.blur(pixel, &source) {
-                // Colours are in [0, 2) and change by 2 per pixel at most on both axes. A weight is off by 1e-4 where its tenth root is
-                // steepest.
+                // Colours are in [0, 2) and change by 2 per pixel at most on both axes. A weight is
+                // off by 1e-4 where its tenth root is steepest.
                 run.assert_color(pixel, expected, 1e-3 + 4.0 * misplaced);
                 compared += 1;
             }
         }
         let count = run.output.pixels.len();
-        // Up to 8 taps, each with a chance of 2 x misplaced (0.01 pixels at most) per axis to be undecided.
+        // Up to 8 taps, each with a chance of 2 x misplaced (0.01 pixels at most) per axis to be
+        // undecided.
         let name = &run.name;
         assert!(4 * compared > 3 * count, "{name}: {compared} of {count}");
     }

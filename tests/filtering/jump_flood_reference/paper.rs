@@ -1,7 +1,8 @@
-//! Golan 2024 in 64-bit floats, from its description: UV coordinates, the velocity V that points to the previous frame, reverse
-//! depth. The code is plain loops and shares nothing with the kernels.
+//! Golan 2024 in 64-bit floats, from its description: UV coordinates, the velocity V that points to
+//! the previous frame, reverse depth. The code is plain loops and shares nothing with the kernels.
 //!
-//! If a decision is too close for 32-bit floats, every result is kept: a pixel has all sources that a correct run may choose.
+//! If a decision is too close for 32-bit floats, every result is kept: a pixel has all sources that
+//! a correct run may choose.
 
 use tests::vector::{Vec2, dot};
 
@@ -27,11 +28,11 @@ pub struct Paper {
     /// Factor on the paper's cut of trails in the gather; infinite for no cut, on the way back too.
     pub reach_factor: f64,
     pub jitter: Jitter,
-    /// Difference of reverse depth, in the demo of two days later, over which a pixel changes from level with its source to behind it.
-    /// None if taps are weighted.
+    /// Difference of reverse depth, in the demo of two days later, over which a pixel changes from
+    /// level with its source to behind it. None if taps are weighted.
     pub behind_extent: Option<f64>,
-    /// Difference of reverse depth, two days later, below which a probe matches; three matches end the way back. None if the first
-    /// match of velocities ends it.
+    /// Difference of reverse depth, two days later, below which a probe matches; three matches end
+    /// the way back. None if the first match of velocities ends it.
     pub third_match: Option<f64>,
     /// True if the map has 16 bits, as two days later.
     pub half_map: bool,
@@ -50,7 +51,8 @@ pub enum Jitter {
 
 /// 64 rounding steps of a 32-bit float: no quantity below goes through more.
 pub const ROUNDING: f64 = 64.0 * 6e-8;
-/// Error of 32-bit floats in positions of up to 1000 pixels after a product and a sum, in pixels, with room.
+/// Error of 32-bit floats in positions of up to 1000 pixels after a product and a sum, in pixels,
+/// with room.
 pub const POSITION: f64 = 2e-4;
 
 #[derive(Clone, Copy, PartialEq)]

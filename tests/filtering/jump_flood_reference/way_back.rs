@@ -24,7 +24,8 @@ struct Row {
 }
 
 impl Reference<'_> {
-    /// Applies rejection and the way back to a pixel with a certain dilated source. Returns every result that a correct run may store.
+    /// Applies rejection and the way back to a pixel with a certain dilated source. Returns every
+    /// result that a correct run may store.
     pub fn backtrack(&self, pixel: [i64; 2], chosen: Chosen) -> Vec<Source> {
         let p = self.uv(pixel);
         let own = |flag| Source {

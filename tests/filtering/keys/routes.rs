@@ -1,4 +1,5 @@
-//! Samplers by every route: combined with a texture or not, bound by name or by number, in every language.
+//! Samplers by every route: combined with a texture or not, bound by name or by number, in every
+//! language.
 
 use frame::Image;
 
@@ -12,7 +13,8 @@ pub fn declare(file: &str) -> FilterFiles {
     files.with("filter.toml", text)
 }
 
-/// Shows a picture through a sampler with these keys. `image` and `sampler` are the places of the two; an empty one is the other's.
+/// Shows a picture through a sampler with these keys. `image` and `sampler` are the places of the
+/// two; an empty one is the other's.
 fn show(shader: &str, image: &str, sampler: &str, keys: &str) -> Image {
     let head = "name = \"shown\"\nsummary = \"Shows a picture through a sampler.\"\nalignment = \"trailing\"\n";
     let sampled = if sampler.is_empty() {

@@ -1,7 +1,7 @@
 //! Reconstruction of Guertin et al. 2014.
 //!
-//! Depths are compared relative to each other as inverse depths, which are larger for nearer surfaces, as the paper's
-//! operands require.
+//! Depths are compared relative to each other as inverse depths, which are larger for nearer
+//! surfaces, as the paper's operands require.
 
 use tests::kernels::{cone, cylinder};
 use tests::vector::{Vec2, dot, length, scaled};

@@ -10,7 +10,8 @@ use crate::reference::{Run, noise};
 /// The paper's epsilon, in pixels.
 const EPSILON: f64 = 1e-4;
 
-/// Computes a pixel from the GPU's neighbourhoods. Distances are between pixels, so noise cannot change a weight.
+/// Computes a pixel from the GPU's neighbourhoods. Distances are between pixels, so noise cannot
+/// change a weight.
 pub fn reconstruct(run: &Run, pixel: [i64; 2]) -> Option<([f64; 3], f64)> {
     let largest = vector(run.texture("neighborhoods"), super::tiles(run).of(pixel));
     let limit = EPSILON + 0.5;

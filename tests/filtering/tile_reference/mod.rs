@@ -1,4 +1,5 @@
-//! Tile filters on the GPU against their papers in 64-bit floats. Each pass gets the previous pass's output.
+//! Tile filters on the GPU against their papers in 64-bit floats. Each pass gets the previous
+//! pass's output.
 
 mod guertin;
 mod mcguire;
@@ -14,8 +15,8 @@ use tiles::{Tiles, texel, vector};
 
 use crate::reference::{Case, Run, run_cases};
 
-/// Changes to the presets `paper`. At an exposure of 1, most motion is cut at the side of a tile; at 0.3, little is; at 0.05, most of
-/// it is less than half a pixel.
+/// Changes to the presets `paper`. At an exposure of 1, most motion is cut at the side of a tile;
+/// at 0.3, little is; at 0.05, most of it is less than half a pixel.
 #[rustfmt::skip]
 const CASES: [Case; 9] = [
     ("mcguire", "paper", "", 1.0),
@@ -38,7 +39,8 @@ const ROUNDING: f64 = 16.0 * 6e-8;
 /// Error of the gradient noise in 32-bit floats: 53 times the rounding of a number up to 64, twice.
 const NOISE: f64 = 4e-4;
 
-/// Reference for a pixel: its colour and the error that 32-bit noise may cause; none if rounding decides which texel is read.
+/// Reference for a pixel: its colour and the error that 32-bit noise may cause; none if rounding
+/// decides which texel is read.
 type Reference = fn(&Run, [i64; 2]) -> Option<([f64; 3], f64)>;
 
 /// Returns the half-velocity that the first pass wrote, in pixels.
@@ -192,8 +194,8 @@ fn expect_pictures(filter: &str, reference: Reference) {
             let Some((expected, error)) = reference(run, pixel) else {
                 continue;
             };
-            // Colours are in [0, 2). A weight is off by 1e-4 at most, where a depth of 20 m in 32-bit floats is divided by an extent of 0.1
-            // m.
+            // Colours are in [0, 2). A weight is off by 1e-4 at most, where a depth of 20 m in
+            // 32-bit floats is divided by an extent of 0.1 m.
             run.assert_color(pixel, expected, 1e-3 + error);
             compared += 1;
             if expected == color(run, pixel) {
@@ -202,8 +204,8 @@ fn expect_pictures(filter: &str, reference: Reference) {
                 blurred += 1
             }
         }
-        // Up to 35 taps, each with a chance of 2 x 1.5e-3 per axis to be undecided. A sixth of the pixels may be as near to one border of a
-        // small tile as to another.
+        // Up to 35 taps, each with a chance of 2 x 1.5e-3 per axis to be undecided. A sixth of the
+        // pixels may be as near to one border of a small tile as to another.
         let count = run.output.pixels.len();
         let name = &run.name;
         assert!(2 * compared > count, "{name}: {compared} of {count}");

@@ -1,4 +1,5 @@
-//! Claims about the published repository of the preset `motion_blur_demo`, each shown to be true or false.
+//! Claims about the published repository of the preset `motion_blur_demo`, each shown to be true or
+//! false.
 //!
 //! shaders/mcguire/README.md lists the outcomes.
 
@@ -8,7 +9,8 @@ use tests::picture::{BLACK_WALL, Picture, white};
 
 const WIDTH: u32 = 97;
 const HEIGHT: u32 = 31;
-/// Speed in pixels per frame: 8 of half-velocity, so that 15 unshifted taps are on the whole pixels from -7 to 7.
+/// Speed in pixels per frame: 8 of half-velocity, so that 15 unshifted taps are on the whole pixels
+/// from -7 to 7.
 const SPEED: f32 = 16.0;
 /// Column where objects begin or end, in the middle of the image.
 const EDGE: u32 = 48;
@@ -51,8 +53,8 @@ fn the_filter_averages_moving_taps_and_not_every_tap() {
     let changes: &str = "jitter=none center_tap=skipped";
     let output = motion_blur_demo(&mover_beside_still(5.0, 5.0), changes);
     for (beside, movers) in [(0, 7.0), (3, 4.0), (6, 1.0)] {
-        // Each mover within reach weighs a cone of 0.99 to 1, near or far. Still taps weigh nothing on a still pixel, and its own weight is
-        // 1 / 0.5.
+        // Each mover within reach weighs a cone of 0.99 to 1, near or far. Still taps weigh nothing
+        // on a still pixel, and its own weight is 1 / 0.5.
         let found = output.at(EDGE + beside, HEIGHT / 2)[0];
         assert_near(found, movers / (movers + 2.0), 0.005);
     }
@@ -67,7 +69,8 @@ fn clamping_before_halving_halves_the_reach() {
         let lit = |x: &u32| (0..HEIGHT).any(|y| output.at(*x, y)[0] > 0.0);
         (EDGE..WIDTH - 25).filter(lit).count()
     };
-    // Half a tile of 20, and the pixel that a bilinear tap touches; shifts of a whole step reach it.
+    // Half a tile of 20, and the pixel that a bilinear tap touches; shifts of a whole step reach
+    // it.
     let published = reach("");
     assert!((9..=11).contains(&published), "{published}");
     let repaired = reach("radius_range=half_pixel_to_tile");
@@ -114,7 +117,8 @@ fn filtering_between_tiles_leaves_moving_pixels_unblurred() {
         let column = |x: &u32| (0..20).all(|y| output.at(*x, y) == picture.color.at(*x, y));
         (0..120).filter(column).collect::<Vec<u32>>()
     };
-    // Two tiles of opposite motion: halfway between their middles at 70 and 90 their mix is less than half a pixel.
+    // Two tiles of opposite motion: halfway between their middles at 70 and 90 their mix is less
+    // than half a pixel.
     assert_eq!(unblurred(""), [79, 80]);
     assert!(unblurred("tile_lookup=own").is_empty());
 }
@@ -135,8 +139,8 @@ fn the_hash_is_not_uniform() {
         let far = displacements.iter().filter(|value| value.abs() > 0.5);
         far.count() as f64 / displacements.len() as f64
     };
-    // 2263 pixels: 3 sigma are 0.03. Even noise exceeds it in half of the pixels; the fraction of a sine does in 1 +
-    // (asin 1/4 - asin 3/4) / (pi / 2) = 0.62.
+    // 2263 pixels: 3 sigma are 0.03. Even noise exceeds it in half of the pixels; the fraction of a
+    // sine does in 1 + (asin 1/4 - asin 3/4) / (pi / 2) = 0.62.
     assert_near(far("noise=gradient"), 0.5, 0.03);
     assert_near(far(""), 0.621, 0.03);
 }
@@ -170,8 +174,8 @@ fn colour_comes_from_the_opposite_border() {
 
 #[test]
 fn guertin_s_rule_for_diagonal_tiles_misses_motion_away_from_the_tile() {
-    // A white mover at the corner of four tiles moves up and left; its centred smear reaches 15 pixels down and right,
-    // too.
+    // A white mover at the corner of four tiles moves up and left; its centred smear reaches 15
+    // pixels down and right, too.
     let picture = Picture::new(40, 40, |x, y| match (x, y) {
         (12..20, 12..20) => white(0.0).moving(-30.0, -30.0),
         _ => BLACK_WALL.at(9.0),

@@ -1,4 +1,5 @@
-//! Half-velocities, tiles and neighbourhoods in 64-bit floats, in plain loops that share nothing with the kernels.
+//! Half-velocities, tiles and neighbourhoods in 64-bit floats, in plain loops that share nothing
+//! with the kernels.
 
 use frame::Raster;
 use tests::vector::{Vec2, direction, dot, length, scaled};

@@ -10,8 +10,8 @@ use tune::{
 
 #[test]
 fn the_signed_rank_test_has_wilcoxons_probabilities() {
-    // In Wilcoxon's table for n = 8, the smaller sum 5 is the last one below 5 % on one side, and 3 below 2.5 %. Of 2^8 arrangements,
-    // 5, 10 and 14 have a sum of at most 3, 5 and 6.
+    // In Wilcoxon's table for n = 8, the smaller sum 5 is the last one below 5 % on one side, and 3
+    // below 2.5 %. Of 2^8 arrangements, 5, 10 and 14 have a sum of at most 3, 5 and 6.
     let eight = |below: i32| {
         let signed = |rank: i32| f64::from(if rank == below { -rank } else { rank });
         (1..=8).map(signed).collect::<Vec<f64>>()
@@ -19,12 +19,14 @@ fn the_signed_rank_test_has_wilcoxons_probabilities() {
     let rows: [(&[f64], f64); 8] = [
         (&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0], 1.0 / 64.0),
         (&[-1.0, -2.0, -3.0, -4.0, -5.0, -6.0], 1.0),
-        // Equal sizes share their ranks, here 1.5 each: the sums 3, 1.5, 1.5 and 0 are equally likely.
+        // Equal sizes share their ranks, here 1.5 each: the sums 3, 1.5, 1.5 and 0 are equally
+        // likely.
         (&[1.0, 1.0], 0.25),
         (&[1.0, -1.0], 0.75),
         // Zeros do not count.
         (&[0.0, 1.0, 0.0, -1.0], 0.75),
-        // The ranks are 2, 2, 2 and 4, and the sum is 6: 8 of 16 arrangements reach it. If the three had rank 1, 9 would.
+        // The ranks are 2, 2, 2 and 4, and the sum is 6: 8 of 16 arrangements reach it. If the
+        // three had rank 1, 9 would.
         (&[1.0, 1.0, 1.0, -2.0], 0.5),
         (&[], 1.0),
         (&[0.0], 1.0),
@@ -36,8 +38,8 @@ fn the_signed_rank_test_has_wilcoxons_probabilities() {
     for (below, count) in [(3, 5.0), (5, 10.0), (6, 14.0)] {
         assert_eq!(signed_rank_p_value(&eight(below)), count / 256.0);
     }
-    // Darwin's heights of crossed less self-fertilised plants, in eighths of an inch: scipy.stats.wilcoxon gives W+ = 96
-    // and, with alternative "greater", p = 0.0206.
+    // Darwin's heights of crossed less self-fertilised plants, in eighths of an inch:
+    // scipy.stats.wilcoxon gives W+ = 96 and, with alternative "greater", p = 0.0206.
     let plants = [49, -67, 8, 16, 6, 23, 28, 41, 14, 29, 56, 24, 75, 60, -48];
     let probability = signed_rank_p_value(&plants.map(f64::from));
     assert!((probability - 0.0206).abs() < 1e-4, "{probability}");
@@ -52,7 +54,8 @@ fn the_front_holds_unbeaten_candidates() {
     assert!(pareto_front(&[]).is_empty());
 }
 
-/// Makes a start with samples = 8, and trials with other numbers of samples and the given FLIP on scenes a, b, c, d.
+/// Makes a start with samples = 8, and trials with other numbers of samples and the given FLIP on
+/// scenes a, b, c, d.
 fn make_trials(rows: &[(i32, [f64; 4])]) -> Vec<Trial> {
     let scenes = |flips: &[f64; 4]| {
         let names = ["a", "b", "c", "d"].map(str::to_owned).into_iter();
@@ -96,7 +99,8 @@ fn the_choice_among_equal_candidates_is_the_nearest_to_the_start() {
     ]);
     let choice = choose(&trials, ChoiceLimits::default());
     assert_eq!((choice.best, choice.trial), (1, 2));
-    // Logs of 1, 1.05, 0.9667 and 1: the mean is 0.0037, the standard deviation 0.0340, and that of the mean 0.0170.
+    // Logs of 1, 1.05, 0.9667 and 1: the mean is 0.0037, the standard deviation 0.0340, and that of
+    // the mean 0.0170.
     let loss = choice.loss;
     assert!((loss.mean - 0.00372).abs() < 1e-4, "{loss:?}");
     assert!((loss.standard_error - 0.01702).abs() < 1e-4, "{loss:?}");
@@ -108,7 +112,8 @@ fn the_choice_among_equal_candidates_is_the_nearest_to_the_start() {
 
 #[test]
 fn a_choice_that_is_worse_on_every_scene_is_not_excused_by_what_scenes_have_to_gain() {
-    // There is much to gain on two scenes, little on the others; the third trial is 2 % worse on each.
+    // There is much to gain on two scenes, little on the others; the third trial is 2 % worse on
+    // each.
     let gained = [0.01, 0.02, 0.08, 0.09];
     let rows = |worse: [f64; 4]| {
         let second = [0, 1, 2, 3].map(|scene| gained[scene] * worse[scene]);

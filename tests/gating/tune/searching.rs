@@ -82,7 +82,8 @@ fn fixed_parameters_are_refused_with_the_variable_ones() {
     assert!(text.contains("nothing to tune"), "{text}");
 }
 
-/// Returns the height of a valley that is narrow along a diagonal, with its lowest point off every axis and off the middle.
+/// Returns the height of a valley that is narrow along a diagonal, with its lowest point off every
+/// axis and off the middle.
 fn valley(point: &[f64]) -> f64 {
     let lowest = [0.31, 0.62, 0.18, 0.77];
     let off: Vec<f64> = point.iter().zip(lowest).map(|(at, low)| at - low).collect();
@@ -112,8 +113,8 @@ fn the_search_finds_the_lowest_point_of_a_valley() {
         assert!(points.iter().flatten().all(|at| (0.0..=1.0).contains(at)));
         let preset = [0.9, 0.1, 0.9, 0.1];
         assert_eq!(points[0], preset, "it begins with the presets");
-        // Within 0.03 of the lowest point along the valley, and a tenth of that across. Among 400 points that fill four
-        // dimensions evenly, the nearest is about 0.15 away, mostly across.
+        // Within 0.03 of the lowest point along the valley, and a tenth of that across. Among 400
+        // points that fill four dimensions evenly, the nearest is about 0.15 away, mostly across.
         assert!(least(&losses) < 1e-3, "seed {seed}: {}", least(&losses));
         let even = Search::new(Vec::new(), 200, seed).design;
         let even: Vec<f64> = even.iter().map(|point| valley(&point[..4])).collect();
@@ -137,7 +138,8 @@ fn the_next_point_depends_only_on_the_seed_and_the_losses() {
 #[test]
 fn a_converged_search_restarts_elsewhere() {
     let search = Search::new(vec![vec![0.5; 2]], 2, 1);
-    // A plane without slope ends a climb of two axes after twenty generations of six points: 400 points are at least two climbs.
+    // A plane without slope ends a climb of two axes after twenty generations of six points: 400
+    // points are at least two climbs.
     let mut losses = Vec::new();
     let mut points = Vec::new();
     for _ in 0..400 {
@@ -166,7 +168,8 @@ fn g_function(point: &[f64]) -> Result<f64, Infallible> {
 #[test]
 fn the_indices_of_ishigami_s_function_equal_the_published_ones() {
     let found = sobol_indices(3, 1024, 1, ishigami).unwrap();
-    // Closed form: variance 13.845; first-order indices 0.3139, 0.4424 and 0; total indices 0.5576, 0.4424 and 0.2437.
+    // Closed form: variance 13.845; first-order indices 0.3139, 0.4424 and 0; total indices 0.5576,
+    // 0.4424 and 0.2437.
     let expected = [(0.3139, 0.5576), (0.4424, 0.4424), (0.0, 0.2437)];
     for (indices, (first, total)) in found.iter().zip(expected) {
         for (estimate, expected) in [(indices.first, first), (indices.total, total)] {

@@ -36,7 +36,8 @@ fn a_closed_mesh_does_not_hide_its_own_near_side() {
         zoom_slightly(&mut scene);
         let at = placed(eye - DVec3::Z * 1.5 * radius);
         add(&mut scene, icosphere(radius as f32, 5), diffuse(0.5), at);
-        // An object moves behind the camera, and the camera zooms slightly, so everything is shaded again.
+        // An object moves behind the camera, and the camera zooms slightly, so everything is shaded
+        // again.
         let speck = drift(eye + 50.0 * radius * DVec3::Z, 1e-3 * DVec3::X);
         add(&mut scene, rectangle(1e-4, 1e-4), glowing(1.0), speck);
         scene.background = Background::Constant(Vec3::ONE);
@@ -48,7 +49,8 @@ fn a_closed_mesh_does_not_hide_its_own_near_side() {
         let pairs = frozen.pixels.iter().zip(&live.pixels);
         let differences = pairs.map(|(frozen, live)| f64::from((frozen[0] - live[0]).abs()));
         let mean = differences.sum::<f64>() / f64::from(WIDTH * HEIGHT);
-        // The same random numbers from the same places: rounding may flip one sample in a thousand, by half of the sky's light.
+        // The same random numbers from the same places: rounding may flip one sample in a thousand,
+        // by half of the sky's light.
         assert!(mean < 0.5e-3, "shaded again, {what} differ by {mean}");
         let seen = known.placed.pixels.iter().all(|placed| *placed == 1.0);
         assert!(seen, "everything is in front of the camera");
@@ -57,7 +59,8 @@ fn a_closed_mesh_does_not_hide_its_own_near_side() {
     }
 }
 
-/// Makes a camera that flies over a mirror in a still world: each point of the floor mirrors another height of the sky at another time.
+/// Makes a camera that flies over a mirror in a still world: each point of the floor mirrors
+/// another height of the sky at another time.
 #[test]
 fn a_frozen_mirror_shows_the_view_of_the_instant_s_camera() {
     let mut scene = empty_scene("mirror");
@@ -76,7 +79,8 @@ fn a_frozen_mirror_shows_the_view_of_the_instant_s_camera() {
     }));
     scene.camera.vertical_fov = vec![(0.0, 1e-4)];
     let truth = render(&scene, Alignment::Trailing, 256);
-    // The mirrored ray rises as steeply as the view ray falls, at all times that the camera sees the point.
+    // The mirrored ray rises as steeply as the view ray falls, at all times that the camera sees
+    // the point.
     let live = 0.2_f64.sqrt();
     // At time t the camera sees the floor 4 + 3 t metres ahead of its position at the instant.
     let steps = 1000;
@@ -117,7 +121,8 @@ fn a_moving_shadow_stands_still_in_the_frozen_truth() {
         off = off.max((column(&frozen) - column(&frame.color)).abs());
         moved = moved.max((column(&mean) - column(&frame.color)).abs());
     }
-    // Both take 256 samples per pixel of the shadow's border: a quarter of the truth's 1024 is shaded again.
+    // Both take 256 samples per pixel of the shadow's border: a quarter of the truth's 1024 is
+    // shaded again.
     assert!(off < 0.03, "frozen and frame differ by {off}");
     assert!(moved > 0.25, "the shadow moves");
     // The wall is always visible.
@@ -136,8 +141,8 @@ fn a_turning_sphere_keeps_the_shading_of_the_instant() {
     // So narrow that all pixels see nearly one normal: within 0.02 of +Z.
     scene.camera.vertical_fov = vec![(0.0, 0.1)];
     let truth = render(&scene, Alignment::Trailing, 256);
-    // The mean over the picture equals the centre except for second-order terms. A point seen there at time t is, at the instant, where
-    // a turn by -rate t has brought it.
+    // The mean over the picture equals the centre except for second-order terms. A point seen there
+    // at time t is, at the instant, where a turn by -rate t has brought it.
     let found = mean_of(&truth.frozen_mean());
     let steps = 10_000;
     let shaded = (0..steps).map(|step| {

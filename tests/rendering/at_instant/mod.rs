@@ -1,6 +1,7 @@
 //! State at the frame's instant of everything that a shutter sees.
 //!
-//! The camera sees one metre as one pixel at the panels' distance, with the origin at the image's centre.
+//! The camera sees one metre as one pixel at the panels' distance, with the origin at the image's
+//! centre.
 
 mod frozen;
 
@@ -14,13 +15,15 @@ use crate::renders::*;
 
 const WIDTH: u32 = 32;
 const HEIGHT: u32 = 12;
-/// Distance of the panels: half the height in pixels is the focal length at a vertical field of view of 90 degrees.
+/// Distance of the panels: half the height in pixels is the focal length at a vertical field of
+/// view of 90 degrees.
 const DISTANCE: f64 = 0.5 * HEIGHT as f64;
 /// Speed in pixels per frame.
 const SPEED: f64 = 12.0;
 /// Exposure in frames.
 const EXPOSURE: f64 = 0.75;
-/// Tolerance for 1024 stratified samples of a step: they err by less than 0.003 in nearly every pixel (coverage: 0.0022 rms in the worst).
+/// Tolerance for 1024 stratified samples of a step: they err by less than 0.003 in nearly every
+/// pixel (coverage: 0.0022 rms in the worst).
 const STEP_ERROR: f64 = 0.012;
 
 fn render(scene: &Scene, alignment: Alignment, samples_per_pixel: u32) -> Truth {
@@ -29,7 +32,8 @@ fn render(scene: &Scene, alignment: Alignment, samples_per_pixel: u32) -> Truth 
     render_truth(scene, &settings, alignment)
 }
 
-/// Makes an unlit wall, `gap` metres behind an unlit panel with its middle passing `at` at `t = 0`. Both are higher than any blur.
+/// Makes an unlit wall, `gap` metres behind an unlit panel with its middle passing `at` at `t = 0`.
+/// Both are higher than any blur.
 fn panel_over_wall(gap: f64, at: f64, width: f32) -> Scene {
     let mut scene = empty_scene("panel");
     let wall = placed(DVec3::new(0.0, 0.0, -DISTANCE - gap));
@@ -39,7 +43,8 @@ fn panel_over_wall(gap: f64, at: f64, width: f32) -> Scene {
     scene
 }
 
-/// Calls `check` with each column's left border, in pixels from the picture's centre, and the index of its pixel in the middle row.
+/// Calls `check` with each column's left border, in pixels from the picture's centre, and the index
+/// of its pixel in the middle row.
 fn for_each_column(mut check: impl FnMut(f64, usize)) {
     for column in 0..WIDTH {
         let left = f64::from(column) - 0.5 * f64::from(WIDTH);
@@ -94,12 +99,14 @@ fn a_sliding_panel_s_samples_come_from_its_whole_way() {
             let shutter = alignment.shutter(EXPOSURE).unwrap();
             let [open, close] = [shutter.open, shutter.close].map(|t| -SPEED * t);
             let offset = 0.5 * (open + close);
-            // The mean square of a uniform number between two others, and of the position in the pixel.
+            // The mean square of a uniform number between two others, and of the position in the
+            // pixel.
             let spread = (open * open + open * close + close * close) / 3.0 + 1.0 / 12.0;
             assert_eq!(mean.placed.pixels[pixel], 1.0);
             let [x, y] = mean.offset.pixels[pixel].map(f64::from);
             let [xx, yy] = mean.spread.pixels[pixel].map(f64::from);
-            // Stratified samples of smooth functions: 1/1024 of the range is several times their error.
+            // Stratified samples of smooth functions: 1/1024 of the range is several times their
+            // error.
             let error = SPEED * EXPOSURE / 1024.0;
             let what = format!("{alignment}, column {left}");
             expect_near(&what, x, offset, error);
@@ -131,7 +138,8 @@ fn the_other_side_of_a_sheet_is_unknowable() {
         let angle = PI / EXPOSURE * t;
         f64::from(angle.abs() < FRAC_PI_2 && met(x, angle).abs() < 4.0)
     };
-    // The axis is between two pixels. Their mean does not depend on which of them sees the sheet's nearer half.
+    // The axis is between two pixels. Their mean does not depend on which of them sees the sheet's
+    // nearer half.
     let shown = [0.0, -1.0].map(|left| mean_over(left, Alignment::Trailing, front));
     let expected = 1.0 - 0.5 * (shown[0] + shown[1]);
     let centre = (HEIGHT / 2 * WIDTH + WIDTH / 2) as usize;
@@ -147,7 +155,8 @@ fn points_behind_the_camera_have_no_place() {
     scene.camera.motion = spin(DVec3::ZERO, DVec3::Y, rate);
     let known = render(&scene, Alignment::Trailing, 1024).at_instant_mean();
     for_each_column(|left, pixel| {
-        // The view turns left: earlier views are to the right, and behind the camera beyond a right angle.
+        // The view turns left: earlier views are to the right, and behind the camera beyond a right
+        // angle.
         let expected = mean_over(left, Alignment::Trailing, |x, t| {
             f64::from((x / DISTANCE).atan() - rate * t < FRAC_PI_2)
         });

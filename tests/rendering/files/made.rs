@@ -9,7 +9,8 @@ use frame::{
 pub const WIDTH: u32 = 13;
 pub const HEIGHT: u32 = 7;
 
-/// Makes values of every magnitude, including subnormal and negative ones, so that any rounding is noticed.
+/// Makes values of every magnitude, including subnormal and negative ones, so that any rounding is
+/// noticed.
 pub fn plane(salt: u32) -> Plane {
     Raster::from_fn(WIDTH, HEIGHT, |x, y| {
         let mut bits = (x + 17 * y + 1009 * salt).wrapping_mul(0x9e37_79b9);

@@ -1,4 +1,5 @@
-//! Files of frames, truths and ladders: bit-exact, written completely or not at all, and refused with a clear reason.
+//! Files of frames, truths and ladders: bit-exact, written completely or not at all, and refused
+//! with a clear reason.
 
 mod made;
 

@@ -10,12 +10,14 @@ use super::with_lens;
 use crate::moving_shapes::*;
 use crate::renders::*;
 
-/// Apertures and focus distances in front of the shapes and behind them. The circle of confusion at the shapes has a diameter of
-/// aperture x |distance - focus| / focus = 5 metres, and a metre there is a pixel.
+/// Apertures and focus distances in front of the shapes and behind them. The circle of confusion at
+/// the shapes has a diameter of aperture x |distance - focus| / focus = 5 metres, and a metre there
+/// is a pixel.
 const BLURS: [[f64; 2]; 2] = [[5.0, 0.5 * DISTANCE], [10.0, 2.0 * DISTANCE]];
 const CIRCLE: f64 = 5.0;
 
-/// Returns the integral up to `at` of the part of a disc around 0 below a chord, over the chord's position.
+/// Returns the integral up to `at` of the part of a disc around 0 below a chord, over the chord's
+/// position.
 fn disc_below(at: f64, radius: f64) -> f64 {
     if at.abs() >= radius {
         return at.max(0.0);
@@ -82,8 +84,8 @@ fn a_small_disc_becomes_its_circle_of_confusion_and_keeps_its_light() {
         let what = format!("focus {focus}");
         expect_near(&what, light / area, 1.0, 8e-3);
         assert!((moment / light).length() < 0.01, "{what}: {moment}");
-        // Variances add up: the circle's of confusion, the disc's, and a pixel's. Measured to 0.6 %; a circle a hundredth too wide is off
-        // by 1.7 %.
+        // Variances add up: the circle's of confusion, the disc's, and a pixel's. Measured to 0.6
+        // %; a circle a hundredth too wide is off by 1.7 %.
         let expected = CIRCLE * CIRCLE / 16.0 + radius * radius / 4.0 + 1.0 / 12.0;
         for found in (square / light).to_array() {
             expect_near(&what, found, expected, 0.012 * expected);
@@ -101,8 +103,9 @@ fn a_plane_in_focus_is_what_the_pinhole_sees() {
     let focused = render(&with_lens(scene.clone(), 3.0, DISTANCE));
     let differ = (sharp.color.pixels.iter().zip(&focused.color.pixels))
         .map(|(sharp, focused)| (sharp[0] - focused[0]).abs());
-    // The same points of the plane are sampled. One sample that falls to the other side of the edge changes its pixel by 7e-4: of
-    // 40,000 in pixels at the edge, a focus wrong by a ten-thousandth moves two.
+    // The same points of the plane are sampled. One sample that falls to the other side of the edge
+    // changes its pixel by 7e-4: of 40,000 in pixels at the edge, a focus wrong by a ten-thousandth
+    // moves two.
     assert!(differ.fold(0.0, f32::max) < 1e-5);
     let blurred = render(&with_lens(scene, 3.0, 0.8 * DISTANCE));
     assert_ne!(sharp.color, blurred.color);

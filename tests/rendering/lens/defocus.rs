@@ -20,7 +20,8 @@ fn trace_pass(scene: &Scene) -> Defocus {
     trace_defocus(scene, &own_settings(), &unwatched).unwrap()
 }
 
-/// Renders the frame of a scene, the pass's output for the pinhole's frame, and the pinhole's frame.
+/// Renders the frame of a scene, the pass's output for the pinhole's frame, and the pinhole's
+/// frame.
 fn render(scene: &Scene) -> [Image; 3] {
     let pinhole = render_frame(&scene.clone().pinhole(), &own_settings()).color;
     let pass = trace_pass(scene).apply_to_color(&pinhole);
@@ -44,7 +45,8 @@ fn where_the_pinhole_shows_everything_the_pass_is_the_lens() {
     let scene = with_lens(spotted_wall(), 5.0, 0.5 * DISTANCE);
     let [lens, pass, pinhole] = render(&scene);
     let [own, without] = [&pass, &pinhole].map(|picture| rms_difference(picture, &lens));
-    // 256 rays of a circle of 20 pixels, and the pixels' own width once more: measured 0.008, against 0.16.
+    // 256 rays of a circle of 20 pixels, and the pixels' own width once more: measured 0.008,
+    // against 0.16.
     assert!(own < 0.02 && without > 5.0 * own, "{own} {without}");
     // The pass keeps light, except what leaves the picture on one side and comes back on the other.
     expect_near("light", mean_of(&pass) / mean_of(&lens), 1.0, 0.02);
@@ -60,7 +62,8 @@ fn where_the_pinhole_shows_everything_the_pass_is_the_lens() {
 fn what_is_in_focus_and_what_has_no_lens_stays_as_it_is() {
     let [lens, pass, pinhole] = render(&with_lens(spotted_wall(), 5.0, DISTANCE));
     assert!(rms_difference(&lens, &pinhole) < 1e-3);
-    // The discs are a millimetre in front of the focus: a ray in some thousands reads the next pixel.
+    // The discs are a millimetre in front of the focus: a ray in some thousands reads the next
+    // pixel.
     assert!(rms_difference(&pass, &pinhole) < 1e-3);
     let [_, pass, pinhole] = render(&spotted_wall());
     assert_eq!(pass, pinhole);
@@ -78,7 +81,8 @@ fn ball_before_wall() -> Scene {
 fn what_the_pinhole_hides_behind_an_edge_is_traced() {
     let [lens, pass, pinhole] = render(&ball_before_wall());
     let [own, without] = [&pass, &pinhole].map(|picture| rms_difference(picture, &lens));
-    // A pass without the wall behind the ball makes the ball's rim too dense: 0.7 of the pinhole's difference.
+    // A pass without the wall behind the ball makes the ball's rim too dense: 0.7 of the pinhole's
+    // difference.
     assert!(own < 0.3 * without, "{own} {without}");
 }
 

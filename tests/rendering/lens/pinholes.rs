@@ -13,7 +13,8 @@ const FOCAL: f64 = 0.5 * SIZE[1] as f64;
 const APERTURE: f64 = 1.2;
 const FOCUS: f64 = 4.0;
 
-/// Lists points of the lens on the spiral of a sunflower (Vogel 1979), in metres; +x right, +y up. It shares no code with the tracer.
+/// Lists points of the lens on the spiral of a sunflower (Vogel 1979), in metres; +x right, +y up.
+/// It shares no code with the tracer.
 fn lens_points(count: u32) -> impl Iterator<Item = DVec2> {
     let golden_angle = std::f64::consts::PI * (3.0 - 5f64.sqrt());
     (0..count).map(move |index| {
@@ -22,7 +23,8 @@ fn lens_points(count: u32) -> impl Iterator<Item = DVec2> {
     })
 }
 
-/// Makes spheres in front of the focus, in it and behind it, under a sky, seen by a camera that looks to the side.
+/// Makes spheres in front of the focus, in it and behind it, under a sky, seen by a camera that
+/// looks to the side.
 fn spheres() -> Scene {
     let mut scene = empty_scene("spheres");
     scene.background = heights(0.0, 0.3, 0.6);
@@ -63,7 +65,8 @@ fn a_frame_is_the_mean_of_shifted_pinhole_frames() {
     expect_same(&own.picture(), &Picture::mean(&pictures));
 }
 
-/// Compares a picture with a mean over the points of the lens. Points next to an edge make up 0.02 of it (measured 0.017 at most).
+/// Compares a picture with a mean over the points of the lens. Points next to an edge make up 0.02
+/// of it (measured 0.017 at most).
 fn expect_same(own: &Picture, mean: &Picture) {
     let mut worst = 0.0_f32;
     let mut off = |own: f32, mean: f32| worst = worst.max((own - mean).abs());
@@ -77,8 +80,8 @@ fn expect_same(own: &Picture, mean: &Picture) {
     assert!(worst < 0.025, "{worst}");
 }
 
-/// Makes panels across the view that drift in front of and behind the focus, as seen by the pinhole at a point of the lens: panels in
-/// focus stay, and the rest is moved.
+/// Makes panels across the view that drift in front of and behind the focus, as seen by the pinhole
+/// at a point of the lens: panels in focus stay, and the rest is moved.
 fn panels(point: DVec2) -> Scene {
     let mut scene = empty_scene("panels");
     for (place, velocity, size, radiance) in [

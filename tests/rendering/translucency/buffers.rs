@@ -16,7 +16,8 @@ fn render_truth(scene: &Scene) -> Truth {
     renders::render_truth(scene, &renders::settings([32, 18], 32), Alignment::Trailing)
 }
 
-/// Makes a still wall, and a pane of this material that moves to the right in front of it. One metre of the pane is one pixel.
+/// Makes a still wall, and a pane of this material that moves to the right in front of it. One
+/// metre of the pane is one pixel.
 fn pane_scene(pane: Material) -> Scene {
     let mut scene = empty_scene("pane");
     let wall = placed(DVec3::new(0.0, 0.0, -20.0));
@@ -71,7 +72,8 @@ fn a_film_is_seen_wherever_it_passes_and_hides_nothing() {
     // Rays of the support hit every film, however faint.
     assert_eq!(faint.support.seen[2], opaque.support.seen[2]);
     assert_eq!(faint.support.moving, opaque.support.moving);
-    // If the pane stays in front of the wall while the shutter is open, a film shows both and an opaque pane itself.
+    // If the pane stays in front of the wall while the shutter is open, a film shows both and an
+    // opaque pane itself.
     let seen = |truth: &Truth| [1, 2].map(|object| *truth.support.seen[object].at(14, 9));
     assert_eq!((seen(&faint), seen(&opaque)), ([true, true], [false, true]));
     // The wall is visible behind it at all times, and so is each point of the film at the instant.
@@ -89,7 +91,8 @@ fn a_film_is_seen_wherever_it_passes_and_hides_nothing() {
 
 #[test]
 fn shading_frozen_at_the_instant_keeps_the_film_before_it() {
-    // A lamp comes near the wall from behind the camera while the shutter is open. Between them hangs a film.
+    // A lamp comes near the wall from behind the camera while the shutter is open. Between them
+    // hangs a film.
     let lit = |filter: Vec3| {
         let mut scene = empty_scene("frozen");
         let at = |z: f64| DVec3::new(0.0, 0.0, z);

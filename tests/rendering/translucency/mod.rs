@@ -1,4 +1,5 @@
-//! Translucent surfaces against known answers; light through them: shadows, and two paths to the same light.
+//! Translucent surfaces against known answers; light through them: shadows, and two paths to the
+//! same light.
 
 mod buffers;
 mod panes;
@@ -46,7 +47,8 @@ fn assert_near(found: [f32; 3], expected: Vec3, tolerance: f32, what: &str) {
     assert!(error <= tolerance, "{what}: {found:?}, not {expected}");
 }
 
-/// Makes a floor of albedo 0.6, with a spot around the origin that the camera sees from below any pane.
+/// Makes a floor of albedo 0.6, with a spot around the origin that the camera sees from below any
+/// pane.
 fn floor_scene(panes: &[Material]) -> Scene {
     let mut scene = renders::floor_scene(diffuse(0.6));
     for (index, pane) in panes.iter().enumerate() {
@@ -86,8 +88,8 @@ fn the_shadow_of_a_film_has_its_colour() {
 fn the_shadow_of_glass_is_what_fresnel_lets_pass() {
     let mut scene = floor_scene(&[glass(1.5, Vec3::ONE)]);
     scene.sun = sun(DVec3::Y, 2.0, 0.0);
-    // Each side reflects 4 % straight on. Light that the floor sends up comes back by the series of floor and pane, so the floor is
-    // black for the reflection: only direct light counts here.
+    // Each side reflects 4 % straight on. Light that the floor sends up comes back by the series of
+    // floor and pane, so the floor is black for the reflection: only direct light counts here.
     scene.materials[0] = diffuse(0.01);
     let direct = 0.01 * 2.0 / std::f32::consts::PI * (0.96 / 1.04);
     let found = mean(&scene, 256);
@@ -96,7 +98,8 @@ fn the_shadow_of_glass_is_what_fresnel_lets_pass() {
     assert!(range.contains(&found.x), "{found} {direct}");
 }
 
-/// A sky bright above is sampled as a light, and so is one bright below. Their sum is even, so it is not.
+/// A sky bright above is sampled as a light, and so is one bright below. Their sum is even, so it
+/// is not.
 #[test]
 fn light_that_is_sampled_and_light_that_is_met_agree_behind_panes() {
     let panes = [

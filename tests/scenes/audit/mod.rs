@@ -33,7 +33,8 @@ fn load_moving() -> Scene {
     load_small(Some("moving"))
 }
 
-/// Makes settings of an engine's output: the motion since the previous frame, unless stated otherwise.
+/// Makes settings of an engine's output: the motion since the previous frame, unless stated
+/// otherwise.
 fn settings(velocity: VelocityKind) -> RenderSettings {
     let mut settings = tests::settings_of([WIDTH, HEIGHT], 4, 1);
     settings.options.velocity = velocity;
@@ -117,7 +118,8 @@ fn names(defect: &Defect, is_cause: impl Fn(&Cause) -> bool) -> bool {
     causes.any(is_cause)
 }
 
-/// Expects one finding, in a buffer and of all objects or one, with this cause or one that looks like it.
+/// Expects one finding, in a buffer and of all objects or one, with this cause or one that looks
+/// like it.
 #[track_caller]
 fn expect<'a>(
     audit: &'a CaptureAudit,
@@ -178,7 +180,8 @@ fn honest_frames_of_every_scene_pass_with_ids_and_without() {
     }
 }
 
-/// Audits every known mistake in scenes, and expects that each is seen in one of them and named wherever it is.
+/// Audits every known mistake in scenes, and expects that each is seen in one of them and named
+/// wherever it is.
 fn assert_motions_named(scenes: &[Scene]) {
     let by_the_clock = |rate: f64| PointMotion {
         over: FRAMES_PER_SECOND / rate,

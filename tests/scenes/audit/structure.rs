@@ -1,4 +1,5 @@
-//! Velocity of single objects that lacks a part of their motion, or has too much: the structure is named, and no unit.
+//! Velocity of single objects that lacks a part of their motion, or has too much: the structure is
+//! named, and no unit.
 
 use engine::{Buffer, CaptureAudit, Cause, Defect};
 use glam::Vec3;
@@ -64,7 +65,8 @@ fn with_child() -> Scene {
     scene
 }
 
-/// The moving scene, in which the disc changes its shape like a bone that bends: its upper half leans over.
+/// The moving scene, in which the disc changes its shape like a bone that bends: its upper half
+/// leans over.
 fn with_shapes() -> Scene {
     let mut scene = load_moving();
     let disc = &scene.objects[id_of(&scene, "disc") as usize - 1];

@@ -1,4 +1,5 @@
-//! Limits of filters that need more than a score: borders, brightness, slow motion, weights, skies and rolls.
+//! Limits of filters that need more than a score: borders, brightness, slow motion, weights, skies
+//! and rolls.
 
 use filters::Filter;
 use frame::{Alignment, Picture};
@@ -17,7 +18,8 @@ fn filters_miss_motion_from_beyond_the_border() {
     };
     let [cut, whole] = [0, 24].map(render);
     let border = |x: u32, y: u32| x.min(159 - x).min(y).min(89 - y) < 6;
-    // Measured 6.3 and 6.8: the trailing shutter saw a part of each smear that is beyond the border.
+    // Measured 6.3 and 6.8: the trailing shutter saw a part of each smear that is beyond the
+    // border.
     for filter in ["jump_flood:corrected", "velocity_gather:fine"] {
         let error = [&cut, &whole].map(|scene| scene.squared_error(filter, border));
         assert_worse(&format!("border in {filter}"), error, 3.0);
@@ -44,7 +46,8 @@ fn motion_below_a_pixel_is_left_sharp() {
         let differs = |at: &&usize| output.pixels[**at] != color.pixels[**at];
         moving.iter().filter(differs).count() as f64 / moving.len() as f64
     };
-    // Their thresholds are 2, 1 and 0.5 pixels. Measured: 0.61, 1.00 and 0.61 of the fast pixels, and 0, 0.40 and 0 of the slow ones.
+    // Their thresholds are 2, 1 and 0.5 pixels. Measured: 0.61, 1.00 and 0.61 of the fast pixels,
+    // and 0, 0.40 and 0 of the slow ones.
     let filters = ["kino:default", "bevy:high", "mcguire:paper"];
     for (filter, most) in filters.into_iter().zip([0.0, 0.5, 0.0]) {
         let [fast, slow] = [&hurried, &creeping].map(|scene| changed(scene, filter));

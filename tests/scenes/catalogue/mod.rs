@@ -1,4 +1,5 @@
-//! Proofs that each scene of the catalogue exposes its cause: a filter that fails is clearly worse there than in the variant without it.
+//! Proofs that each scene of the catalogue exposes its cause: a filter that fails is clearly worse
+//! there than in the variant without it.
 //!
 //! Renders are small, so speeds in pixels are a quarter of those in the scenes' files.
 

@@ -11,7 +11,8 @@ use tracer::{RenderSettings, Scene, trace_frame, trace_truth};
 
 use crate::load_shipped;
 
-/// Settings of a small frame and its truths. A truth's two replicates together have as many samples as the frame.
+/// Settings of a small frame and its truths. A truth's two replicates together have as many samples
+/// as the frame.
 pub fn small_settings() -> RenderSettings {
     tests::settings_of([160, 90], 32, 2)
 }
@@ -84,8 +85,8 @@ impl RenderedScene {
         reference.measure(picture).unwrap().scores
     }
 
-    /// Returns a score of a filter, or of the reference `scatter_oracle`, against the truth of its shutter: a metric, `object.metric`, or
-    /// `left:metric`, the metric relative to the identity's.
+    /// Returns a score of a filter, or of the reference `scatter_oracle`, against the truth of its
+    /// shutter: a metric, `object.metric`, or `left:metric`, the metric relative to the identity's.
     pub fn score(&self, filter: &str, score: &str) -> f64 {
         let (picture, alignment) = match filter {
             "scatter_oracle" => {
@@ -115,7 +116,8 @@ impl RenderedScene {
         number.unwrap_or_else(|| panic!("{metric} of {object}: {score:?}"))
     }
 
-    /// Returns the mean squared error of a filter's radiance over the pixels that count, unbiased since the truth's halves are independent.
+    /// Returns the mean squared error of a filter's radiance over the pixels that count, unbiased
+    /// since the truth's halves are independent.
     pub fn squared_error(&self, filter: &str, counts: impl Fn(u32, u32) -> bool) -> f64 {
         let output = self.blur(filter).color;
         let [a, b] = &self.truth(find_preset(filter).0.alignment).halves;

@@ -14,7 +14,8 @@ use crate::{load_shipped, shipped_with_variants};
 
 /// Random times for comparing poses.
 const TIMES: usize = 100;
-/// Upper limit on the distance between two poses of a point, relative to the larger of a metre and its distance from the origin.
+/// Upper limit on the distance between two poses of a point, relative to the larger of a metre and
+/// its distance from the origin.
 const TOLERANCE: f64 = 1e-5;
 
 #[test]
@@ -283,7 +284,8 @@ fn assert_vertices(scene: &Scene, index: usize, played: &Played, timeline: &Time
     }
 }
 
-/// Returns a vertex in its object's space: on a straight line between two shapes, or beyond the last two.
+/// Returns a vertex in its object's space: on a straight line between two shapes, or beyond the
+/// last two.
 fn vertex(mesh: &Mesh, corner: u32, time: f64) -> DVec3 {
     let at = |positions: &[glam::Vec3]| positions[corner as usize].as_dvec3();
     if mesh.shapes.is_empty() {

@@ -1,4 +1,5 @@
-//! A player of exported scenes, written from the specification of glTF 2.0, for documents read by the crate `gltf`.
+//! A player of exported scenes, written from the specification of glTF 2.0, for documents read by
+//! the crate `gltf`.
 
 use std::path::Path;
 
@@ -10,7 +11,8 @@ use gltf::{Gltf, Node};
 pub struct Played {
     document: Gltf,
     buffer: Vec<u8>,
-    /// True for turns by components, as in Blender; false for turns at a constant angular velocity, as the format demands.
+    /// True for turns by components, as in Blender; false for turns at a constant angular velocity,
+    /// as the format demands.
     by_components: bool,
 }
 
@@ -25,7 +27,8 @@ struct Keys {
 impl Played {
     pub fn read(folder: &Path) -> Self {
         let text = std::fs::read(folder.join("scene.gltf")).unwrap();
-        // Refuses what the format does not allow: indices beyond the end, missing limits, unknown words.
+        // Refuses what the format does not allow: indices beyond the end, missing limits, unknown
+        // words.
         let document = Gltf::from_slice(&text).unwrap_or_else(|error| panic!("{error}"));
         Self {
             document,
@@ -73,7 +76,8 @@ impl Played {
         }
     }
 
-    /// Returns the corners of all triangles of a node's mesh, in its space, with their morph targets.
+    /// Returns the corners of all triangles of a node's mesh, in its space, with their morph
+    /// targets.
     pub fn corners(&self, node: usize, seconds: f64) -> Vec<DVec3> {
         let mesh = self.node(node).mesh().expect("a node with a mesh");
         let weights = self.weights(node, seconds);
@@ -135,7 +139,8 @@ impl Played {
 }
 
 impl Keys {
-    /// Appendix C of the specification: clamped at both ends; linear, spherical for rotations, or cubic Hermite curves.
+    /// Appendix C of the specification: clamped at both ends; linear, spherical for rotations, or
+    /// cubic Hermite curves.
     fn at(&self, seconds: f64, parts: usize, is_rotation: bool) -> Vec<f64> {
         let last = self.times.len() - 1;
         let seconds = seconds.clamp(self.times[0], self.times[last]);

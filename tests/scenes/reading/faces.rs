@@ -117,7 +117,8 @@ fn random_faces_are_covered_once_from_every_corner_and_in_every_plane() {
     }
 }
 
-/// Two hundred files. A point in a face is in one of its triangles, and a point beside the face in none.
+/// Two hundred files. A point in a face is in one of its triangles, and a point beside the face in
+/// none.
 #[test]
 fn triangles_of_generated_files_contain_the_points_that_their_faces_surround() {
     let mut random = Random::new(3);

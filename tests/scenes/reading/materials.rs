@@ -84,7 +84,8 @@ fn a_textures_factor_is_one_unless_given() {
     assert_eq!(material("glow").emission, Vec3::ZERO);
 }
 
-/// Loads the second object's materials `paint` and `glow`, its opacity blended, with more MTL statements for `paint`.
+/// Loads the second object's materials `paint` and `glow`, its opacity blended, with more MTL
+/// statements for `paint`.
 fn load_blended(statements: &str, keys: &str) -> [Material; 2] {
     let folder = Folder::new();
     let paint = "newmtl paint\n";

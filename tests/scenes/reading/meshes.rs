@@ -148,7 +148,8 @@ fn faces_of_key_shapes_without_normals_are_flat_beside_smooth_ones() {
     }
 }
 
-/// Loads the scene with other text in its OBJ file, and compares all meshes with those of the plain file.
+/// Loads the scene with other text in its OBJ file, and compares all meshes with those of the plain
+/// file.
 fn assert_same_meshes(obj: &str) {
     let plain = Folder::new().load().unwrap();
     let folder = Folder::new();

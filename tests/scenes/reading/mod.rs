@@ -1,4 +1,5 @@
-//! Scenes read from files: the documented example, defaults and hashes, and the meaning of each kind of file.
+//! Scenes read from files: the documented example, defaults and hashes, and the meaning of each
+//! kind of file.
 
 mod faces;
 mod materials;

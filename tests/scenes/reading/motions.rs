@@ -36,7 +36,8 @@ fn an_axis_and_degrees_turn_more_than_once() {
 
 #[test]
 fn quaternions_turn_steadily_the_shorter_way() {
-    // Half of 120 degrees about (1, 1, 1), with the sign that leads a naive mean the long way round.
+    // Half of 120 degrees about (1, 1, 1), with the sign that leads a naive mean the long way
+    // round.
     let scene = load_with_keys("{ time = 0 }, { time = 1, rotation = [-0.5, -0.5, -0.5, -0.5] },");
     let axis = DVec3::ONE.normalize();
     for time in [0.1, 0.25, 0.75, 1.0] {

@@ -36,7 +36,8 @@ pub const WINDOW: [[f64; 2]; 14] = [
     [0.0, 3.0],
 ];
 
-/// Square with corners in the middle of its sides, and a square hole: no three of its corners make a fan.
+/// Square with corners in the middle of its sides, and a square hole: no three of its corners make
+/// a fan.
 pub const FRAME: [[f64; 2]; 14] = [
     [0.0, 0.0],
     [1.5, 0.0],
@@ -114,7 +115,8 @@ pub fn draw_star(random: &mut Random) -> Polygon {
     (0..count).map(|index| corner(index, random)).collect()
 }
 
-/// Grows a polygon from a triangle: a side bends to a random point if it then keeps clear of all others.
+/// Grows a polygon from a triangle: a side bends to a random point if it then keeps clear of all
+/// others.
 pub fn grow(random: &mut Random) -> Polygon {
     let mut grown = polygon(&[[-0.5, -0.4], [0.5, -0.4], [0.0, 0.5]]);
     let count = random.real(4.0, 40.0) as usize;

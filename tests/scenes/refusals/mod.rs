@@ -1,4 +1,5 @@
-//! Refusals of mistakes in a scene's files. Each message has the place, what was found and what is allowed.
+//! Refusals of mistakes in a scene's files. Each message has the place, what was found and what is
+//! allowed.
 //!
 //! Most are in `slips/`, one file per kind of file.
 
@@ -42,7 +43,8 @@ fn read_slips(text: &str) -> Vec<Slip<'_>> {
     blocks.map(read).collect()
 }
 
-/// Puts each slip into a new folder, in the first of the files that contains its text, and compares the messages.
+/// Puts each slip into a new folder, in the first of the files that contains its text, and compares
+/// the messages.
 fn check_slips(slips: &str, count: usize, files: &[&str], prepare: impl Fn(&Folder)) {
     let slips = read_slips(slips);
     assert_eq!(slips.len(), count);

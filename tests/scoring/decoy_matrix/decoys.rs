@@ -82,7 +82,8 @@ pub fn map_planes(picture: &Picture, change: impl Fn(&Plane) -> Plane) -> Pictur
     }
 }
 
-/// Averages for each pixel what is ahead along its own velocity, in 64 steps. Nothing is carried beyond an outline.
+/// Averages for each pixel what is ahead along its own velocity, in 64 steps. Nothing is carried
+/// beyond an outline.
 fn gather(frame: &Frame) -> Picture {
     let (width, height) = frame.size();
     let taps = |x: u32, y: u32| {
@@ -134,7 +135,8 @@ fn scene(objects: Vec<Object>) -> Scene {
     crate::scene([112, 84], objects)
 }
 
-/// Makes scenes by name: a translation, a rotation, two crossing paths, thin objects, and a mover between still objects.
+/// Makes scenes by name: a translation, a rotation, two crossing paths, thin objects, and a mover
+/// between still objects.
 pub fn scenes() -> Vec<(&'static str, Scene)> {
     let still = [0.0, 0.0];
     let mut turning = Object::sliding(bar([28.0, 5.0], 0.4), [56.3, 42.2], still);

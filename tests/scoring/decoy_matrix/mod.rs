@@ -1,4 +1,5 @@
-//! Wrong blurs against the bounds for all filters. On every scene each wrong blur breaks a bound, and the right ones break none.
+//! Wrong blurs against the bounds for all filters. On every scene each wrong blur breaks a bound,
+//! and the right ones break none.
 
 pub mod decoys;
 mod touches;
@@ -36,7 +37,8 @@ fn score_decoys(scene: &Scene) -> Vec<(&'static str, Scores)> {
     rows.collect()
 }
 
-/// Scores that should detect a decoy: the first one that applies to a scene must. All decoys must break a bound on three scenes.
+/// Scores that should detect a decoy: the first one that applies to a scene must. All decoys must
+/// break a bound on three scenes.
 const SEEN_BY: [(&str, &[&str]); 19] = [
     ("identity", &["misplacement", "label_tv"]),
     ("constant", &["bleed_lateral"]),
@@ -59,7 +61,8 @@ const SEEN_BY: [(&str, &[&str]); 19] = [
     ("hidden part guessed badly", &["flip_p95_moving"]),
 ];
 
-/// Returns the names of the broken bounds. One that is stricter than the truth's noise allows shows nothing.
+/// Returns the names of the broken bounds. One that is stricter than the truth's noise allows shows
+/// nothing.
 fn broken_bounds(scores: &Scores, bounds: &Bounds) -> Vec<String> {
     let judged = judge_scores(scores, None, bounds).into_iter();
     let broken = judged.filter_map(|judged| match judged.outcome {
@@ -82,7 +85,8 @@ const RIGHT: [&str; 4] = [
 struct Column(Vec<(&'static str, Vec<String>)>);
 
 impl Column {
-    /// Judges decoys; adds those that the right score does not see, and correct pictures that break a bound, to `failures`.
+    /// Judges decoys; adds those that the right score does not see, and correct pictures that break
+    /// a bound, to `failures`.
     fn new(scene: &str, decoys: Vec<(&'static str, Scores)>, failures: &mut Vec<String>) -> Self {
         let bounds = shared_bounds();
         let judged = decoys.into_iter().map(|(decoy, scores)| {
@@ -109,7 +113,8 @@ impl Column {
     }
 }
 
-/// Finds the first score that applies of those that should detect a decoy; none for one that few scenes or other scores show.
+/// Finds the first score that applies of those that should detect a decoy; none for one that few
+/// scenes or other scores show.
 fn find_seer(decoy: &str, scores: &Scores) -> Option<String> {
     let (_, seen_by) = SEEN_BY.iter().find(|(name, _)| *name == decoy)?;
     let applies = |name: &&&str| {
@@ -131,7 +136,8 @@ fn list_decoys(columns: &[Column]) -> Vec<&'static str> {
     decoys
 }
 
-/// Formats a table of the page: the bounds that each decoy breaks on all its scenes, and those that it breaks on some, with their number.
+/// Formats a table of the page: the bounds that each decoy breaks on all its scenes, and those that
+/// it breaks on some, with their number.
 fn format_table(columns: &[Column]) -> String {
     let mut text =
         "| wrong blur | scenes | breaks on all | on some |\n|---|---|---|---|\n".to_owned();

@@ -1,4 +1,5 @@
-//! Mistakes that need no scene: they change a correct picture where it should equal the instant, or everywhere.
+//! Mistakes that need no scene: they change a correct picture where it should equal the instant, or
+//! everywhere.
 
 use frame::{Image, Picture, Plane, Raster};
 use tests::random::Random;
@@ -16,7 +17,8 @@ const GRAIN: f32 = 0.02;
 const OFFSET: u32 = 3;
 const GHOST: f32 = 0.2;
 
-/// Makes wrong pictures of a correct one, with their names; `still` marks the pixels where nothing moves.
+/// Makes wrong pictures of a correct one, with their names; `still` marks the pixels where nothing
+/// moves.
 pub fn touch(right: &Picture, still: &Raster<bool>) -> Vec<(&'static str, Picture)> {
     let everywhere = still.map(|_| true);
     let moving = still.map(|still| !still);

@@ -1,5 +1,5 @@
-//! Traced scenes with wheels, small movers and hidden parts, and pictures with mistakes in these. Labels are right in all of
-//! them, so that colour alone must give a mistake away.
+//! Traced scenes with wheels, small movers and hidden parts, and pictures with mistakes in these.
+//! Labels are right in all of them, so that colour alone must give a mistake away.
 
 use std::path::Path;
 
@@ -27,7 +27,8 @@ pub struct TracedScene {
     car: Option<&'static str>,
 }
 
-/// Lists the scenes: in `fan` the blades turn, riders, a sphere and a head are small movers, and a lorry and a torso are large.
+/// Lists the scenes: in `fan` the blades turn, riders, a sphere and a head are small movers, and a
+/// lorry and a torso are large.
 pub const SCENES: [TracedScene; 6] = [
     scene("railing", Some("wheel"), Some("aeroplane"), Some("car")),
     scene("wheel_roll", Some("wheel"), None, None),
@@ -89,7 +90,8 @@ impl TracedScene {
     }
 }
 
-/// Makes the picture of a perfect filter: the truth where anything moves, and else the frame itself.
+/// Makes the picture of a perfect filter: the truth where anything moves, and else the frame
+/// itself.
 fn right_picture(frame: &Frame, truth: &Truth) -> Picture {
     let still = regions(truth).still.map(|still| f32::from(*still));
     let mean = truth.mean();

@@ -6,7 +6,8 @@ use tests::synthetic::Blur;
 use super::{DISCS, NOTHING, RADIUS, ROW_MASS, ROWS, TRAVEL, assert_large, discs};
 use crate::{assert_near, assert_scores, find_score, shifted, smear};
 
-/// Returns the standard deviation along the motion, within rows, of a disc smeared over `travel` pixels.
+/// Returns the standard deviation along the motion, within rows, of a disc smeared over `travel`
+/// pixels.
 fn spread_of_disc(travel: f64) -> f64 {
     (RADIUS * RADIUS / 4.0 + travel * travel / 12.0).sqrt()
 }
@@ -64,7 +65,8 @@ fn a_blur_of_the_wrong_length_is_misplaced_by_half_the_difference() {
         for (scores, length) in found.iter().zip(lengths) {
             let ahead = TRAVEL * (1.0 - length) / 2.0;
             let extent = spread_of_disc(TRAVEL * length) / spread_of_disc(TRAVEL);
-            // Mattes have 512 samples, and rows are one pixel wide at an angle: hundredths of a pixel.
+            // Mattes have 512 samples, and rows are one pixel wide at an angle: hundredths of a
+            // pixel.
             let expected = [
                 ("centroid", ahead, 0.05),
                 ("misplacement", ahead.abs(), 0.05),

@@ -14,8 +14,8 @@ fn lateral_growth_equals_the_dilation_in_pixels() {
             let dilations = [0.5, 1.0, 2.0, 6.0];
             let found = case.score_blurs(dilations.map(dilated));
             for (scores, dilation) in found.iter().zip(dilations) {
-                // The silhouette's length is known to 2 % for a disc at any angle, and to 4 % for a bar: its gradients span two
-                // pixels. A hundredth of a pixel is gained inside.
+                // The silhouette's length is known to 2 % for a disc at any angle, and to 4 % for a
+                // bar: its gradients span two pixels. A hundredth of a pixel is gained inside.
                 let tolerance = match name {
                     "disc" => (0.01 + 0.02 * dilation).min(0.1),
                     _ => 0.04 * dilation,
@@ -64,7 +64,8 @@ fn a_sharp_mover_over_its_own_smear_makes_rows_heavier_and_does_not_grow() {
         // Each lateral silhouette is as long as the disc is wide, to the 2 % of its gradients.
         let what = format!("gain at {degrees} degrees");
         assert_near(&what, gain + growth, expected, 0.02 * expected);
-        // Pixels at the rim reach at an angle into rows that the disc hardly touches: measured 2 % at 30 degrees, 0 at 0.
+        // Pixels at the rim reach at an angle into rows that the disc hardly touches: measured 2 %
+        // at 30 degrees, 0 at 0.
         assert_near(&what, gain, expected, 0.04 * expected);
         assert_near("loss", loss, 0.0, ROWS);
     }

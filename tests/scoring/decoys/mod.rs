@@ -1,4 +1,5 @@
-//! Wrong blurs and mattes with known errors. Scores of an error report it, and the others stay silent.
+//! Wrong blurs and mattes with known errors. Scores of an error report it, and the others stay
+//! silent.
 
 mod along;
 mod beside;
@@ -15,8 +16,8 @@ const RADIUS: f64 = 14.0;
 const TRAVEL: f64 = 30.0;
 const ANGLES: [f64; 4] = [0.0, 30.0, 45.0, 90.0];
 
-/// Tolerance of the mass of rows. A box pixel samples the outline of rows at an angle inexactly: measured below 0.02 px
-/// over the angles here. A filter's bleed matters above 0.2 px.
+/// Tolerance of the mass of rows. A box pixel samples the outline of rows at an angle inexactly:
+/// measured below 0.02 px over the angles here. A filter's bleed matters above 0.2 px.
 const ROWS: f64 = 0.05;
 
 /// Tolerance of sums of single-precision mattes with 512 samples that are exactly 0 by geometry.
@@ -25,7 +26,8 @@ const NOTHING: f64 = 1e-6;
 /// Scores of the mass that rows along the motion gain or lose.
 const ROW_MASS: [&str; 3] = ["lateral_growth", "row_gain", "row_loss"];
 
-/// Makes a shape with its smear's middle a little off the picture's, which stays inside if it is too long or too late.
+/// Makes a shape with its smear's middle a little off the picture's, which stays inside if it is
+/// too long or too late.
 fn slide(shape: Shape, degrees: f64) -> Scene {
     let (sin, cos) = degrees.to_radians().sin_cos();
     let [right, down] = [cos, sin].map(|component| component * TRAVEL);
@@ -105,11 +107,13 @@ fn a_half_erased_bar_has_half_its_energy_and_half_a_hole() {
 
 #[test]
 fn label_total_variation_measures_the_time_of_wrong_objects() {
-    // A bar as long as its path, moving along itself: the visible time at each of its three positions is known.
+    // A bar as long as its path, moving along itself: the visible time at each of its three
+    // positions is known.
     let case = Case::new(slide(bar([15.0, 8.0], 0.0), 0.0));
     let [scores] = case.score_blurs([Blur::IDENTITY]);
-    // Ahead and behind, the truth ramps over 30 px, and the instant covers one of the ramps. |a - a*| sums to 15 px ahead and to 15 px
-    // behind, over 16 rows. Half of it counts twice, for bar and background.
+    // Ahead and behind, the truth ramps over 30 px, and the instant covers one of the ramps. |a -
+    // a*| sums to 15 px ahead and to 15 px behind, over 16 rows. Half of it counts twice, for bar
+    // and background.
     let wrong = 16.0 * (15.0 + 15.0);
     let pixels = metrics::regions(&case.truth).moving.pixels;
     let region = pixels.iter().filter(|inside| **inside).count() as f64;

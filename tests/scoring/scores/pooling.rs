@@ -46,7 +46,8 @@ fn errors_of_colour_use_the_viewing_exposure() {
     bright.stops = 2.0;
     let scores = measure(&output, &frame, &truth, None, &bright);
     let scores = scores.expect("they agree").scores;
-    // An offset of 1/8, two stops up: 1/2, squared 1/4, which is 6.02 dB below 1. Rounding of 32-bit sums.
+    // An offset of 1/8, two stops up: 1/2, squared 1/4, which is 6.02 dB below 1. Rounding of
+    // 32-bit sums.
     assert!((find_value(&scores, "mse_full") - 0.25).abs() < 1e-5);
     assert!((find_value(&scores, "psnr_full") - 6.0206).abs() < 1e-3);
     let values = truth.mean().color.pixels;
@@ -79,7 +80,8 @@ fn the_bleed_map_holds_coverage_outside_the_support() {
     let total: f64 = bleed.map(|value| f64::from(*value)).sum();
     let scores = &measurement.scores;
     let [beside, behind] = ["bleed_lateral", "bleed_trailing"].map(|name| find_value(scores, name));
-    // The disc's silhouette is 16 px wide across the motion and twice 16 px along it, to the 2 % of its gradients.
+    // The disc's silhouette is 16 px wide across the motion and twice 16 px along it, to the 2 % of
+    // its gradients.
     let expected = 32.0 * beside + 16.0 * behind;
     assert_near("pixels", total, expected, 0.02 * expected);
     assert!(total > 16.0);

@@ -50,7 +50,8 @@ fn turning_too_far_bleeds_ahead_of_the_local_motion() {
     let scores = measure_blur(&turning_arm(0.6, 0.0), smear(-1.0, 0.6)).scores;
     let leading = find_value(&scores, "bleed_leading");
     assert!(leading > 0.2, "{leading}");
-    // The two ends of the arm swing towards opposite sides. Judged by one direction, half of this would be trailing.
+    // The two ends of the arm swing towards opposite sides. Judged by one direction, half of this
+    // would be trailing.
     let trailing = find_value(&scores, "bleed_trailing");
     assert!(trailing < 0.1 * leading, "{trailing}, {leading} leading");
 }

@@ -6,7 +6,8 @@ use crate::vector::{direction, length, scaled};
 /// Most taps.
 const SAMPLES: f64 = 32.0;
 
-/// Places the taps of the object based mode: the pixel itself, and one per pixel of distance after the first.
+/// Places the taps of the object based mode: the pixel itself, and one per pixel of distance after
+/// the first.
 pub fn by_object(steady: &Steady) -> Vec<Tap> {
     let (step, count) = steps(steady);
     let first = 0.5 - 0.5 * count;
@@ -20,7 +21,8 @@ pub fn babylon_trail(steady: &Steady) -> [f64; 2] {
     scaled(step, count)
 }
 
-/// Places the taps of the screen based mode, if only the camera moves: along all of the motion, from behind.
+/// Places the taps of the screen based mode, if only the camera moves: along all of the motion,
+/// from behind.
 pub fn by_camera(steady: &Steady) -> Vec<Tap> {
     let trail = steady.trail();
     let count = length(trail).clamp(1.0, SAMPLES).floor();
@@ -28,7 +30,8 @@ pub fn by_camera(steady: &Steady) -> Vec<Tap> {
     with_nearest(parts.map(|part| scaled(trail, part)))
 }
 
-/// Returns a vector of one pixel, and the number of taps. Its direction is the motion's in parts of width and height.
+/// Returns a vector of one pixel, and the number of taps. Its direction is the motion's in parts of
+/// width and height.
 fn steps(steady: &Steady) -> ([f64; 2], f64) {
     let [width, height] = steady.size();
     let [x, y] = steady.velocity;
@@ -45,8 +48,8 @@ fn packed(part: f64) -> f64 {
     (2.0 * bits - 1.0).powi(3)
 }
 
-/// Reads the pixel itself and the nearest ones to these offsets. Between two equally near ones, the last bit of a float decides: each
-/// counts half.
+/// Reads the pixel itself and the nearest ones to these offsets. Between two equally near ones, the
+/// last bit of a float decides: each counts half.
 fn with_nearest(offsets: impl Iterator<Item = [f64; 2]>) -> Vec<Tap> {
     let taps = offsets.flat_map(|[x, y]| {
         let [columns, rows] = [nearest_two(x), nearest_two(y)];

@@ -7,7 +7,8 @@ use crate::vector::{Vec2, direction, length, scaled};
 /// Side of a tile, in pixels.
 const TILE: f64 = 16.0;
 
-/// Returns the taps of a pixel in a band of 33 pixels along the motion, through the middle of the picture: smears are shortest there.
+/// Returns the taps of a pixel in a band of 33 pixels along the motion, through the middle of the
+/// picture: smears are shortest there.
 pub fn place_taps(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     let strength = match preset {
         "default" => 0.6,
@@ -35,7 +36,8 @@ pub fn place_taps(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     gather(motion, longest, count, noise)
 }
 
-/// Returns the place farthest from the picture's middle in the tiles around a pixel; noise moves the pixel by a quarter of a tile.
+/// Returns the place farthest from the picture's middle in the tiles around a pixel; noise moves
+/// the pixel by a quarter of a tile.
 fn farthest_near(from_middle: Vec2, noises: Vec2, tiles: f64, size: Vec2) -> Vec2 {
     [0, 1].map(|axis| {
         let middle = 0.5 * size[axis];

@@ -17,7 +17,8 @@ pub fn plain(preset: &str, steady: &Steady) -> Vec<Tap> {
     on_trail(steady.trail(), parts)
 }
 
-/// Places the taps on both sides of the pixel: in the middles of steps, or from end to end with the pixel itself.
+/// Places the taps on both sides of the pixel: in the middles of steps, or from end to end with the
+/// pixel itself.
 pub fn centred(preset: &str, steady: &Steady) -> Vec<Tap> {
     let has_own = matches!(preset, "armory" | "spartan_2024");
     let (first, last, count) = match preset {
@@ -50,8 +51,9 @@ pub fn jump_flood(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     }
 }
 
-/// Returns the motion for the gather. It is cut at the largest step of the dilation, 32 pixels, or at twice that, both as parts of the
-/// picture's longer side and of a path in parts of width and height.
+/// Returns the motion for the gather. It is cut at the largest step of the dilation, 32 pixels, or
+/// at twice that, both as parts of the picture's longer side and of a path in parts of width and
+/// height.
 pub fn jump_flood_trail(preset: &str, steady: &Steady) -> [f64; 2] {
     let cut = match preset {
         "paper" | "tuned" => 32.0,
@@ -85,7 +87,8 @@ pub fn bevy(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     }
 }
 
-/// Places the taps of Blender: from the pixel to both ends of the trail, in even steps. Those along the longest motion nearby are the same.
+/// Places the taps of Blender: from the pixel to both ends of the trail, in even steps. Those along
+/// the longest motion nearby are the same.
 pub fn blender(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     let half = scaled(steady.trail(), 0.5);
     if length(half) < 0.5 {
@@ -105,7 +108,8 @@ pub fn blender(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     }
 }
 
-/// Places the taps of three.js: the pixel itself, and sixteen from one fifteenth after the trail's end to one beyond its other end.
+/// Places the taps of three.js: the pixel itself, and sixteen from one fifteenth after the trail's
+/// end to one beyond its other end.
 pub fn three(preset: &str, steady: &Steady) -> Vec<Tap> {
     let parts = (1..=16).map(|i| f64::from(i) / 15.0 - 0.5);
     let mut taps = on_trail(three_trail(preset, steady), parts);
@@ -123,7 +127,8 @@ pub fn three_trail(preset: &str, steady: &Steady) -> [f64; 2] {
     }
 }
 
-/// Places the taps of realism-effects: the pixel itself, and a trail of seventeen that noise moves ahead on each axis.
+/// Places the taps of realism-effects: the pixel itself, and a trail of seventeen that noise moves
+/// ahead on each axis.
 pub fn realism_effects(steady: &Steady, noise: f64) -> Vec<Tap> {
     let trail = steady.trail();
     // Together they fill the square, like two independent noises.
@@ -149,8 +154,8 @@ pub fn urp(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     at_pixels(trail, parts)
 }
 
-/// Places the taps of vort: an odd number on either side, each half behind the pixel and half in front of it. A few pixels of motion leave
-/// the pixel itself a weight among what is behind.
+/// Places the taps of vort: an odd number on either side, each half behind the pixel and half in
+/// front of it. A few pixels of motion leave the pixel itself a weight among what is behind.
 pub fn vort(steady: &Steady, noise: f64) -> Vec<Tap> {
     let half = scaled(steady.trail(), 0.5);
     let reach = length(half).min(f64::from(2 * (steady.size[1] / 27)));

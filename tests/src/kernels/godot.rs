@@ -3,8 +3,8 @@
 use super::{Steady, Tap, nearest};
 use crate::vector::{length, scaled};
 
-/// Places the taps on both sides: along the pixel's own motion, and over them those along the longest motion near, which tiles of the
-/// add-on hold in whole pixels.
+/// Places the taps on both sides: along the pixel's own motion, and over them those along the
+/// longest motion near, which tiles of the add-on hold in whole pixels.
 pub fn place_taps(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     let cut = match preset {
         "addon" => 64.0,

@@ -1,6 +1,7 @@
 //! Jimenez 2014 and the engines that follow it, from their sources.
 //!
-//! If everything moves alike at one depth, weights are 1, except those of kajiya, which compare in pixels.
+//! If everything moves alike at one depth, weights are 1, except those of kajiya, which compare in
+//! pixels.
 
 use super::{Steady, Tap, at_pixels, bilinear, nearest_tap, on_trail, own, tap};
 use crate::vector::{length, scaled};
@@ -12,7 +13,8 @@ pub fn place_taps(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
         "hdrp" | "hdrp_mirrored" => hdrp(steady, noise),
         // The exposure's trail extends by half of itself to each side.
         "o3de" => o3de(steady, 0.5, noise),
-        // A direction is 128 widths and heights of motion, taken as pixels, and extends 7.5 steps to each side.
+        // A direction is 128 widths and heights of motion, taken as pixels, and extends 7.5 steps
+        // to each side.
         "wicked" => {
             let [width, height] = steady.size();
             let [x, y] = steady.trail();
@@ -23,7 +25,8 @@ pub fn place_taps(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     }
 }
 
-/// Places eight pairs in the middles of steps, shifted by a quarter of a step to and fro, alternating between pixels.
+/// Places eight pairs in the middles of steps, shifted by a quarter of a step to and fro,
+/// alternating between pixels.
 fn slides(steady: &Steady, noise: f64) -> Vec<Tap> {
     let shift = if noise < 0.5 { -0.25 } else { 0.25 };
     let sides = (0..8).flat_map(|i| [0.5 + f64::from(i) + shift, -0.5 - f64::from(i) - shift]);
@@ -64,13 +67,15 @@ fn o3de(steady: &Steady, strength: f64, noise: f64) -> Vec<Tap> {
     sides.map(|offset| tap(offset, 1.0)).collect()
 }
 
-/// Places the taps of motionblurCS.hlsl of Wicked Engine: 16 from end to end of a trail scaled by noise.
+/// Places the taps of motionblurCS.hlsl of Wicked Engine: 16 from end to end of a trail scaled by
+/// noise.
 fn wicked(half: [f64; 2], noise: f64) -> Vec<Tap> {
     let steps = (0..16).map(|i| f64::from(i) - 7.5);
     at_pixels(half, steps.map(|step| noise * step / 7.5))
 }
 
-/// Places the taps of motion_blur.rs of kajiya: the pixel and three steps on each side, of an eighth of half the motion, shifted together.
+/// Places the taps of motion_blur.rs of kajiya: the pixel and three steps on each side, of an
+/// eighth of half the motion, shifted together.
 fn kajiya(steady: &Steady, scale: f64, noise: f64) -> Vec<Tap> {
     // Its map of motion points back.
     let half = scaled(steady.trail(), -0.5 * scale);

@@ -1,6 +1,7 @@
 //! Filters that weight taps by a cone and a cylinder.
 //!
-//! If everything moves alike at one depth, every tap is both in front and behind: two cones and two cylinders.
+//! If everything moves alike at one depth, every tap is both in front and behind: two cones and two
+//! cylinders.
 
 use super::{Steady, Tap, bilinear, nearest, own, tap};
 use crate::vector::{length, scaled};
@@ -9,7 +10,8 @@ use crate::vector::{length, scaled};
 pub fn mcguire(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     let half = scaled(steady.trail(), 0.5);
     match preset {
-        // The tuned preset reaches 1.2 times as far and clamps at the ends. The pixel's own direction equals all others.
+        // The tuned preset reaches 1.2 times as far and clamps at the ends. The pixel's own
+        // direction equals all others.
         "paper" | "tuned" => {
             let is_paper = preset == "paper";
             let (count, spread) = if is_paper { (15, 1.0) } else { (13, 1.2) };
@@ -25,7 +27,8 @@ pub fn mcguire(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
             }));
             taps
         }
-        // Cut at half a tile. Distances are tiny in its unit, so all taps have equal weight, and the middle one counts.
+        // Cut at half a tile. Distances are tiny in its unit, so all taps have equal weight, and
+        // the middle one counts.
         "motion_blur_demo" => {
             let half = scaled(half, (10.0 / length(half)).min(1.0));
             let jitter = 2.0 * (noise * std::f64::consts::TAU).sin().rem_euclid(1.0) - 1.0;
@@ -33,7 +36,8 @@ pub fn mcguire(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
             taps.extend((0..15).flat_map(|i| bilinear(scaled(half, along(i, jitter, 15)), 4.0)));
             taps
         }
-        // 1.2 times as far and clamped at the ends, by distances along the trail, with a hard cylinder.
+        // 1.2 times as far and clamped at the ends, by distances along the trail, with a hard
+        // cylinder.
         "g3d" => {
             let half = half_velocity(half, 64.0);
             let radius = length(half);

@@ -7,7 +7,8 @@ use crate::vector::{direction, dot, length};
 pub enum Shape {
     /// A disc of this radius, in pixels.
     Disc(f64),
-    /// A rectangle of these half sides, in pixels; the first one is turned by `tilt` radians from +x.
+    /// A rectangle of these half sides, in pixels; the first one is turned by `tilt` radians from
+    /// +x.
     Bar {
         /// Half lengths along and across its axis.
         half: [f64; 2],
@@ -120,15 +121,18 @@ impl Posed {
         }
     }
 
-    /// Returns whether any part of a pixel can see the object at any time of the blur. It may return true wrongly.
+    /// Returns whether any part of a pixel can see the object at any time of the blur. It may
+    /// return true wrongly.
     pub(crate) fn reaches(&self, pixel: [u32; 2]) -> bool {
         let distance = [0, 1].map(|axis| f64::from(pixel[axis]) + 0.5 - self.object.center[axis]);
         dot(distance, distance) <= self.reach * self.reach
     }
 
-    /// Converts a point to the object's own coordinates, its centre at (0, 0), at `time` displacements from the instant.
+    /// Converts a point to the object's own coordinates, its centre at (0, 0), at `time`
+    /// displacements from the instant.
     pub(crate) fn local(&self, point: [f64; 2], time: f64) -> [f64; 2] {
-        // Plain statements: a picture has millions of samples, and this crate is not much optimised.
+        // Plain statements: a picture has millions of samples, and this crate is not much
+        // optimised.
         let (object, shift) = (&self.object, self.blur.shift);
         let mut moved = point;
         for axis in [0, 1] {
@@ -147,7 +151,8 @@ impl Posed {
         }
     }
 
-    /// Returns whether a point in the object's own coordinates is inside it, after a dilation across its motion to both sides.
+    /// Returns whether a point in the object's own coordinates is inside it, after a dilation
+    /// across its motion to both sides.
     pub(crate) fn holds(&self, local: [f64; 2]) -> bool {
         let dilation = self.blur.dilation;
         match self.object.shape {
@@ -158,7 +163,8 @@ impl Posed {
                 ahead * ahead + nearer * nearer <= radius * radius
             }
             Shape::Bar { half, .. } => {
-                // Steps across the motion that stay within both pairs of sides, and within the dilation.
+                // Steps across the motion that stay within both pairs of sides, and within the
+                // dilation.
                 let (at, step) = (rotate(local, self.tilt), self.step);
                 let mut steps = [-dilation, dilation];
                 for axis in [0, 1] {

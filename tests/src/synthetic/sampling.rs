@@ -7,7 +7,8 @@ use crate::random::hash;
 pub struct Sampling {
     /// Samples per pixel.
     pub samples: u32,
-    /// Seed of the per-pixel offsets. Without a seed every pixel has the same offset, and renders do not differ in noise.
+    /// Seed of the per-pixel offsets. Without a seed every pixel has the same offset, and renders
+    /// do not differ in noise.
     pub seed: Option<u64>,
 }
 
@@ -19,8 +20,8 @@ impl Sampling {
     };
 }
 
-/// Returns sample `index` of `count` in the unit cube: time stratified, the pixel filled by the R2 sequence (Martin Roberts 2018, on
-/// the plastic number), each dimension rotated by an offset.
+/// Returns sample `index` of `count` in the unit cube: time stratified, the pixel filled by the R2
+/// sequence (Martin Roberts 2018, on the plastic number), each dimension rotated by an offset.
 pub(crate) fn sequence(index: u32, count: u32, offsets: [f64; 3]) -> [f64; 3] {
     const PLASTIC: f64 = 1.324_717_957_244_746;
     let k = f64::from(index) + 0.5;

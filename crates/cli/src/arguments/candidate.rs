@@ -14,11 +14,12 @@ pub struct CandidateArgs {
     /// Preset to start from [default: the filter's first].
     #[arg(help_heading = "Filters", long, value_name = "PRESET")]
     pub from: Option<String>,
-    /// Keep lengths in pixels as the preset has them [default: scale them from the width that the preset was made for to the
-    /// picture's].
+    /// Keep lengths in pixels as the preset has them [default: scale them from the width that the
+    /// preset was made for to the picture's].
     #[arg(help_heading = "Filters", long)]
     pub as_written: bool,
-    /// Objectives, separated by commas: flip (always), bleed (`bleed_lateral`, neither ahead nor behind), cost.
+    /// Objectives, separated by commas: flip (always), bleed (`bleed_lateral`, neither ahead nor
+    /// behind), cost.
     #[arg(help_heading = "Filters", long, value_delimiter = ',', default_value = "flip,bleed,cost", value_name = "OBJECTIVES", value_parser = parse_objective)]
     pub objective: Vec<Objective>,
     /// Picture size in pixels.

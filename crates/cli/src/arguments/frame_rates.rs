@@ -11,18 +11,20 @@ use crate::selection::{find_twin, split_scene};
 /// Frame rates and shutter times to try on every scene.
 #[derive(Clone, Debug, Args)]
 pub struct FrameRateArgs {
-    /// Frame rates to try on every scene in addition to its file's 60 frames per second, separated by commas: SCENE@144fps. Motion
-    /// keeps its times in seconds; the shutter keeps its share of the frame.
+    /// Frame rates to try on every scene in addition to its file's 60 frames per second, separated
+    /// by commas: SCENE@144fps. Motion keeps its times in seconds; the shutter keeps its share of
+    /// the frame.
     #[arg(long, value_delimiter = ',', value_name = "RATES", value_parser = parse_frame_rate)]
     pub frame_rate: Vec<f64>,
-    /// Shutter times, such as 1/120, to try at each of these rates in addition to that share, separated by commas:
-    /// SCENE@144fps_1-120s. They may be longer than a frame.
+    /// Shutter times, such as 1/120, to try at each of these rates in addition to that share,
+    /// separated by commas: SCENE@144fps_1-120s. They may be longer than a frame.
     #[arg(long, value_delimiter = ',', value_name = "TIMES", value_parser = parse_shutter_time)]
     pub shutter_time: Vec<f64>,
 }
 
 impl FrameRateArgs {
-    /// Lists the frame rates, except the scene files' own: first with the shutter in frames, then with each shutter time.
+    /// Lists the frame rates, except the scene files' own: first with the shutter in frames, then
+    /// with each shutter time.
     fn list(&self) -> Result<Vec<FrameRate>, Error> {
         if let Some(rate) = find_twin(&self.frame_rate) {
             refuse!("--frame-rate: {rate} is named twice; allowed: each once");

@@ -8,8 +8,9 @@ use crate::selection::suggest_names;
 /// Forms to try on every filter in addition to the full one.
 #[derive(Clone, Debug, Args)]
 pub struct InputFormArgs {
-    /// Form of the input to try on every filter, in addition to the full one: velocity=float16. Repeatable; each form is tried alone;
-    /// velocity=float16,linear8 are two. shuttertruth list inputs prints all.
+    /// Form of the input to try on every filter, in addition to the full one: velocity=float16.
+    /// Repeatable; each form is tried alone; velocity=float16,linear8 are two. shuttertruth list
+    /// inputs prints all.
     #[arg(help_heading = "Filters", long, value_name = "KIND=FORM", value_parser = parse_input)]
     pub input: Vec<InputForms>,
 }
@@ -19,7 +20,8 @@ pub struct InputFormArgs {
 pub struct InputForms(Vec<InputFormat>);
 
 impl InputFormArgs {
-    /// Lists the full form, then each of the others alone, so that each change of scores has one cause.
+    /// Lists the full form, then each of the others alone, so that each change of scores has one
+    /// cause.
     pub fn one_by_one(&self) -> Vec<InputFormat> {
         let mut formats = vec![InputFormat::default()];
         for format in self.input.iter().flat_map(|forms| &forms.0) {

@@ -11,8 +11,8 @@ use super::{InputFormArgs, ProgramArgs, SceneArgs, parse_even, parse_size, withi
 pub struct MeasureArgs {
     #[command(flatten)]
     pub scenes: SceneArgs,
-    /// Filters: names, folders or patterns such as 'jump*', each with an optional :preset; repeatable, or separated by commas
-    /// [default: all built-in ones].
+    /// Filters: names, folders or patterns such as 'jump*', each with an optional :preset;
+    /// repeatable, or separated by commas [default: all built-in ones].
     #[arg(
         help_heading = "Filters",
         long = "filter",
@@ -27,12 +27,13 @@ pub struct MeasureArgs {
     /// Override a parameter; repeatable.
     #[arg(help_heading = "Filters", long, value_name = "FILTER.PARAMETER=VALUE")]
     pub set: Vec<String>,
-    /// Keep lengths in pixels as the preset has them [default: scale them from the width that the preset was made for to the
-    /// picture's].
+    /// Keep lengths in pixels as the preset has them [default: scale them from the width that the
+    /// preset was made for to the picture's].
     #[arg(help_heading = "Filters", long)]
     pub as_written: bool,
-    /// Picture size in pixels. If --out holds a run of another size, this one goes to a folder below it, such as out/160x90
-    /// [default: 320x180; for `check`, the size that the bounds hold at].
+    /// Picture size in pixels. If --out holds a run of another size, this one goes to a folder
+    /// below it, such as out/160x90 [default: 320x180; for `check`, the size that the bounds hold
+    /// at].
     #[arg(help_heading = "Scenes and files", long, value_name = "WxH", value_parser = parse_size)]
     pub size: Option<(u32, u32)>,
     /// Independent renders per truth, an even number; each has an eighth of --samples-per-pixel.
@@ -49,7 +50,8 @@ pub struct MeasureArgs {
     /// Frames of noise, to separate a noisy filter's noise from its other errors; 0 for none.
     #[arg(help_heading = "Filters", long, value_name = "N", default_value_t = 16, value_parser = within::<u32>(0..=1024))]
     pub jitter_frames: u32,
-    /// Folder laid out as --out, with frames, truths and ladders. Those of the same inputs are not rendered again.
+    /// Folder laid out as --out, with frames, truths and ladders. Those of the same inputs are not
+    /// rendered again.
     #[arg(help_heading = "Scenes and files", long, value_name = "DIR")]
     pub truths: Option<PathBuf>,
     /// Remove the truths and cases of these scenes in --out first.

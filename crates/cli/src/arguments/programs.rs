@@ -28,7 +28,8 @@ impl ProgramArgs {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Adapter")]
 pub struct AdapterArgs {
-    /// Adapter that filters run on: its number in `list adapters`, or part of its name [default: the fastest].
+    /// Adapter that filters run on: its number in `list adapters`, or part of its name [default:
+    /// the fastest].
     #[arg(long, value_name = "ADAPTER")]
     pub adapter: Option<String>,
 }

@@ -23,8 +23,8 @@ pub enum Switch {
 #[derive(Clone, Debug, Args)]
 #[command(next_help_heading = "Scenes and files")]
 pub struct SceneArgs {
-    /// Scenes: names, folders or patterns such as 'rail*', each with an optional @variant or @all; repeatable, or separated by
-    /// commas [default: all].
+    /// Scenes: names, folders or patterns such as 'rail*', each with an optional @variant or @all;
+    /// repeatable, or separated by commas [default: all].
     #[arg(
         long,
         visible_alias = "scene",
@@ -32,7 +32,8 @@ pub struct SceneArgs {
         value_name = "SCENES"
     )]
     pub scenes: Vec<String>,
-    /// Use the sealed variant SCENE@sealS of every scene. It has other speeds, directions, places, times and colours.
+    /// Use the sealed variant SCENE@sealS of every scene. It has other speeds, directions, places,
+    /// times and colours.
     #[arg(long, value_name = "S")]
     pub seal: Option<u64>,
     #[command(flatten)]
@@ -46,8 +47,8 @@ pub struct SceneArgs {
     /// Exposure in frames; 0.5 is a shutter of 180 degrees [default: each scene's own].
     #[arg(long, value_name = "E", value_parser = parse_exposure)]
     pub exposure: Option<f64>,
-    /// Content of the velocity buffer: instantaneous, previous_frame, or camera_only (rebuilt from depth and the last frame's
-    /// camera).
+    /// Content of the velocity buffer: instantaneous, previous_frame, or camera_only (rebuilt from
+    /// depth and the last frame's camera).
     #[arg(long, value_name = "KIND", default_value_t = VelocityKind::Instantaneous)]
     pub velocity: VelocityKind,
     /// Sampling of the frame's colour: antialiased, or point (at pixel centres).
@@ -56,7 +57,8 @@ pub struct SceneArgs {
     /// Velocity of the background.
     #[arg(long, value_enum, value_name = "SWITCH", default_value_t = Switch::On)]
     pub sky_velocity: Switch,
-    /// Pixels of the frame beyond the picture on every side. Filters see them; their output there is cropped.
+    /// Pixels of the frame beyond the picture on every side. Filters see them; their output there
+    /// is cropped.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub guard_band: u32,
     /// Threads that render [default: one per core].

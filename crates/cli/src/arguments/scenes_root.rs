@@ -12,8 +12,8 @@ const DEFAULT: &str = "scenes";
 /// Choice of the folder of scenes.
 #[derive(Clone, Debug, Args)]
 pub struct RootArgs {
-    /// Folder of scenes, and of bounds.toml with limits and margins; `built-in` means the program's own [default: scenes, or built-in if
-    /// there is no such folder].
+    /// Folder of scenes, and of bounds.toml with limits and margins; `built-in` means the program's
+    /// own [default: scenes, or built-in if there is no such folder].
     #[arg(long, value_name = "FOLDER", value_parser = PathBufValueParser::new().map(scenes_root), default_value_t = default_scenes_root(), hide_default_value = true)]
     pub scenes_dir: Location,
 }

@@ -16,10 +16,12 @@ use crate::tables::audit_table;
 
 #[derive(Debug, Args)]
 pub struct AuditArgs {
-    /// Folder of a capture, as for `engine ingest`: capture.toml, color.exr, velocity.exr, depth.exr; object.exr makes the audit sharper.
+    /// Folder of a capture, as for `engine ingest`: capture.toml, color.exr, velocity.exr,
+    /// depth.exr; object.exr makes the audit sharper.
     #[arg(value_name = "DIR")]
     pub capture: PathBuf,
-    /// TOML file with a table [convention] that says which velocity and depth the engine has [default: engine.toml in DIR].
+    /// TOML file with a table [convention] that says which velocity and depth the engine has
+    /// [default: engine.toml in DIR].
     #[arg(long, value_name = "FILE")]
     pub convention: Option<PathBuf>,
     /// Scene that the engine drew, with @VARIANT [default: the one that capture.toml names].
@@ -27,7 +29,8 @@ pub struct AuditArgs {
     pub scene: Option<String>,
     #[command(flatten)]
     pub root: RootArgs,
-    /// Folder for audit.json, and for a picture of the worst place of each object that is wrong [default: out/audit/<name of DIR>].
+    /// Folder for audit.json, and for a picture of the worst place of each object that is wrong
+    /// [default: out/audit/<name of DIR>].
     #[arg(short, long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Print the audit as JSON.
@@ -35,7 +38,8 @@ pub struct AuditArgs {
     pub json: bool,
 }
 
-/// Compares what an engine drew with the scene; fails if anything is wrong, and is undecided if the engine drew something else.
+/// Compares what an engine drew with the scene; fails if anything is wrong, and is undecided if the
+/// engine drew something else.
 pub fn execute(args: &AuditArgs) -> Result<Ending, Error> {
     let capture = Capture::read(&args.capture, args.convention.as_deref())?;
     for note in &capture.notes {

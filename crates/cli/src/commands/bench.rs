@@ -15,8 +15,9 @@ use crate::tables::bench_table;
 
 #[derive(Debug, Args)]
 pub struct BenchArgs {
-    /// Filters: names, folders or patterns such as 'jump*', each with an optional :preset; repeatable, or separated by commas
-    /// [default: all built-in ones]. Times are relative to jump_flood:paper, which is timed as well.
+    /// Filters: names, folders or patterns such as 'jump*', each with an optional :preset;
+    /// repeatable, or separated by commas [default: all built-in ones]. Times are relative to
+    /// jump_flood:paper, which is timed as well.
     #[arg(
         long = "filter",
         visible_alias = "filters",
@@ -30,8 +31,8 @@ pub struct BenchArgs {
     /// Times that each filter runs, in turns with the others; 20 or more.
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = within::<u32>(20..=10_000))]
     pub rounds: u32,
-    /// Keep lengths in pixels as the preset has them [default: scale them from the width that the preset was made for to the
-    /// picture's].
+    /// Keep lengths in pixels as the preset has them [default: scale them from the width that the
+    /// preset was made for to the picture's].
     #[arg(long)]
     pub as_written: bool,
     #[command(flatten)]
@@ -50,7 +51,8 @@ pub struct BenchArgs {
     pub json: bool,
 }
 
-/// Time that llvmpipe on two cores needs to filter a pixel, in seconds: the built-in filters' mean at 320x180.
+/// Time that llvmpipe on two cores needs to filter a pixel, in seconds: the built-in filters' mean
+/// at 320x180.
 const SECONDS_PER_PIXEL: f64 = 1.4e-6;
 
 /// Times the selected filters, writes `bench.json`, prints the tables.

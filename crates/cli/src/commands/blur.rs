@@ -28,17 +28,18 @@ pub struct BlurArgs {
     /// Override a parameter; repeatable.
     #[arg(long, value_name = "FILTER.PARAMETER=VALUE")]
     pub set: Vec<String>,
-    /// Keep lengths in pixels as the preset has them [default: scale them from the width that the preset was made for to the
-    /// picture's].
+    /// Keep lengths in pixels as the preset has them [default: scale them from the width that the
+    /// preset was made for to the picture's].
     #[arg(long)]
     pub as_written: bool,
-    /// OpenEXR file with the channels R G B, Z, velocity.X, velocity.Y, and velocity_next.X, velocity_next.Y, velocity_z and exclusion for
-    /// filters that read them. With --frames the first frame's file, as `run` and `truths render` write it, or a folder of 0000.exr,
-    /// 0001.exr and so on.
+    /// OpenEXR file with the channels R G B, Z, velocity.X, velocity.Y, and velocity_next.X,
+    /// velocity_next.Y, velocity_z and exclusion for filters that read them. With --frames the
+    /// first frame's file, as `run` and `truths render` write it, or a folder of 0000.exr, 0001.exr
+    /// and so on.
     #[arg(long, value_name = "FILE|DIR")]
     pub frame: PathBuf,
-    /// TOML file with a table [convention] that says which velocity, depth and colour the frame has and the picture gets
-    /// [default: pixels per frame, metres, scene-linear].
+    /// TOML file with a table [convention] that says which velocity, depth and colour the frame has
+    /// and the picture gets [default: pixels per frame, metres, scene-linear].
     #[arg(long, value_name = "FILE")]
     pub convention: Option<PathBuf>,
     /// Exposure in frames [default: the file's attribute "exposure"].
@@ -47,14 +48,16 @@ pub struct BlurArgs {
     /// Frame number, which seeds the filter's noise; for a sequence, the first frame's.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub frame_index: u32,
-    /// Blur N consecutive frames, each with the next frame number, and with the frame before for filters with history.
+    /// Blur N consecutive frames, each with the next frame number, and with the frame before for
+    /// filters with history.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = frame_count())]
     pub frames: u32,
-    /// OpenEXR file to write; with --frames a folder for 0000.exr, 0001.exr and so on [default: out/blurred.exr, or out/blurred].
+    /// OpenEXR file to write; with --frames a folder for 0000.exr, 0001.exr and so on [default:
+    /// out/blurred.exr, or out/blurred].
     #[arg(short, long, value_name = "FILE|DIR")]
     pub out: Option<PathBuf>,
-    /// Textures to write next to the picture as EXR and PNG, as the last pass left them: the filter's own, color, velocity, depth
-    /// or output. Repeatable, or separated by commas.
+    /// Textures to write next to the picture as EXR and PNG, as the last pass left them: the
+    /// filter's own, color, velocity, depth or output. Repeatable, or separated by commas.
     #[arg(long, value_name = "TEXTURES", value_delimiter = ',')]
     pub show: Vec<String>,
     #[command(flatten)]

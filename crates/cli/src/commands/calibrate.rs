@@ -24,7 +24,8 @@ pub struct CalibrateArgs {
     /// Number of runs, each with a truth of its own seed: --seed, --seed + 1, and so on.
     #[arg(help_heading = "Calibration", long, value_name = "K", default_value_t = 3, value_parser = within::<u32>(2..=100))]
     pub runs: u32,
-    /// Adapters, by their numbers in `list adapters` or parts of their names, separated by commas [default: the fastest].
+    /// Adapters, by their numbers in `list adapters` or parts of their names, separated by commas
+    /// [default: the fastest].
     #[arg(
         help_heading = "Calibration",
         long,
@@ -32,7 +33,9 @@ pub struct CalibrateArgs {
         value_name = "ADAPTERS"
     )]
     pub adapters: Vec<String>,
-    /// Metrics to propose bounds for, separated by commas [default: those that have bounds, and deficit, gather_spread, label_tv_p95 and static_contamination; with --frames all metrics of sequences too].
+    /// Metrics to propose bounds for, separated by commas [default: those that have bounds, and
+    /// deficit, gather_spread, label_tv_p95 and static_contamination; with --frames all metrics of
+    /// sequences too].
     #[arg(help_heading = "Calibration", long, value_delimiter = ',', value_name = "METRICS", value_parser = Metric::parse_bounded)]
     pub metrics: Vec<Metric>,
 }
@@ -103,7 +106,8 @@ fn refuse_single_frames(args: &CalibrateArgs) -> Result<(), Error> {
     }
 }
 
-/// Lists the seeds of a calibration's runs. Refuses a first seed so large that the last run would have none.
+/// Lists the seeds of a calibration's runs. Refuses a first seed so large that the last run would
+/// have none.
 pub fn list_seeds(first: u64, runs: u32) -> Result<Range<u64>, Error> {
     match first.checked_add(u64::from(runs)) {
         Some(end) => Ok(first..end),

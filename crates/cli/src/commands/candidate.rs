@@ -41,8 +41,9 @@ impl CandidateArgs {
         Ok(open_gpu(filters, adapter, make_monitor())?)
     }
 
-    /// Renders or reads the scenes, and scores candidates on them. If the number of candidates is known, prints the expected time and locks
-    /// the folder meanwhile; otherwise other processes may share it.
+    /// Renders or reads the scenes, and scores candidates on them. If the number of candidates is
+    /// known, prints the expected time and locks the folder meanwhile; otherwise other processes
+    /// may share it.
     pub fn score<T>(
         &self,
         choice: &FilterChoice,
@@ -71,7 +72,8 @@ impl CandidateArgs {
     }
 }
 
-/// Prints the expected time of scoring candidates on scenes that are not rendered yet. Scoring ends after `limit` seconds.
+/// Prints the expected time of scoring candidates on scenes that are not rendered yet. Scoring ends
+/// after `limit` seconds.
 pub fn print_expected_scoring(
     scenes: &[(Scene, SceneBounds)],
     render: &RenderSettings,

@@ -40,11 +40,12 @@ fn list_measuring() -> Vec<Id> {
 
 #[derive(Debug, Args)]
 pub struct CheckArgs {
-    /// Finished run to judge: its run.json, or its folder. Renders nothing and opens no adapter [default: measure now].
+    /// Finished run to judge: its run.json, or its folder. Renders nothing and opens no adapter
+    /// [default: measure now].
     #[arg(value_name = "RUN", conflicts_with_all = list_measuring())]
     pub run: Option<PathBuf>,
-    /// For every broken bound of RUN, find the worst place and the known failure that the picture resembles most. A check that
-    /// measures always does.
+    /// For every broken bound of RUN, find the worst place and the known failure that the picture
+    /// resembles most. A check that measures always does.
     #[arg(help_heading = "Judging", long, requires = "run")]
     pub evidence: bool,
     #[command(flatten)]
@@ -53,7 +54,8 @@ pub struct CheckArgs {
     pub sequence: SequenceArgs,
     #[command(flatten)]
     pub adapter: AdapterArgs,
-    /// Also compare with the scores that `limits accept` wrote there, by the margins in bounds.toml.
+    /// Also compare with the scores that `limits accept` wrote there, by the margins in
+    /// bounds.toml.
     #[arg(help_heading = "Judging", long, value_name = "FILE")]
     pub baseline: Option<PathBuf>,
     /// HTML page to write [default: report.html in --out; for a finished RUN none].
@@ -70,8 +72,8 @@ pub struct CheckArgs {
     pub json: bool,
 }
 
-/// Judges a run, made now or finished before, and reports in every requested form. Refuses wrong arguments, bounds and baselines before
-/// anything is rendered.
+/// Judges a run, made now or finished before, and reports in every requested form. Refuses wrong
+/// arguments, bounds and baselines before anything is rendered.
 pub fn execute(args: &CheckArgs) -> Result<Ending, Error> {
     refuse_folder("--html", args.html.as_ref())?;
     refuse_folder("--junit", args.junit.as_ref())?;
@@ -163,8 +165,8 @@ struct Judged {
     folder: PathBuf,
 }
 
-/// Measures every case as `run` does, judges it and looks for evidence. Ladders, which need a quarter of the time, are left out unless
-/// something is judged by them.
+/// Measures every case as `run` does, judges it and looks for evidence. Ladders, which need a
+/// quarter of the time, are left out unless something is judged by them.
 fn run_and_judge(args: &CheckArgs, judging: &Judging) -> Result<Judged, Error> {
     let (mut plan, bounds) = make_plan(&args.measure, args.measure.scenes.out.clone())?;
     let asked = args.measure.size;

@@ -21,7 +21,8 @@ pub struct ExportArgs {
     /// Folder for glTF 2.0: each scene gets one of its own there.
     #[arg(long, value_name = "DIR", default_value = "out/gltf")]
     pub gltf: PathBuf,
-    /// Write SCENE@unlit: flat emissive colours and no lights. An engine's picture of it can be compared with the truth directly.
+    /// Write SCENE@unlit: flat emissive colours and no lights. An engine's picture of it can be
+    /// compared with the truth directly.
     #[arg(long)]
     pub unlit: bool,
     /// Sub-frames to draw; manifest.json has their times.

@@ -15,7 +15,8 @@ pub struct ImportArgs {
     /// OBJ file. It is copied, with the MTL and PNG files that it names.
     #[arg(value_name = "MODEL.OBJ")]
     pub model: PathBuf,
-    /// New folder for the scene, which gives the scene its name [default: out/<name of the OBJ file>].
+    /// New folder for the scene, which gives the scene its name [default: out/<name of the OBJ
+    /// file>].
     #[arg(short, long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Turn the model around its vertical axis.

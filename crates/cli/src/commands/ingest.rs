@@ -15,12 +15,12 @@ use crate::output::{make_monitor, print, print_note};
 
 #[derive(Debug, Args)]
 pub struct IngestArgs {
-    /// Folder of a capture: capture.toml, color.exr, velocity.exr, depth.exr; optionally subframes/0000.exr and on, and
-    /// blurred.exr.
+    /// Folder of a capture: capture.toml, color.exr, velocity.exr, depth.exr; optionally
+    /// subframes/0000.exr and on, and blurred.exr.
     #[arg(value_name = "DIR")]
     pub capture: PathBuf,
-    /// TOML file with a table [convention] that says which velocity, depth and colour the engine has [default: engine.toml in
-    /// DIR].
+    /// TOML file with a table [convention] that says which velocity, depth and colour the engine
+    /// has [default: engine.toml in DIR].
     #[arg(long, value_name = "FILE")]
     pub convention: Option<PathBuf>,
     /// Folder to write, which gives the scene its name [default: out/engine/<name of DIR>].
@@ -34,7 +34,8 @@ pub struct IngestArgs {
 const LONG_STEP: f64 = 0.5;
 /// Smallest change of the mean radiance to report.
 const LEAST_GAIN: f64 = 0.01;
-/// Smallest part of pixels that change without velocity to report; shadows and disocclusions are few.
+/// Smallest part of pixels that change without velocity to report; shadows and disocclusions are
+/// few.
 const LEAST_RESTLESS: f64 = 0.03;
 
 /// Ingests a capture, prints the result, and says how far its truth can be trusted.

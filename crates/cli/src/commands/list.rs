@@ -15,12 +15,12 @@ use crate::tables::{details_text, filter_json, filters_text, inputs_text, scenes
 
 #[derive(Debug, Args)]
 pub struct ListArgs {
-    /// Things to list: scenes, filters, inputs, adapters, or names or patterns of scenes and filters, which are shown in detail
-    /// [default: scenes and filters].
+    /// Things to list: scenes, filters, inputs, adapters, or names or patterns of scenes and
+    /// filters, which are shown in detail [default: scenes and filters].
     #[arg(value_name = "WHAT")]
     pub what: Vec<String>,
-    /// Filters to list in detail: names, folders or patterns; repeatable, or separated by commas. A filter of your own is tried
-    /// out with every preset and at both ends of every range.
+    /// Filters to list in detail: names, folders or patterns; repeatable, or separated by commas. A
+    /// filter of your own is tried out with every preset and at both ends of every range.
     #[arg(
         long = "filter",
         visible_alias = "filters",
@@ -28,7 +28,8 @@ pub struct ListArgs {
         value_name = "FILTERS"
     )]
     pub filters: Vec<String>,
-    /// Copy the named built-in scenes, or all, and bounds.toml into this folder. Nothing is overwritten.
+    /// Copy the named built-in scenes, or all, and bounds.toml into this folder. Nothing is
+    /// overwritten.
     #[arg(long, value_name = "DIR", conflicts_with_all = ["filters", "json"])]
     pub copy_to: Option<PathBuf>,
     #[command(flatten)]
@@ -81,7 +82,8 @@ pub fn execute(args: &ListArgs) -> Result<(), Error> {
     print(&(text + "details: shuttertruth list NAME\n"))
 }
 
-/// Writes what is worth knowing about a scene and its variants: what the loader left out, and surfaces in one place.
+/// Writes what is worth knowing about a scene and its variants: what the loader left out, and
+/// surfaces in one place.
 fn print_notes(listing: &SceneListing) -> Result<(), Error> {
     let variants = listing
         .variants
@@ -165,8 +167,8 @@ fn adapters_text() -> String {
     list_adapters().iter().enumerate().map(line).collect()
 }
 
-/// Checks kernels against the adapter's limits, and runs them with every preset and at both ends of every range. Without an adapter,
-/// checks them against the lowest common limits, and says so.
+/// Checks kernels against the adapter's limits, and runs them with every preset and at both ends of
+/// every range. Without an adapter, checks them against the lowest common limits, and says so.
 fn try_filters(filters: &[&Filter], adapter: Option<&str>) -> Result<(), Error> {
     let have_kernels = filters.iter().any(|filter| filter.command.is_none());
     if !have_kernels && adapter.is_none() {

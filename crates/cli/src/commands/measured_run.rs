@@ -18,8 +18,8 @@ pub struct MeasuredRun {
     pub lock: FolderLock,
 }
 
-/// Runs every case of a plan. Keeps an earlier run's cases in the same folder, except a run of another picture size: that is left alone,
-/// and the plan gets a subfolder.
+/// Runs every case of a plan. Keeps an earlier run's cases in the same folder, except a run of
+/// another picture size: that is left alone, and the plan gets a subfolder.
 pub fn measure(plan: &mut RunPlan, gpu: Option<&Gpu>) -> Result<MeasuredRun, Error> {
     choose_folder(plan)?;
     let lock = lock_out(plan)?;

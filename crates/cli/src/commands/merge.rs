@@ -13,7 +13,8 @@ use crate::tables::failures_text;
 
 #[derive(Debug, Args)]
 pub struct MergeArgs {
-    /// Folders that `render --replicates A..B` wrote, or folders of finished runs, each with other scenes or filters.
+    /// Folders that `render --replicates A..B` wrote, or folders of finished runs, each with other
+    /// scenes or filters.
     #[arg(required = true, value_name = "FOLDER")]
     pub parts: Vec<PathBuf>,
     /// Folder for the whole, as one machine would have written it.

@@ -22,7 +22,8 @@ pub struct RenderArgs {
     /// Picture size in pixels [default: each scene's own].
     #[arg(help_heading = "Scenes and files", long, value_name = "WxH", value_parser = parse_size)]
     pub size: Option<(u32, u32)>,
-    /// Consecutive frames to render of every scene. Later frames go to numbered folders below the scene's own.
+    /// Consecutive frames to render of every scene. Later frames go to numbered folders below the
+    /// scene's own.
     #[arg(help_heading = "Sequences", long, value_name = "N", default_value_t = 1, value_parser = frame_count())]
     pub frames: u32,
     /// Shutter alignments of the truths, separated by commas.
@@ -34,18 +35,20 @@ pub struct RenderArgs {
         value_name = "ALIGNMENTS"
     )]
     pub alignments: Vec<Alignment>,
-    /// Independent renders per truth: an even number, or a part A..B (A to B-1) that `truths merge` joins with others. Each has an
-    /// eighth of --samples-per-pixel. The part with replicate 0 renders the frame too.
+    /// Independent renders per truth: an even number, or a part A..B (A to B-1) that `truths merge`
+    /// joins with others. Each has an eighth of --samples-per-pixel. The part with replicate 0
+    /// renders the frame too.
     #[arg(help_heading = "Truths", long, value_name = "N|A..B", default_value = "8", value_parser = parse_replicates)]
     pub replicates: Replicates,
-    /// Render more replicates until the noise of each truth (root mean square radiance, where anything moves) is at most
-    /// this. Exit code 4 if --most-replicates do not suffice.
+    /// Render more replicates until the noise of each truth (root mean square radiance, where
+    /// anything moves) is at most this. Exit code 4 if --most-replicates do not suffice.
     #[arg(help_heading = "Truths", long, value_name = "TARGET", value_parser = above_zero(f64::MAX))]
     pub noise: Option<f64>,
     /// Render the ladder of sub-frames of each truth too, which `run` measures with.
     #[arg(help_heading = "Truths", long)]
     pub ladders: bool,
-    /// Write velocity_next, velocity_z and exclusion to frame.exr too, for `engine blur` with filters that read them.
+    /// Write velocity_next, velocity_z and exclusion to frame.exr too, for `engine blur` with
+    /// filters that read them.
     #[arg(help_heading = "Truths", long)]
     pub further_velocities: bool,
     /// Upper limit on replicates for --noise.
@@ -139,7 +142,8 @@ fn render_frame(args: &RenderArgs, rendering: Rendering) -> Result<(), Error> {
     }
 }
 
-/// Renders some replicates of a scene's truths, and the frame together with replicate 0. Reports no noise.
+/// Renders some replicates of a scene's truths, and the frame together with replicate 0. Reports no
+/// noise.
 fn render_some(
     args: &RenderArgs,
     rendering: Rendering,
@@ -155,7 +159,8 @@ fn render_some(
     Ok(String::new())
 }
 
-/// Renders a scene's frame and truths; returns a line per truth. Adds one to `noisy` for each truth that exceeds the requested noise.
+/// Renders a scene's frame and truths; returns a line per truth. Adds one to `noisy` for each truth
+/// that exceeds the requested noise.
 fn render_whole(
     args: &RenderArgs,
     rendering: Rendering,

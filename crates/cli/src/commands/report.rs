@@ -16,14 +16,16 @@ pub struct ReportArgs {
     /// run.json of a finished `run` or `check`, or its folder; or the folder of a `tune search`.
     #[arg(value_name = "RUN", default_value = "out")]
     pub run: PathBuf,
-    /// HTML page to write [default: report.html next to run.json, unless --exr or --gallery is given].
+    /// HTML page to write [default: report.html next to run.json, unless --exr or --gallery is
+    /// given].
     #[arg(long, value_name = "FILE")]
     pub html: Option<PathBuf>,
-    /// Folder for one multi-layer OpenEXR file per case: truth, output, instant, flip, velocity, coverage and more.
+    /// Folder for one multi-layer OpenEXR file per case: truth, output, instant, flip, velocity,
+    /// coverage and more.
     #[arg(long, value_name = "DIR")]
     pub exr: Option<PathBuf>,
-    /// Folder for a gallery: a page of Markdown, a contact sheet of the truths, each scene with the best and the
-    /// worst filter of each shutter.
+    /// Folder for a gallery: a page of Markdown, a contact sheet of the truths, each scene with the
+    /// best and the worst filter of each shutter.
     #[arg(long, value_name = "DIR")]
     pub gallery: Option<PathBuf>,
     /// Print the list of written files as JSON.

@@ -25,7 +25,8 @@ pub struct RunArgs {
     pub adapter: AdapterArgs,
     #[command(flatten)]
     pub options: RunOptions,
-    /// Measure a part of a run that `truths merge` joins with others. Writes run.json and pictures, but no report.
+    /// Measure a part of a run that `truths merge` joins with others. Writes run.json and pictures,
+    /// but no report.
     #[arg(help_heading = "Filters", long, value_name = "PART", value_parser = parse_named(&Part::ALL[1..], Part::name, Part::help), conflicts_with_all = ["html", "table"])]
     pub part: Option<Part>,
     /// HTML page to write [default: report.html in --out].

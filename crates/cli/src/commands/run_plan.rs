@@ -18,7 +18,8 @@ use crate::arguments::{MeasureArgs, RunOptions, SceneArgs};
 use crate::output::{count_text, make_monitor, print_note, print_scene_notes};
 use crate::selection::{select_engine_scenes, select_filters, select_scenes};
 
-/// Loads scenes with their bounds, and filters; renders nothing, and does not check the plan yet. The plan asks for no intervals.
+/// Loads scenes with their bounds, and filters; renders nothing, and does not check the plan yet.
+/// The plan asks for no intervals.
 pub fn make_plan(args: &MeasureArgs, out: PathBuf) -> Result<(RunPlan, RunBounds), Error> {
     let scenes_dir = &args.scenes.root.scenes_dir;
     let (engine_scenes, names) = select_engine_scenes(scenes_dir, &args.scenes.names()?)?;
@@ -72,7 +73,8 @@ pub fn apply_options(plan: &mut RunPlan, options: &RunOptions) -> Result<(), Err
     plan.check()
 }
 
-/// Leaves out filters that cannot run on an engine's scenes, and says so. If scenes are rendered too, those filters run on these.
+/// Leaves out filters that cannot run on an engine's scenes, and says so. If scenes are rendered
+/// too, those filters run on these.
 fn leave_out_filters(
     mut filters: Vec<FilterChoice>,
     engine_scenes: &[EngineScene],
@@ -152,7 +154,8 @@ fn read_engine_bounds(folder: &Path) -> Result<SceneBounds, Error> {
     })
 }
 
-/// Refuses limits on sequences for an engine's scene: it has one frame, and nothing would judge them.
+/// Refuses limits on sequences for an engine's scene: it has one frame, and nothing would judge
+/// them.
 fn refuse_sequence_limits(file: &BoundsFile) -> Result<(), Error> {
     let tables = file.filters.values().map(|table| &table.bounds);
     let mut all = std::iter::once(&file.default).chain(tables).flatten();
@@ -166,8 +169,8 @@ fn refuse_sequence_limits(file: &BoundsFile) -> Result<(), Error> {
     }
 }
 
-/// Adds the bounds of a run's scenes, for the run's picture size, from the folder `root`; skips scenes that are not there. Engines'
-/// scenes get none of our bounds.
+/// Adds the bounds of a run's scenes, for the run's picture size, from the folder `root`; skips
+/// scenes that are not there. Engines' scenes get none of our bounds.
 pub fn add_bounds(bounds: &mut RunBounds, run: &Run, root: &Location) -> Result<(), Error> {
     let size = (run.render.width, run.render.height);
     for case in &run.cases {
@@ -193,7 +196,8 @@ pub fn lock_out(plan: &RunPlan) -> Result<FolderLock, Error> {
     Ok(lock_folder(&plan.out, &plan.scenes, Sharing::Alone)?)
 }
 
-/// Loads the named scenes of the folder `root`, or all, with their bounds, including those for pictures of `size`.
+/// Loads the named scenes of the folder `root`, or all, with their bounds, including those for
+/// pictures of `size`.
 pub fn load_scenes(
     root: &Location,
     names: &[String],
@@ -209,8 +213,8 @@ pub fn load_scenes(
         .collect()
 }
 
-/// Reads the bounds of a scene or a variant. A sealed one, or one at another frame rate, gets only the bounds common to all scenes: the
-/// scene's own limits were measured at other speeds.
+/// Reads the bounds of a scene or a variant. A sealed one, or one at another frame rate, gets only
+/// the bounds common to all scenes: the scene's own limits were measured at other speeds.
 fn read_scene_bounds(
     root: &Location,
     folder: &Location,

@@ -15,27 +15,32 @@ use crate::tables::score_table;
 
 #[derive(Debug, Args)]
 pub struct ScoreArgs {
-    /// The truth: truth_<alignment>.exr of `truths render` or `run`; for a sequence, the first frame's.
+    /// The truth: truth_<alignment>.exr of `truths render` or `run`; for a sequence, the first
+    /// frame's.
     #[arg(long, value_name = "FILE")]
     pub truth: PathBuf,
-    /// The frame that the picture was made from: frame.exr of the same scene; for a sequence, the first one.
+    /// The frame that the picture was made from: frame.exr of the same scene; for a sequence, the
+    /// first one.
     #[arg(long, value_name = "FILE")]
     pub frame: PathBuf,
-    /// The picture: OpenEXR with scene-linear R G B and optional coverage.<object>; or a PNG for display. With --frames a folder of
-    /// such pictures, 0000.exr, 0001.exr and so on.
+    /// The picture: OpenEXR with scene-linear R G B and optional coverage.<object>; or a PNG for
+    /// display. With --frames a folder of such pictures, 0000.exr, 0001.exr and so on.
     #[arg(long, value_name = "FILE|DIR")]
     pub image: PathBuf,
-    /// TOML file with a table [convention] that says which colour the picture has [default: scene-linear].
+    /// TOML file with a table [convention] that says which colour the picture has [default:
+    /// scene-linear].
     #[arg(long, value_name = "FILE")]
     pub convention: Option<PathBuf>,
     /// The folder ladder_<alignment> of `run` [default: no equivalent sub-frames, and no skill
     /// unless the shutter is centred].
     #[arg(long, value_name = "FOLDER")]
     pub ladder: Option<PathBuf>,
-    /// Score a sequence of N consecutive frames, with files as `run` and `truths render` write them.
+    /// Score a sequence of N consecutive frames, with files as `run` and `truths render` write
+    /// them.
     #[arg(help_heading = "Sequences", long, value_name = "N", default_value_t = 1, value_parser = frame_count(), conflicts_with = "ladder")]
     pub frames: u32,
-    /// Frames per second at which the sequence is shown. It changes only the score JOD. A scene at a frame rate is shown at that rate.
+    /// Frames per second at which the sequence is shown. It changes only the score JOD. A scene at
+    /// a frame rate is shown at that rate.
     #[arg(help_heading = "Sequences", long, value_name = "F", default_value_t = Frames::default().per_second, value_parser = above_zero(1000.0))]
     pub fps: f64,
     #[command(flatten, next_help_heading = "Sequences")]

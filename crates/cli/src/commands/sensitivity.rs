@@ -13,8 +13,8 @@ use crate::tables::sensitivity_table;
 pub struct SensitivityArgs {
     #[command(flatten)]
     pub candidate: CandidateArgs,
-    /// Parameters to study, separated by commas, each with an optional narrower range: samples=4..16 [default: all that
-    /// filter.toml allows].
+    /// Parameters to study, separated by commas, each with an optional narrower range:
+    /// samples=4..16 [default: all that filter.toml allows].
     #[arg(
         help_heading = "Study",
         long,

@@ -33,8 +33,9 @@ pub fn check_shown(filter: &Filter, names: &[String]) -> Result<(), Error> {
     }
 }
 
-/// Writes what the last run left in a texture next to `picture`: `<picture>_<name>.exr` with its numbers, and a PNG from its least
-/// number (black) to its greatest (white). Prints both, with the range of each component.
+/// Writes what the last run left in a texture next to `picture`: `<picture>_<name>.exr` with its
+/// numbers, and a PNG from its least number (black) to its greatest (white). Prints both, with the
+/// range of each component.
 pub fn show_texture(
     runner: &Runner,
     filter: &Filter,
@@ -85,7 +86,8 @@ pub fn show_texture(
     ))
 }
 
-/// Maps the first three components from their common range to black and white. One component is grey; missing ones are black.
+/// Maps the first three components from their common range to black and white. One component is
+/// grey; missing ones are black.
 fn display(texels: &Raster<[f32; 4]>, components: usize) -> Raster<[f32; 3]> {
     let shown = components.min(3);
     let (least, most) = range(

@@ -20,8 +20,8 @@ use crate::tables::{advice_text, tuning_table};
 pub struct TuneArgs {
     #[command(flatten)]
     pub candidate: CandidateArgs,
-    /// Parameters to change, separated by commas, each with an optional narrower range: samples=4..16 [default: all that
-    /// filter.toml allows].
+    /// Parameters to change, separated by commas, each with an optional narrower range:
+    /// samples=4..16 [default: all that filter.toml allows].
     #[arg(
         help_heading = "Search",
         long,
@@ -38,7 +38,8 @@ pub struct TuneArgs {
     /// Upper limit on GPU time, relative to the start's.
     #[arg(help_heading = "Search", long, value_name = "RATIO", value_parser = parse_ratio)]
     pub cost_at_most: Option<f64>,
-    /// Upper limit on lateral bleed of the worst scene, relative to the start's; 0.01 px is always allowed.
+    /// Upper limit on lateral bleed of the worst scene, relative to the start's; 0.01 px is always
+    /// allowed.
     #[arg(help_heading = "Search", long, value_name = "RATIO", value_parser = parse_ratio)]
     pub bleed_at_most: Option<f64>,
     /// Run every candidate on every scene, even a bad one.
@@ -138,7 +139,8 @@ fn make_options(args: &TuneArgs, choice: FilterChoice) -> Result<TuneOptions, Er
     })
 }
 
-/// Writes tune.json and params.json, and preset.toml if the choice is an improvement (else removes an earlier tuning's); prints the table.
+/// Writes tune.json and params.json, and preset.toml if the choice is an improvement (else removes
+/// an earlier tuning's); prints the table.
 fn write_tuning(tuning: &Tuning, options: &TuneOptions, as_json: bool) -> Result<(), Error> {
     let path = |name: &str| options.out.join(name);
     write_json(&path("params.json"), &tuning.values)?;

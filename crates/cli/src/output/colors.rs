@@ -1,5 +1,6 @@
-//! Styles of printed text. Inside the program a style is a mark, a Unicode noncharacter that no file needs. Printing turns only marks into
-//! terminal codes; codes in names and files become escapes.
+//! Styles of printed text. Inside the program a style is a mark, a Unicode noncharacter that no
+//! file needs. Printing turns only marks into terminal codes; codes in names and files become
+//! escapes.
 
 use anstyle::{AnsiColor, Reset, Style};
 use store::printable;

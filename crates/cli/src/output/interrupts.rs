@@ -23,8 +23,8 @@ pub const INTERRUPTED_TEXT: &str =
     "interrupted; files that are whole stay, and the same command uses them again";
 
 /// Makes signals end the current work and the programs that it runs. Work that does not check for
-/// signals ends with the process a moment later. No file is left half-written: files are renamed into
-/// place when complete.
+/// signals ends with the process a moment later. No file is left half-written: files are renamed
+/// into place when complete.
 pub fn catch_interrupts() {
     for signal in caught_signals() {
         // A signal that cannot be caught ends the process at once.
@@ -41,7 +41,8 @@ pub fn catch_interrupts() {
     });
 }
 
-/// Lists the signals that end the program. A SIGHUP ignored at the start stays ignored, so that `nohup` works.
+/// Lists the signals that end the program. A SIGHUP ignored at the start stays ignored, so that
+/// `nohup` works.
 fn caught_signals() -> Vec<i32> {
     let mut signals = vec![SIGINT, SIGTERM];
     #[cfg(unix)]

@@ -30,7 +30,8 @@ pub fn print_json(value: &impl serde::Serialize) -> Result<(), Error> {
     print(&format!("{json}\n"))
 }
 
-/// Writes lines to standard error, with escapes for control characters. Ignores errors, since nobody need read it.
+/// Writes lines to standard error, with escapes for control characters. Ignores errors, since
+/// nobody need read it.
 pub fn print_error(text: &str) {
     let _ = writeln!(std::io::stderr(), "{}", terminal_text(text));
 }

@@ -19,7 +19,8 @@ const BETWEEN_LINES: Duration = Duration::from_secs(30);
 /// All bars on the screen: one per running step.
 static BARS: LazyLock<MultiProgress> = LazyLock::new(MultiProgress::new);
 
-/// Makes a command's monitor: a bar on a terminal, lines in a log, nothing with --quiet. It stops work after Ctrl-C.
+/// Makes a command's monitor: a bar on a terminal, lines in a log, nothing with --quiet. It stops
+/// work after Ctrl-C.
 pub fn make_monitor() -> Monitor {
     Monitor {
         begin: match (is_quiet(), std::io::stderr().is_terminal()) {
@@ -111,7 +112,8 @@ impl Lines {
         }
     }
 
-    /// Formats a line, `fan trailing, replicate 3: 40 %, 1:30 left`; none if the last line is recent.
+    /// Formats a line, `fan trailing, replicate 3: 40 %, 1:30 left`; none if the last line is
+    /// recent.
     fn line(&self, progress: Progress, now: Instant) -> Option<String> {
         let mut times = self.times.lock().ok()?;
         if progress.done == 0 {

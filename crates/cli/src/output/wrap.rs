@@ -13,7 +13,8 @@ const USUAL_COLUMNS: usize = 80;
 /// Range of columns for wrapped text: narrower lines fit no table, longer ones are hard to read.
 const COLUMNS: RangeInclusive<usize> = 60..=120;
 
-/// Looks up the columns of standard output's terminal, or else the variable COLUMNS, as the help does.
+/// Looks up the columns of standard output's terminal, or else the variable COLUMNS, as the help
+/// does.
 pub fn terminal_columns() -> usize {
     static FOUND: OnceLock<usize> = OnceLock::new();
     *FOUND.get_or_init(|| {
@@ -28,8 +29,8 @@ pub fn terminal_columns() -> usize {
     })
 }
 
-/// Adds one line of text, broken between words if it is too long, with a deeper indent after the first line. Line breaks in it become
-/// escapes, since names and files may contain them.
+/// Adds one line of text, broken between words if it is too long, with a deeper indent after the
+/// first line. Line breaks in it become escapes, since names and files may contain them.
 pub fn push_wrapped(text: &mut String, indent: usize, line: &str) {
     let mut column = indent;
     *text += &" ".repeat(indent);

@@ -20,9 +20,10 @@ pub enum Programs {
 
 /// Loads the named filters, or every built-in one.
 ///
-/// A name is a built-in filter, a pattern of them, or a filter folder, with an optional `:preset`, which may also be a pattern. Without a
-/// preset, in the name or for all, every preset of the filter is selected. `overrides` are `filter.parameter=value`. Filters that are
-/// programs are refused unless `programs` allows them.
+/// A name is a built-in filter, a pattern of them, or a filter folder, with an optional `:preset`,
+/// which may also be a pattern. Without a preset, in the name or for all, every preset of the
+/// filter is selected. `overrides` are `filter.parameter=value`. Filters that are programs are
+/// refused unless `programs` allows them.
 pub fn select_filters(
     names: &[String],
     preset: Option<&str>,
@@ -57,7 +58,8 @@ pub fn select_filters(
     Ok(choices)
 }
 
-/// Loads the filters of a name, a pattern or a path. A built-in filter has priority over a folder of the same name.
+/// Loads the filters of a name, a pattern or a path. A built-in filter has priority over a folder
+/// of the same name.
 pub fn load_filters(name: &str) -> Result<Vec<Filter>, Error> {
     if is_path(name) {
         return Ok(vec![Filter::load(Path::new(name))?]);
@@ -108,7 +110,8 @@ fn refuse_programs(choices: &[FilterChoice]) -> Result<(), Error> {
     }
 }
 
-/// Refuses a preset that is named twice, and two filters of one name: both would share a folder and count twice.
+/// Refuses a preset that is named twice, and two filters of one name: both would share a folder and
+/// count twice.
 fn refuse_duplicates(choices: &[FilterChoice]) -> Result<(), Error> {
     let names: Vec<String> = choices.iter().map(FilterChoice::name).collect();
     match find_twin(&names) {

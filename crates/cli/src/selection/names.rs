@@ -11,7 +11,8 @@ pub fn is_pattern(text: &str) -> bool {
     text.contains(['*', '?', '['])
 }
 
-/// Returns whether a text is a path. A path has a separator; other texts are names, whatever the current folder contains.
+/// Returns whether a text is a path. A path has a separator; other texts are names, whatever the
+/// current folder contains.
 pub fn is_path(text: &str) -> bool {
     text.contains(['/', '\\'])
 }

@@ -17,8 +17,8 @@ pub struct SceneChoice {
 
 /// Loads the named scenes, or all of `root` in their default variants.
 ///
-/// A name is a folder under `root`, a pattern of such names, or the path of any scene folder, with an optional `@variant`; `@all` selects
-/// every variant.
+/// A name is a folder under `root`, a pattern of such names, or the path of any scene folder, with
+/// an optional `@variant`; `@all` selects every variant.
 pub fn select_scenes(
     root: impl Into<Location>,
     names: &[String],
@@ -54,8 +54,8 @@ pub fn select_scenes(
     Ok(scenes)
 }
 
-/// Reads the scenes that engines drew among the named ones; returns the other names as well. A scene of `root` has priority over a folder
-/// of the same name elsewhere.
+/// Reads the scenes that engines drew among the named ones; returns the other names as well. A
+/// scene of `root` has priority over a folder of the same name elsewhere.
 pub fn select_engine_scenes(
     root: &Location,
     names: &[String],
@@ -75,7 +75,8 @@ pub fn select_engine_scenes(
     Ok((scenes, others.into_iter().cloned().collect()))
 }
 
-/// Finds the folders of a name, a pattern or a path. A scene of `root` has priority over a folder of the same name elsewhere.
+/// Finds the folders of a name, a pattern or a path. A scene of `root` has priority over a folder
+/// of the same name elsewhere.
 fn find_folders(root: &Location, name: &str, known: &[String]) -> Result<Vec<Location>, Error> {
     if is_path(name) {
         return Ok(vec![Path::new(name).into()]);
@@ -104,7 +105,8 @@ fn suggest_built_in(root: &Location, name: &str) -> &'static str {
     }
 }
 
-/// Splits a text into a scene's name or path, and its identity. Parent folders may have an @ in their names.
+/// Splits a text into a scene's name or path, and its identity. Parent folders may have an @ in
+/// their names.
 pub fn split_scene(text: &str) -> (&str, SceneId) {
     let name = text.trim_end_matches(['/', '\\']);
     let own = name.rfind(['/', '\\']).map_or(0, |separator| separator + 1);

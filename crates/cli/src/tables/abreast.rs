@@ -1,4 +1,5 @@
-//! Tables of filters side by side: scores at each frame rate and on each engine's frames, and the cost of each input form.
+//! Tables of filters side by side: scores at each frame rate and on each engine's frames, and the
+//! cost of each input form.
 
 use judge::{RankedFilter, list_summarized};
 use metrics::Metric;
@@ -30,8 +31,9 @@ fn abreast_text<R>(
     format!("\n{tables}\n{}", legend_text(legend))
 }
 
-/// Makes a row per input form and a column per filter: the change of mean FLIP against the full form. Empty for a run with no other
-/// form. Shutter rules, which change nothing at the scene files' frame rate, are in the table of rates.
+/// Makes a row per input form and a column per filter: the change of mean FLIP against the full
+/// form. Empty for a run with no other form. Shutter rules, which change nothing at the scene
+/// files' frame rate, are in the table of rates.
 pub fn input_forms_text(cases: &[Case]) -> String {
     let cases = list_summarized(cases);
     let is_shown = |case: &&&Case| case.rate.is_some() || case.input.rule == Default::default();
@@ -65,8 +67,8 @@ pub fn input_forms_text(cases: &[Case]) -> String {
     )
 }
 
-/// Makes a row per frame rate and shutter rule, and a column per filter and per unblurred picture: mean FLIP over the scenes. Empty for a
-/// run of one rate.
+/// Makes a row per frame rate and shutter rule, and a column per filter and per unblurred picture:
+/// mean FLIP over the scenes. Empty for a run of one rate.
 pub fn frame_rates_text(cases: &[Case]) -> String {
     let rows = list_once(cases.iter().filter_map(Row::of));
     if rows.iter().all(|row| row.rate == rows[0].rate) {
@@ -87,8 +89,9 @@ pub fn frame_rates_text(cases: &[Case]) -> String {
 /// Title of the column of our own frames.
 const OURS: &str = "ours";
 
-/// Makes a row per ranked filter, best on the engines' frames first, and a column for our frames and for each engine's: mean FLIP over
-/// the scenes that the run has in both. Empty if there is none.
+/// Makes a row per ranked filter, best on the engines' frames first, and a column for our frames
+/// and for each engine's: mean FLIP over the scenes that the run has in both. Empty if there is
+/// none.
 pub fn twins_text(cases: &[Case], ranked: &[Vec<RankedFilter>]) -> String {
     let full: Vec<&Case> = (list_summarized(cases).into_iter())
         .filter(|case| case.input == InputFormat::default())
@@ -163,7 +166,8 @@ struct Row {
 }
 
 impl Row {
-    /// Makes a case's row; none for input forms that the table does not show. At the files' rate every rule is right.
+    /// Makes a case's row; none for input forms that the table does not show. At the files' rate
+    /// every rule is right.
     fn of(case: &Case) -> Option<Self> {
         let input = InputFormat {
             rule: case.input.rule,

@@ -11,7 +11,8 @@ const MAX_ANNOTATIONS: usize = 10;
 /// Upper limit on rows of a summary: people read it, and GitHub accepts one mebibyte per step.
 const MAX_ROWS: usize = 500;
 
-/// Formats one workflow command per line for each thing that keeps the check from passing. The tenth counts the rest.
+/// Formats one workflow command per line for each thing that keeps the check from passing. The
+/// tenth counts the rest.
 pub fn annotations(check: &Check) -> String {
     let findings = (check.findings.iter())
         .filter(|finding| finding.decision() != Decision::Pass)

@@ -7,7 +7,8 @@ use suite::engine_name;
 use super::{Table, cell};
 use crate::output::push_wrapped;
 
-/// Lists, per object, its visibility in the engine's picture and its velocity error; then the depth error, then what is wrong.
+/// Lists, per object, its visibility in the engine's picture and its velocity error; then the depth
+/// error, then what is wrong.
 pub fn audit_table(audit: &CaptureAudit) -> String {
     let [width, height] = audit.size;
     let columns = [

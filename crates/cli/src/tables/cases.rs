@@ -23,7 +23,8 @@ const CASE_COLUMNS: [Column; 9] = [
 /// Title of FLIP against the shutter that all cases share.
 const COMMON_FLIP: &str = "FLIP*";
 
-/// Makes the table of a run: cases, and means over the scenes. A score that does not apply is `n/a`, with a note that says why.
+/// Makes the table of a run: cases, and means over the scenes. A score that does not apply is
+/// `n/a`, with a note that says why.
 pub fn run_table(run: &Run) -> String {
     let mut table = case_table("scene / filter", &["noise", COMMON_FLIP]);
     let mut missing = Missing::default();

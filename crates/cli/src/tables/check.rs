@@ -11,8 +11,9 @@ use report::{finding_score, finding_status, length_text, way_out, worst_frame_te
 use super::{failures_text, list_once};
 use crate::output::{bad, count_text, doubtful, good, heading, push_wrapped};
 
-/// Lists scores that are broken, undecided or limited within the noise, by scene and filter; then comparisons, then counts. Lists targets,
-/// which fail nothing, only if `targets` is set. `out` is the folder of the run's pictures.
+/// Lists scores that are broken, undecided or limited within the noise, by scene and filter; then
+/// comparisons, then counts. Lists targets, which fail nothing, only if `targets` is set. `out` is
+/// the folder of the run's pictures.
 pub fn check_text(check: &Check, out: &Path, targets: bool) -> String {
     let mut text = failures_text(&check.failures);
     let mut case = None;
@@ -211,7 +212,8 @@ fn comparisons_line(check: &Check) -> Option<String> {
     (compared > 0).then(|| format!("{all}: {counts}"))
 }
 
-/// Names the limits that were not judged because they are for sequences of another length, and how to judge them; none if all were judged.
+/// Names the limits that were not judged because they are for sequences of another length, and how
+/// to judge them; none if all were judged.
 fn not_judged_line(check: &Check) -> Option<String> {
     let mut lengths: Vec<(String, String)> = Vec::new();
     for finding in (check.findings.iter()).filter(|own| own.outcome == Outcome::NotJudged) {

@@ -6,8 +6,9 @@ use report::{finding_line, way_out, worst_frame_text};
 
 use super::comparison_line;
 
-/// Makes the document. Failed cases and broken required bounds are failures; inconclusive ones and limits within the noise are errors; the
-/// rest that did not pass is skipped: not applicable, not judged, or broken but only reported.
+/// Makes the document. Failed cases and broken required bounds are failures; inconclusive ones and
+/// limits within the noise are errors; the rest that did not pass is skipped: not applicable, not
+/// judged, or broken but only reported.
 pub fn junit(check: &Check) -> String {
     let mut suites: Vec<TestSuite> = Vec::new();
     let mut add = |suite: &str, filter: &str, what: &str, status: TestCaseStatus| {

@@ -16,7 +16,8 @@ use super::{
     twins_text,
 };
 
-/// Makes the summary of cases, in at most 40 lines: filters ranked within each shutter, then references.
+/// Makes the summary of cases, in at most 40 lines: filters ranked within each shutter, then
+/// references.
 pub fn ranking_text(cases: &[Case]) -> String {
     let mut groups = rank_for_summary(cases);
     if groups.is_empty() {
@@ -46,7 +47,8 @@ pub fn ranking_text(cases: &[Case]) -> String {
     text + &input_forms_text(cases) + &frame_rates_text(cases)
 }
 
-/// Says that filters are shown by their best of all presets, and that some of these rows are hidden; empty if neither is so.
+/// Says that filters are shown by their best of all presets, and that some of these rows are
+/// hidden; empty if neither is so.
 fn hidden_text(presets: usize, rows: usize, hidden: usize) -> String {
     let note = match (presets > rows, hidden > 0) {
         (true, true) => {
@@ -61,7 +63,8 @@ fn hidden_text(presets: usize, rows: usize, hidden: usize) -> String {
     legend_text(&note)
 }
 
-/// Names a group's shutter: `centred shutter`, with the frame rate if it differs from the scene files'.
+/// Names a group's shutter: `centred shutter`, with the frame rate if it differs from the scene
+/// files'.
 pub fn shutter_text(alignment: Alignment, rate: Option<FrameRate>) -> String {
     let rate = rate.map_or(String::new(), |rate| format!(", {}", rate.text()));
     format!("{alignment} shutter{rate}")
@@ -112,7 +115,8 @@ pub fn ranking_cells(
     [number(ranked.mean), interval, worst]
 }
 
-/// Makes the table of references: one row each, one column per shutter. The last row is the lag of the shutter's middle behind the frame.
+/// Makes the table of references: one row each, one column per shutter. The last row is the lag of
+/// the shutter's middle behind the frame.
 fn references_text(cases: &[Case], groups: &[Vec<RankedFilter>]) -> String {
     let references = || (list_summarized(cases).into_iter()).filter(|case| case.is_reference);
     let names = list_once(references().map(|case| case.name()));

@@ -26,8 +26,8 @@ const BY_SKILL: [Column; 4] = [
     ("FLIP*", Metric::CommonFlip),
 ];
 
-/// Makes the tables of means, best first: by FLIP among filters of one shutter alignment, by skill among all. Empty for a single
-/// scene.
+/// Makes the tables of means, best first: by FLIP among filters of one shutter alignment, by skill
+/// among all. Empty for a single scene.
 pub fn means_table(overall: &[Overall]) -> String {
     let groups = rank_filters(overall, Metric::FLIP);
     if groups.is_empty() {

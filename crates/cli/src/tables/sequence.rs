@@ -1,4 +1,5 @@
-//! Tables of sequences: a ranking of filters, and one row per filter and scene with all scores over time.
+//! Tables of sequences: a ranking of filters, and one row per filter and scene with all scores over
+//! time.
 
 use judge::{RANK_RULE, RANKED_BY, RankedSequence, rank_sequences, rank_sequences_on};
 use metrics::{SequenceMetric, SequenceScores};
@@ -28,8 +29,8 @@ const KEY: &str = "roots of squared errors, in thousandths of display white. Fli
                    dirt: error that stands still on the screen; JOD: quality by \
                    ColorVideoVDP, 10 at most, higher is better; ': after temporal anti-aliasing of filter and truth.";
 
-/// Makes the text about a run's sequences; empty without any. One scene gets its table of scores; several get a ranking of means over the
-/// scenes, and with `all` the scenes' tables after it.
+/// Makes the text about a run's sequences; empty without any. One scene gets its table of scores;
+/// several get a ranking of means over the scenes, and with `all` the scenes' tables after it.
 pub fn sequences_text(run: &Run, all: bool) -> String {
     let scenes = list_once(run.sequences.iter().map(|own| &own.scene));
     match scenes.len() {
@@ -72,7 +73,8 @@ fn ranking_table(run: &Run, scenes: usize) -> String {
     format!("\n{}{}", table.text(), legend_text(&notes))
 }
 
-/// Makes the tables of scenes: per shutter the references, then the filters by rank, then filters without a rank.
+/// Makes the tables of scenes: per shutter the references, then the filters by rank, then filters
+/// without a rank.
 fn sequence_table(run: &Run, scenes: &[&SceneId]) -> String {
     let mut table = score_columns(run.sequences[0].frames.len());
     for scene in scenes {

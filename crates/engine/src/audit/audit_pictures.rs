@@ -11,8 +11,9 @@ const ENLARGED: u32 = 5;
 /// Pixels between the parts.
 const GAP: u32 = 5;
 
-/// Writes three parts side by side, around a place: the engine's velocity, the right one, and their difference. Grey is no motion;
-/// more red is motion to the right, more green is motion downwards, and the longest right velocity of the picture is full colour.
+/// Writes three parts side by side, around a place: the engine's velocity, the right one, and their
+/// difference. Grey is no motion; more red is motion to the right, more green is motion downwards,
+/// and the longest right velocity of the picture is full colour.
 pub fn write_audit_picture(
     path: &Path,
     found: &Vectors,

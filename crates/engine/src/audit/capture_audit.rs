@@ -124,7 +124,8 @@ fn check_instant(capture: &Capture) -> Result<(), Error> {
     )
 }
 
-/// Words wrong depth; none for an object that the engine does not show. Without ids, nobody knows whether it draws the others there.
+/// Words wrong depth; none for an object that the engine does not show. Without ids, nobody knows
+/// whether it draws the others there.
 fn word_depth(wrong: Defect, shown: &Shown, has_ids: bool) -> Option<Defect> {
     match &wrong.object {
         Some(name) if shown.is_missed(name) => None,

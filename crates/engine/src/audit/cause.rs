@@ -50,7 +50,8 @@ pub enum Cause {
     ClippedAxes(f64),
     /// Steps of this many pixels.
     Steps(f64),
-    /// The motion over a part of a second instead of a frame of the exported animation: its denominator.
+    /// The motion over a part of a second instead of a frame of the exported animation: its
+    /// denominator.
     MotionOver(f64),
     /// Rows from the bottom.
     UpsideDown,
@@ -66,7 +67,8 @@ pub enum Cause {
     DepthScale(f64),
     /// The distance along the ray, not along the view axis.
     DepthAlongRay,
-    /// The near or far plane differs from the convention's: the true near plane is this many times as far.
+    /// The near or far plane differs from the convention's: the true near plane is this many times
+    /// as far.
     DepthPlanes(f64),
     /// The background's depth is only this many metres.
     DepthOfBackground(f64),
@@ -158,7 +160,8 @@ impl Cause {
         }
     }
 
-    /// Returns whether the cause would be wrong on every object that moves: a unit, a sign or an axis.
+    /// Returns whether the cause would be wrong on every object that moves: a unit, a sign or an
+    /// axis.
     pub(super) fn is_of_convention(self) -> bool {
         matches!(
             self,

@@ -22,7 +22,8 @@ pub fn select_judged(regions: &[ClearPixels]) -> Vec<&ClearPixels> {
     regions.iter().filter(is_judged).collect()
 }
 
-/// Selects each object's pixels with eight neighbours of the same object, if the engine shows the same there.
+/// Selects each object's pixels with eight neighbours of the same object, if the engine shows the
+/// same there.
 pub fn select_clear_pixels(
     right: &PointLayers,
     objects: usize,

@@ -9,7 +9,8 @@ use crate::audit::defect::{Buffer, Defect, Explanation};
 use crate::audit::views::render_view;
 use crate::statistics::median;
 
-/// Largest difference of an object's mean colour, relative to its brightest channel: texture filters differ.
+/// Largest difference of an object's mean colour, relative to its brightest channel: texture
+/// filters differ.
 const TOLERANCE: f64 = 0.05;
 /// Radiance that may be added to a correct colour: a step of 8 bits, on black.
 const DARKEST: f64 = 0.002;
@@ -33,7 +34,8 @@ impl ObjectColor {
     }
 }
 
-/// Compares the colour of each object with the scene's. Finds nothing in a lit scene: engines light as they like.
+/// Compares the colour of each object with the scene's. Finds nothing in a lit scene: engines light
+/// as they like.
 pub fn audit_color(
     found: &Image,
     scene: &Scene,

@@ -16,7 +16,8 @@ pub enum Buffer {
     Color,
     /// Objects at the pixels' centres.
     ObjectId,
-    /// All of them: the capture does not show the scene at its instant, and cannot be compared there.
+    /// All of them: the capture does not show the scene at its instant, and cannot be compared
+    /// there.
     Picture,
 }
 
@@ -31,7 +32,8 @@ pub struct Explanation {
     pub looks_like: Vec<Cause>,
     /// Part of the pixels that the cause explains.
     pub explained: f64,
-    /// True if a unit, sign or axis as wrong as this would make right objects wrong: it is not the convention's.
+    /// True if a unit, sign or axis as wrong as this would make right objects wrong: it is not the
+    /// convention's.
     pub convention_holds: bool,
 }
 

@@ -37,7 +37,8 @@ pub struct DepthPair<'a> {
     pub found: &'a Plane,
     /// The scene's.
     right: &'a PointLayers,
-    /// Near plane of a buffer that is not linear: such a buffer is coarse far away, and its planes may be wrong.
+    /// Near plane of a buffer that is not linear: such a buffer is coarse far away, and its planes
+    /// may be wrong.
     near: Option<f64>,
 }
 
@@ -52,7 +53,8 @@ impl<'a> DepthPair<'a> {
         }
     }
 
-    /// Returns whether two depths are within 1 % or within the rounding of the buffer, or both the background's.
+    /// Returns whether two depths are within 1 % or within the rounding of the buffer, or both the
+    /// background's.
     pub fn is_close(&self, found: f32, expected: f32) -> bool {
         let steps = (1.0 / f64::from(found) - 1.0 / f64::from(expected)).abs();
         let is_rounded = |near| steps * near <= BUFFER_ROUNDING;
@@ -74,7 +76,8 @@ impl<'a> DepthPair<'a> {
         }
     }
 
-    /// Finds what is wrong on clear pixels. Also returns where depth is right, or wrong by a known cause.
+    /// Finds what is wrong on clear pixels. Also returns where depth is right, or wrong by a known
+    /// cause.
     pub fn explain(
         &self,
         regions: &[ClearPixels],
@@ -147,7 +150,8 @@ impl<'a> DepthPair<'a> {
         (findings.collect(), explained)
     }
 
-    /// Lists causes, fitted to some pixels, with each one's depth; the simplest first. NaN allows any depth.
+    /// Lists causes, fitted to some pixels, with each one's depth; the simplest first. NaN allows
+    /// any depth.
     fn list_causes(
         &self,
         pixels: &[usize],

@@ -7,15 +7,18 @@ use frame::Vectors;
 use crate::audit::cause::Cause;
 use crate::statistics::median;
 
-/// Largest end-point error of a correct velocity, in pixels: rounding of half floats, and of an engine's own matrices.
+/// Largest end-point error of a correct velocity, in pixels: rounding of half floats, and of an
+/// engine's own matrices.
 pub(super) const TOLERANCE: f64 = 0.1;
 /// Smallest part of the velocities that a limit must cut.
 const LEAST_CUT: f64 = 0.02;
 /// Upper limit on the distinct numbers in a buffer of few bits.
 const MAX_STEPS: usize = 1024;
-/// Factors on the length between these are of no unit: pixels, parts of the picture and seconds differ by more.
+/// Factors on the length between these are of no unit: pixels, parts of the picture and seconds
+/// differ by more.
 const NO_UNIT: RangeInclusive<f64> = 0.8..=1.25;
-/// Largest offset that jitter makes, in pixels on each axis: the places of two frames differ by up to a pixel.
+/// Largest offset that jitter makes, in pixels on each axis: the places of two frames differ by up
+/// to a pixel.
 const LARGEST_JITTER: f64 = 1.0;
 /// Factor that counts as zero.
 const NO_SCALE: f64 = 1e-3;
@@ -67,8 +70,8 @@ pub fn find_offset(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Candid
     (Cause::Offset(offset), moved)
 }
 
-/// Lists causes of an object's velocity like [`fit_candidates`], without factors of no unit. An offset as small as jitter comes before
-/// limits and steps, which may look like it.
+/// Lists causes of an object's velocity like [`fit_candidates`], without factors of no unit. An
+/// offset as small as jitter comes before limits and steps, which may look like it.
 pub fn fit_to_object(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Vec<Candidate> {
     let mut candidates = fit_candidates(found, right, pixels);
     candidates.retain(|(cause, _)| !is_of_no_unit(cause));
@@ -125,7 +128,8 @@ fn list_cut(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Vec<Candidate
     shorter.into_iter().chain(within).collect()
 }
 
-/// Checks whether the numbers are on a grid of few steps, each next to the correct number; returns that grid's velocity.
+/// Checks whether the numbers are on a grid of few steps, each next to the correct number; returns
+/// that grid's velocity.
 fn find_steps(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Option<Candidate> {
     let count = |vectors: &Vectors, axis: usize| {
         let mut numbers: Vec<f32> = pixels.iter().map(|at| vectors.pixels[*at][axis]).collect();

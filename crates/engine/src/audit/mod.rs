@@ -1,4 +1,5 @@
-//! Audit of an engine's picture against the scene: velocity, depth, and colour if it does not depend on light.
+//! Audit of an engine's picture against the scene: velocity, depth, and colour if it does not
+//! depend on light.
 
 mod audit_pictures;
 mod capture_audit;

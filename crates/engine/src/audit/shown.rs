@@ -8,7 +8,8 @@ use crate::audit::clear_pixels::{
     ClearPixels, MIN_PIXELS, is_inside, neighbours, select_clear_pixels,
 };
 
-/// Part of the pixels with known depth that is needed to see, without ids, what the engine shows there.
+/// Part of the pixels with known depth that is needed to see, without ids, what the engine shows
+/// there.
 const LEAST_KNOWN: f64 = 0.3;
 
 /// Part of each object that must be in the scene's place, within a pixel at edges.
@@ -21,7 +22,8 @@ pub struct ObjectShown {
     pub object: String,
     /// Number of its pixels in the scene.
     pub pixels: usize,
-    /// Part of these pixels, and of those that the engine's ids assign to the object, on which both agree.
+    /// Part of these pixels, and of those that the engine's ids assign to the object, on which both
+    /// agree.
     pub shown: f64,
 }
 
@@ -43,7 +45,8 @@ pub struct Shown {
 }
 
 impl Shown {
-    /// Compares an engine's picture with the scene; `shows(from, at)` is true if its pixel `from` shows what the scene has at `at`.
+    /// Compares an engine's picture with the scene; `shows(from, at)` is true if its pixel `from`
+    /// shows what the scene has at `at`.
     pub fn compare(
         right: &PointLayers,
         ids: Option<&Raster<u32>>,
@@ -72,7 +75,8 @@ impl Shown {
     }
 }
 
-/// Counts the shown pixels of each object. At edges a neighbouring pixel counts, since two rasterisers may differ there.
+/// Counts the shown pixels of each object. At edges a neighbouring pixel counts, since two
+/// rasterisers may differ there.
 fn count_shown(
     right: &Raster<u32>,
     ids: Option<&Raster<u32>>,

@@ -29,13 +29,14 @@ pub struct Search<'a> {
     pub expected: &'a ExpectedMotion,
     /// Objects with the right velocity.
     pub right: Vec<&'a ClearPixels>,
-    /// True if one of them moves. Then objects may lack a part of their motion, and factors look like it by chance.
+    /// True if one of them moves. Then objects may lack a part of their motion, and factors look
+    /// like it by chance.
     pub some_move_right: bool,
 }
 
 impl Search<'_> {
-    /// Finds one cause for all wrong objects, which leaves the others unchanged, or a cause for each. `judged` are all objects;
-    /// wrong ones have names.
+    /// Finds one cause for all wrong objects, which leaves the others unchanged, or a cause for
+    /// each. `judged` are all objects; wrong ones have names.
     pub fn explain(&self, judged: &[&ClearPixels], wrong: &[(&ClearPixels, &str)]) -> Vec<Defect> {
         let pixels: Vec<usize> = (wrong.iter())
             .flat_map(|(region, _)| region.pixels.iter().copied())
@@ -93,7 +94,8 @@ impl Search<'_> {
         self.explain_parts(pixels, name, None, &is_structural)
     }
 
-    /// Finds the cause of an object's wrong velocity: one for all of it, or one for its wrong pixels.
+    /// Finds the cause of an object's wrong velocity: one for all of it, or one for its wrong
+    /// pixels.
     fn explain_object(&self, pixels: &[usize], name: &str) -> Defect {
         let structure = self
             .some_move_right
@@ -172,7 +174,8 @@ fn turn_back(found: &Vectors, turn: Option<Cause>) -> Vectors {
     found.map(|vector| turn.map_or(*vector, |turn| turn.apply(*vector)))
 }
 
-/// Finds the first cause that explains the most, and equally good ones. After a turn, the cause is not another turn.
+/// Finds the first cause that explains the most, and equally good ones. After a turn, the cause is
+/// not another turn.
 fn find_cause<'a>(
     candidates: impl Iterator<Item = &'a Candidate>,
     turned: Option<Cause>,
@@ -187,7 +190,8 @@ fn find_cause<'a>(
     let most = shares.iter().map(|(_, share)| *share).fold(0.0, f64::max);
     let mut best = (shares.into_iter()).filter(|(_, share)| *share >= most - LOOKS_SAME);
     let (cause, explained) = best.next()?;
-    // A fitted number explains what a word explains; that is no other cause. One missing motion is enough.
+    // A fitted number explains what a word explains; that is no other cause. One missing motion is
+    // enough.
     let mut is_missing = cause.is_missing_motion();
     let is_other = |cause: &Cause| {
         let is_known = is_missing && cause.is_missing_motion();

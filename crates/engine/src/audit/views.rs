@@ -41,7 +41,8 @@ struct Tally {
 }
 
 impl Tally {
-    /// Counts pixels that show the correct view, the other one, or neither. Pixels that show both do not count.
+    /// Counts pixels that show the correct view, the other one, or neither. Pixels that show both
+    /// do not count.
     fn of(pixels: impl Iterator<Item = [bool; 2]>) -> Self {
         let distinct = pixels.filter(|[right, other]| !(*right && *other));
         distinct.fold(Self::default(), |tally, [right, other]| Self {
@@ -61,7 +62,8 @@ impl Tally {
     }
 }
 
-/// Checks whether the buffers of a capture show another view than the scene's at its instant: all of them, or one by one.
+/// Checks whether the buffers of a capture show another view than the scene's at its instant: all
+/// of them, or one by one.
 pub fn find_other_views(
     capture: &Capture,
     depth: &DepthPair,
@@ -136,8 +138,8 @@ fn tally<T>(found: &Raster<T>, views: [&Raster<T>; 2], is_same: impl Fn(&T, &T) 
     }))
 }
 
-/// Counts what colour shows. Since engines light as they like, light is fitted to the whole picture and to each object; the more decisive
-/// fit counts.
+/// Counts what colour shows. Since engines light as they like, light is fitted to the whole picture
+/// and to each object; the more decisive fit counts.
 fn tally_colors(found: &Image, right: &View, view: &View) -> Tally {
     let whole = [right, view].map(|shown| {
         let places: Vec<usize> = (0..found.pixels.len()).collect();
@@ -162,8 +164,8 @@ fn tally_colors(found: &Image, right: &View, view: &View) -> Tally {
     }
 }
 
-/// Lights the objects of two views as in a picture: each by its pixels where both views look the same or, with too few, by its pixels in
-/// each view.
+/// Lights the objects of two views as in a picture: each by its pixels where both views look the
+/// same or, with too few, by its pixels in each view.
 fn light_objects(found: &Image, right: &View, view: &View) -> [Image; 2] {
     let objects = right.object_id.pixels.iter().chain(&view.object_id.pixels);
     let last = objects.max().copied().unwrap_or(0) as usize;

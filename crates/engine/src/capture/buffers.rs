@@ -33,7 +33,8 @@ pub fn find_picture(folder: &Path, stem: &str) -> Result<Option<PathBuf>, Error>
     find_file(folder, stem, &COLOR_ENDINGS)
 }
 
-/// Finds the file of another buffer: its own, or one of several buffers that has its channel. None if there is neither.
+/// Finds the file of another buffer: its own, or one of several buffers that has its channel. None
+/// if there is neither.
 pub fn find_buffer(folder: &Path, stem: &str, channel: &str) -> Result<Option<PathBuf>, Error> {
     let own = find_file(folder, stem, &BUFFER_ENDINGS)?;
     if own.is_some() {
@@ -77,7 +78,8 @@ pub struct Color {
     pub note: Option<String>,
 }
 
-/// Reads colour as scene-linear radiance. A PNG is decoded from sRGB, and the capture's display exposure undone.
+/// Reads colour as scene-linear radiance. A PNG is decoded from sRGB, and the capture's display
+/// exposure undone.
 pub fn read_color(
     path: &Path,
     convention: &Convention,
@@ -185,7 +187,8 @@ pub fn read_depth(
 /// Names of a channel of object ids, in a file with colours or alone.
 const OBJECT_CHANNELS: [&str; 2] = ["object", "object.id"];
 
-/// Reads object ids; 0 is the background, which the file may store as 0, as -1, or as the largest unsigned integer.
+/// Reads object ids; 0 is the background, which the file may store as 0, as -1, or as the largest
+/// unsigned integer.
 pub fn read_objects(path: &Path, description: &CaptureDescription) -> Result<Raster<u32>, Error> {
     let file = open(path, description, "object")?;
     let names = [OBJECT_CHANNELS[0], OBJECT_CHANNELS[1], "R"];

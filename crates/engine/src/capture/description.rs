@@ -47,7 +47,8 @@ pub struct CaptureDescription {
     pub subframes: Option<usize>,
     /// Display exposure of the pictures, in stops; by default the scene's, or 0.
     pub stops: Option<f32>,
-    /// Layouts of raw dumps by buffer; that of `color` is for the blurred picture and the sub-frames too.
+    /// Layouts of raw dumps by buffer; that of `color` is for the blurred picture and the
+    /// sub-frames too.
     #[serde(default)]
     pub raw: BTreeMap<String, RawLayout>,
 }

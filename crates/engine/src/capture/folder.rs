@@ -36,13 +36,15 @@ pub struct Capture {
     pub velocity: Vectors,
     /// The same from the instant to one frame later, if the capture has it.
     pub velocity_next: Option<Vectors>,
-    /// Change of depth over the interval of `velocity`, in metres per frame; above 0 moves away. None where the capture has none.
+    /// Change of depth over the interval of `velocity`, in metres per frame; above 0 moves away.
+    /// None where the capture has none.
     pub velocity_z: Option<Plane>,
     /// 1 where the blur must not change the picture, 0 elsewhere; none if the capture has no mask.
     pub exclusion: Option<Plane>,
     /// Distance along the view axis in metres; [`frame::FAR_DEPTH`] where nothing is visible.
     pub depth: Plane,
-    /// Object at each pixel's centre, numbered as in an exported manifest; 0 is the background. None if the capture has no ids.
+    /// Object at each pixel's centre, numbered as in an exported manifest; 0 is the background.
+    /// None if the capture has no ids.
     pub object_id: Option<Raster<u32>>,
     /// The engine's own blurred picture.
     pub blurred: Option<Image>,
@@ -53,7 +55,8 @@ pub struct Capture {
 }
 
 impl Capture {
-    /// Reads a capture without its sub-frames. Takes the convention from the named file, or else from `engine.toml` in the folder.
+    /// Reads a capture without its sub-frames. Takes the convention from the named file, or else
+    /// from `engine.toml` in the folder.
     pub fn read(folder: &Path, convention: Option<&Path>) -> Result<Self, Error> {
         if !folder.is_dir() {
             return refuse!(

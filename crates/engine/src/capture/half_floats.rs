@@ -5,8 +5,8 @@ use half::f16;
 /// Smallest part of the numbers that are between halves if they were stored as floats.
 const LEAST_BETWEEN: f64 = 1e-3;
 
-/// Returns whether numbers came from half floats, in the file or in a texture of the engine that was read back as floats. Numbers that are
-/// all alike may be either.
+/// Returns whether numbers came from half floats, in the file or in a texture of the engine that
+/// was read back as floats. Numbers that are all alike may be either.
 pub fn are_halves(numbers: impl Iterator<Item = f32>) -> bool {
     let (mut all, mut between, mut fractional) = (0_u64, 0_u64, 0_u64);
     for number in numbers {

@@ -1,4 +1,5 @@
-//! Captures: an engine's pictures of one instant, and of the shutter around it, in a folder of files.
+//! Captures: an engine's pictures of one instant, and of the shutter around it, in a folder of
+//! files.
 
 pub mod buffers;
 pub mod description;

@@ -1,4 +1,5 @@
-//! Raw dumps: the numbers of a buffer as an engine's memory has them, with a layout from `capture.toml`.
+//! Raw dumps: the numbers of a buffer as an engine's memory has them, with a layout from
+//! `capture.toml`.
 
 use std::collections::BTreeSet;
 use std::path::Path;

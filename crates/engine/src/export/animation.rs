@@ -32,8 +32,8 @@ impl<'a> Channels<'a> {
         }
     }
 
-    /// Adds a node in its pose at the start of the timeline, and a channel for each part of its pose that changes; refuses turns that
-    /// are too fast or need too many keys.
+    /// Adds a node in its pose at the start of the timeline, and a channel for each part of its
+    /// pose that changes; refuses turns that are too fast or need too many keys.
     pub fn push_node(&mut self, mut node: Value, motion: &Motion) -> Result<usize, String> {
         let Tracks {
             translation,
@@ -60,8 +60,8 @@ impl<'a> Channels<'a> {
         Ok(node)
     }
 
-    /// Adds the weights of a node's morph targets: interpolated between two shapes, and extrapolated beyond the ends, so that one weight
-    /// there is below 0 or above 1.
+    /// Adds the weights of a node's morph targets: interpolated between two shapes, and
+    /// extrapolated beyond the ends, so that one weight there is below 0 or above 1.
     pub fn add_shapes(&mut self, node: usize, shapes: &[Shape]) {
         let times = self.timeline.cut(shapes.iter().map(|shape| shape.time));
         let weights: Vec<[f32; 1]> = (times.iter())

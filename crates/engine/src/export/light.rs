@@ -17,7 +17,8 @@ pub const SUN_EXTENSION: &str = "KHR_lights_punctual";
 /// Columns and rows of a sky without a picture.
 const SIZE: (u32, u32) = (512, 256);
 
-/// Describes the sun as a directional light. Its intensity, in lux there, is the irradiance on a surface that faces it.
+/// Describes the sun as a directional light. Its intensity, in lux there, is the irradiance on a
+/// surface that faces it.
 pub fn sun_light(sun: &Sun) -> Value {
     let strength = sun.irradiance.max_element();
     let color = if strength > 0.0 {
@@ -45,8 +46,8 @@ pub fn push_sun(document: &mut Document, sun: &Sun) -> usize {
     document.push("nodes", node)
 }
 
-/// Writes the radiance of every direction by longitude and latitude: the middle of the picture is towards -Z, its right quarter towards
-/// +X, its top towards +Y.
+/// Writes the radiance of every direction by longitude and latitude: the middle of the picture is
+/// towards -Z, its right quarter towards +X, its top towards +Y.
 pub fn write_sky(background: &Background, path: &Path) -> Result<(), FileError> {
     let (width, height) = match background {
         Background::Map(map) => (map.width, map.height),

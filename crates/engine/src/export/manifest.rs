@@ -39,9 +39,11 @@ pub struct Manifest {
     pub exposure: f64,
     /// Animation times of the shutter's opening and closing, by its alignment.
     pub shutter: BTreeMap<&'static str, [f64; 2]>,
-    /// Animation times of the sub-frames, by the shutter's alignment: the midpoints of equal parts of it.
+    /// Animation times of the sub-frames, by the shutter's alignment: the midpoints of equal parts
+    /// of it.
     pub subframes: BTreeMap<&'static str, Vec<f64>>,
-    /// True if the shutter does not open and close at once in all rows together, as the shutter's times assume.
+    /// True if the shutter does not open and close at once in all rows together, as the shutter's
+    /// times assume.
     pub has_shutter_profile: bool,
     /// Vertical field of view in degrees.
     pub vertical_fov: f64,
@@ -53,7 +55,8 @@ pub struct Manifest {
     pub sun_irradiance: Option<[f32; 3]>,
     /// Angular radius of the sun in degrees; 0 casts sharp shadows.
     pub sun_angular_radius: Option<f64>,
-    /// Radiance of every direction, OpenEXR: its middle is towards -Z, its right quarter towards +X, its top towards +Y.
+    /// Radiance of every direction, OpenEXR: its middle is towards -Z, its right quarter towards
+    /// +X, its top towards +Y.
     pub sky: &'static str,
     /// Radiance of the sky if it is the same in all directions.
     pub sky_constant: Option<[f32; 3]>,

@@ -11,7 +11,8 @@ use crate::export::textures::Textures;
 /// Opacity below which a surface has a hole.
 const HOLE: f32 = 0.5;
 
-/// Adds a material. A translucent one blends; glass and filters transmit with the colour of the light that passes.
+/// Adds a material. A translucent one blends; glass and filters transmit with the colour of the
+/// light that passes.
 pub fn push_material(
     document: &mut Document,
     textures: &mut Textures,
@@ -67,8 +68,9 @@ pub fn push_material(
     Ok(document.push("materials", entry))
 }
 
-/// Describes properties that need an extension. Glass and filters without reflection have the index of refraction 1. A diffuse material
-/// has no specular reflection at all: without `KHR_materials_specular` a dielectric of index 1.5 reflects 4 %.
+/// Describes properties that need an extension. Glass and filters without reflection have the index
+/// of refraction 1. A diffuse material has no specular reflection at all: without
+/// `KHR_materials_specular` a dielectric of index 1.5 reflects 4 %.
 fn describe_extensions(material: &Material, clear: Option<Translucency>, strength: f32) -> Value {
     let index = match (clear, material.finish) {
         (Some(clear), _) => Some(clear.glass.unwrap_or(1.0)),

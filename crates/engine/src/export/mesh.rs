@@ -8,7 +8,8 @@ use tracer::{Mesh, Shape};
 
 use crate::export::document::{Document, VERTICES};
 
-/// Adds a mesh with a material per slot. Shapes become morph targets: their differences from the first.
+/// Adds a mesh with a material per slot. Shapes become morph targets: their differences from the
+/// first.
 pub fn push_mesh(document: &mut Document, name: &str, mesh: &Mesh, materials: &[usize]) -> usize {
     let mut groups: BTreeMap<(u32, bool), Vec<[u32; 3]>> = BTreeMap::new();
     for (triangle, slot) in mesh.triangles.iter().zip(&mesh.slots) {
@@ -28,7 +29,8 @@ pub fn push_mesh(document: &mut Document, name: &str, mesh: &Mesh, materials: &[
     document.push("meshes", mesh)
 }
 
-/// Returns whether a vertex has a normal in every shape. Without one the tracer uses the facet's, as glTF does.
+/// Returns whether a vertex has a normal in every shape. Without one the tracer uses the facet's,
+/// as glTF does.
 fn has_normal(mesh: &Mesh, vertex: u32) -> bool {
     let is_given = |normals: &[Vec3]| {
         (normals.get(vertex as usize)).is_some_and(|normal| *normal != Vec3::ZERO)

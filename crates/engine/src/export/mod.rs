@@ -1,8 +1,9 @@
 //! Scenes for other programs: glTF 2.0, one folder per scene.
 //!
-//! An engine that plays the animation draws the scene that the tracer renders, so that the errors of its frames and its blur can be
-//! measured. [`export_gltf`] writes `scene.gltf` with `scene.bin` and textures, the sky as `sky.exr`, and `manifest.json`, which adds what
-//! glTF cannot express: times of the shutter, object ids, and the meaning of the numbers.
+//! An engine that plays the animation draws the scene that the tracer renders, so that the errors
+//! of its frames and its blur can be measured. [`export_gltf`] writes `scene.gltf` with `scene.bin`
+//! and textures, the sky as `sky.exr`, and `manifest.json`, which adds what glTF cannot express:
+//! times of the shutter, object ids, and the meaning of the numbers.
 
 mod animation;
 mod document;

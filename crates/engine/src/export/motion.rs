@@ -22,7 +22,8 @@ pub struct Track<const N: usize> {
     pub is_still: bool,
     /// Times of keys, in frames relative to the instant.
     pub times: Vec<f64>,
-    /// Values at the keys; for cubic curves the slope before the key, per second, the value, and the slope after it.
+    /// Values at the keys; for cubic curves the slope before the key, per second, the value, and
+    /// the slope after it.
     pub values: Vec<[f32; N]>,
     /// Name of the curves between keys.
     pub interpolation: &'static str,
@@ -87,7 +88,8 @@ fn follow_linear(times: &[f64], value: &dyn Fn(f64) -> DVec3) -> Track<3> {
     }
 }
 
-/// Samples a curve that is a cubic polynomial between each two times: its value at four times gives the slopes at both ends.
+/// Samples a curve that is a cubic polynomial between each two times: its value at four times gives
+/// the slopes at both ends.
 fn follow_cubic(times: &[f64], value: &dyn Fn(f64) -> DVec3) -> Track<3> {
     let mut values: Vec<[f32; 3]> = (times.iter())
         .flat_map(|time| [[0.0; 3], floats(value(*time)), [0.0; 3]])
@@ -116,9 +118,10 @@ fn follow_cubic(times: &[f64], value: &dyn Fn(f64) -> DVec3) -> Track<3> {
     }
 }
 
-/// Samples a turn with keys so dense that both ways of players are the turn's own: the shorter way at a constant angular velocity, as
-/// glTF says, and quaternions interpolated by components, as in Blender. Between two times the turn is at most as fast as `fastest`
-/// of them, in radians per frame.
+/// Samples a turn with keys so dense that both ways of players are the turn's own: the shorter way
+/// at a constant angular velocity, as glTF says, and quaternions interpolated by components, as in
+/// Blender. Between two times the turn is at most as fast as `fastest` of them, in radians per
+/// frame.
 fn follow_turns(
     times: &[f64],
     rotation: &dyn Fn(f64) -> DQuat,

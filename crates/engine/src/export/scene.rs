@@ -22,11 +22,12 @@ use crate::files::write_json;
 /// Nearest visible depth, in metres: glTF requires one, the tracer has none.
 const NEAR: f64 = 0.01;
 
-/// Exports a scene to a folder, which is created if missing. `origin` is the folder that the scene was loaded from, or one next to it, and
-/// `program` names the writer. The manifest lists the times of so many `subframes`.
+/// Exports a scene to a folder, which is created if missing. `origin` is the folder that the scene
+/// was loaded from, or one next to it, and `program` names the writer. The manifest lists the times
+/// of so many `subframes`.
 ///
-/// Node 0 is the camera, node `id` the object with this id, and the last one the sun, if there is one. The animation plays
-/// 24 frames per second; [`Timeline`] contains the time of the instant.
+/// Node 0 is the camera, node `id` the object with this id, and the last one the sun, if there is
+/// one. The animation plays 24 frames per second; [`Timeline`] contains the time of the instant.
 pub fn export_gltf(
     scene: &Scene,
     origin: &Location,
@@ -140,7 +141,8 @@ fn push_meshes(document: &mut Document, scene: &Scene) -> Vec<usize> {
     objects.collect()
 }
 
-/// Lists the extensions that the document uses. None is required: a reader that lacks one shows different light or gloss.
+/// Lists the extensions that the document uses. None is required: a reader that lacks one shows
+/// different light or gloss.
 fn list_extensions(document: &Document, scene: &Scene) -> Option<BTreeSet<String>> {
     let materials = document.list("materials").iter();
     let own = materials.filter_map(|material| material["extensions"].as_object());

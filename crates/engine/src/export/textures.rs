@@ -35,8 +35,8 @@ impl<'a> Textures<'a> {
         }
     }
 
-    /// Adds the texture of a colour, multiplied by a tint, of an opacity or of both; returns its index in the document, or none for
-    /// neither.
+    /// Adds the texture of a colour, multiplied by a tint, of an opacity or of both; returns its
+    /// index in the document, or none for neither.
     pub fn add(
         &mut self,
         document: &mut Document,
@@ -66,8 +66,9 @@ impl<'a> Textures<'a> {
         Ok((format!("{texture}_{}", plain_name(&name)), bytes))
     }
 
-    /// Makes the file of a texture from one file's colour and another's alpha, since glTF has one file for both, and from a tint. It has
-    /// the size of the larger one; the smaller one is sampled at the nearest texel.
+    /// Makes the file of a texture from one file's colour and another's alpha, since glTF has one
+    /// file for both, and from a tint. It has the size of the larger one; the smaller one is
+    /// sampled at the nearest texel.
     fn join(&self, textures: [Option<usize>; 2], tint: Vec3) -> (String, Vec<u8>) {
         let [color, opacity] = textures.map(|it| it.map(|index| &self.scene.textures[index]));
         let both = || [color, opacity].into_iter().flatten();

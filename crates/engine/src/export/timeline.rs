@@ -5,10 +5,12 @@ use tracer::Scene;
 /// Frames per second of every animation.
 pub const FRAMES_PER_SECOND: f64 = 24.0;
 
-/// Smallest number of frames before and after the instant: the previous frame, and a shutter that is open for a whole frame.
+/// Smallest number of frames before and after the instant: the previous frame, and a shutter that
+/// is open for a whole frame.
 const LEAST_REACH: f64 = 2.0;
 
-/// Part of a scene's time in an animation. Players hold still before its first key and after its last, so it reaches beyond every shutter.
+/// Part of a scene's time in an animation. Players hold still before its first key and after its
+/// last, so it reaches beyond every shutter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Timeline {
     /// Whole frames before and after the instant.
@@ -16,7 +18,8 @@ pub struct Timeline {
 }
 
 impl Timeline {
-    /// Makes a timeline that includes every shutter of a scene, in any alignment, and the frame before the instant.
+    /// Makes a timeline that includes every shutter of a scene, in any alignment, and the frame
+    /// before the instant.
     pub fn of(scene: &Scene) -> Self {
         let shutter = scene.exposure + scene.shutter_profile.rolling.abs();
         Self {

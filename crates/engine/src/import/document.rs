@@ -16,7 +16,8 @@ const VIEW: [f64; 2] = [25.0, 15.0];
 /// Part of the picture's height that the ball around the model fills.
 const FILLED: f64 = 0.75;
 
-/// Writes the whole text. The world's origin is below the model's middle, on the stand's upper face.
+/// Writes the whole text. The world's origin is below the model's middle, on the stand's upper
+/// face.
 pub fn scene_toml(plan: &ImportPlan, model: &Model) -> String {
     let half_fov = (0.5 * VERTICAL_FOV).to_radians();
     let distance = model.radius() / (FILLED * half_fov.sin());
@@ -113,7 +114,8 @@ fn stand_motion(spin: Option<f64>, slide: Option<f64>) -> String {
     format!("keys = [\n{}{}]\n", key(-1.0), key(1.0))
 }
 
-/// Returns the point at a distance from the model's middle towards a camera that is `around` degrees to the side.
+/// Returns the point at a distance from the model's middle towards a camera that is `around`
+/// degrees to the side.
 fn from_camera(around: f64, distance: f64) -> [f64; 3] {
     let [around, above] = [around, VIEW[1]].map(f64::to_radians);
     [

@@ -1,4 +1,5 @@
-//! Import of an OBJ file as a scene folder: the model on a stand, floor and wall, a camera framed on it, and motion.
+//! Import of an OBJ file as a scene folder: the model on a stand, floor and wall, a camera framed
+//! on it, and motion.
 
 mod document;
 mod model;

@@ -1,4 +1,5 @@
-//! Set of an imported scene: stand, floor and wall, all patterned, so that blur over them is visible.
+//! Set of an imported scene: stand, floor and wall, all patterned, so that blur over them is
+//! visible.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -62,7 +63,8 @@ fn plane(material: &str, half: f64, radius: f64) -> String {
     )
 }
 
-/// Writes a disc of alternating colours around the origin, with its upper face at height 0, wide enough for the model in any rotation.
+/// Writes a disc of alternating colours around the origin, with its upper face at height 0, wide
+/// enough for the model in any rotation.
 fn stand(model: &Model) -> String {
     let half = model.half_size();
     let disc = 1.1 * half.x.hypot(half.z).max(0.25 * model.radius());

@@ -32,16 +32,18 @@ pub struct Ingested {
     pub truth: Option<Truth>,
     /// Part of the pixels where anything moves, by colour or velocity; none without a truth.
     pub moving: Option<f64>,
-    /// Part of the pixels that change between sub-frames although no velocity reaches them: by noise, shadows, or wrong velocity.
+    /// Part of the pixels that change between sub-frames although no velocity reaches them: by
+    /// noise, shadows, or wrong velocity.
     pub restless: f64,
-    /// Radiance of the engine's blurred picture relative to the truth, or to the frame without a truth: the median over pixels that no
-    /// velocity reaches. 1 for a blur that neither adds nor removes light; none without a picture, or if no lit pixel is still.
+    /// Radiance of the engine's blurred picture relative to the truth, or to the frame without a
+    /// truth: the median over pixels that no velocity reaches. 1 for a blur that neither adds nor
+    /// removes light; none without a picture, or if no lit pixel is still.
     pub gain: Option<f64>,
 }
 
-/// Writes the frame of a capture, the truth of its sub-frames and the engine's own blurred picture into the folder `out`, which names the
-/// scene. The pictures are shown and compared at the exposures of `display`; `names` are the object names of the scene that the engine
-/// drew.
+/// Writes the frame of a capture, the truth of its sub-frames and the engine's own blurred picture
+/// into the folder `out`, which names the scene. The pictures are shown and compared at the
+/// exposures of `display`; `names` are the object names of the scene that the engine drew.
 pub fn ingest(
     capture: &Capture,
     (display, names): (Display, Option<Vec<String>>),
@@ -125,7 +127,8 @@ fn write_files(
     Ok(written)
 }
 
-/// Returns the median ratio of two pictures' radiance over the pixels that are not left out; none where the second one is black.
+/// Returns the median ratio of two pictures' radiance over the pixels that are not left out; none
+/// where the second one is black.
 fn median_ratio(picture: &Image, other: &Image, left_out: &Raster<bool>) -> Option<f64> {
     let radiance = |pixel: &[f32; 3]| pixel.iter().map(|value| f64::from(*value)).sum::<f64>();
     let pairs = picture.pixels.iter().zip(&other.pixels);

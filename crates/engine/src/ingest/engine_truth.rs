@@ -1,4 +1,5 @@
-//! The truth of an engine's sub-frames: their mean, its noise, and the ladder of means of fewer of them.
+//! The truth of an engine's sub-frames: their mean, its noise, and the ladder of means of fewer of
+//! them.
 
 use frame::{
     Accumulation, Alignment, AtInstant, Ladder, Picture, Plane, Provenance, Raster, Replicate,
@@ -19,8 +20,8 @@ const MIN_SUBFRAMES: usize = 4;
 const MAX_SUBFRAMES: usize = 4096;
 /// Halves of the truth, from alternate sub-frames.
 const HALVES: usize = 2;
-/// Smallest ratio of the truth's sub-frames to an accumulation's that is compared with it: a mean of nearly as many would share the
-/// truth's errors.
+/// Smallest ratio of the truth's sub-frames to an accumulation's that is compared with it: a mean
+/// of nearly as many would share the truth's errors.
 const TRUTH_PER_MEAN: usize = 4;
 /// Provenance of pictures that were not traced.
 pub(super) const NOT_TRACED: &str = "none";
@@ -36,7 +37,8 @@ pub struct EngineTruth {
     pub restless: f64,
 }
 
-/// Averages the sub-frames of a capture, if it has any: even ones into one half of the truth, odd ones into the other.
+/// Averages the sub-frames of a capture, if it has any: even ones into one half of the truth, odd
+/// ones into the other.
 pub fn average_subframes(
     capture: &Capture,
     (shutter, alignment): (Shutter, Alignment),
@@ -98,7 +100,8 @@ pub fn average_subframes(
     }))
 }
 
-/// Makes the rungs of the ladder from the halves of means of sub-frames, each less its own half of the truth.
+/// Makes the rungs of the ladder from the halves of means of sub-frames, each less its own half of
+/// the truth.
 fn subtract_truth(means: &[(u32, Halves)], truth: &Halves) -> Vec<Accumulation> {
     let rung = |(subframes, halves): &(u32, Halves)| Accumulation {
         subframes: *subframes,
@@ -132,8 +135,8 @@ pub fn check_subframe_count(count: usize) -> Result<(), String> {
     }
 }
 
-/// Picks the sub-frames for the midpoints of `parts` equal parts of the shutter. A midpoint is between two of them: one half uses the
-/// earlier, the other the later.
+/// Picks the sub-frames for the midpoints of `parts` equal parts of the shutter. A midpoint is
+/// between two of them: one half uses the earlier, the other the later.
 fn pick_subframes(parts: u32, count: usize, half: usize) -> Vec<usize> {
     let doubled_parts = 2 * parts as usize;
     let picks = (0..parts as usize).map(|part| {
@@ -167,8 +170,8 @@ struct Mean {
     halves: [Sum; HALVES],
 }
 
-/// Reads every sub-frame once, with the shares of the objects. Returns the halves of the mean of all, those of the means of fewer, with
-/// their numbers of sub-frames, and the range of colours.
+/// Reads every sub-frame once, with the shares of the objects. Returns the halves of the mean of
+/// all, those of the means of fewer, with their numbers of sub-frames, and the range of colours.
 fn read_subframes(
     capture: &Capture,
     objects: usize,
@@ -261,7 +264,8 @@ mod tests {
                 let places = halves.each_ref().map(|picks| picks[part] as f64 + 0.5);
                 let middle = 0.5 * (places[0] + places[1]) / count as f64;
                 let expected = (part as f64 + 0.5) / f64::from(parts);
-                // If the parts are no whole number of sub-frames, the nearest is at most half of one away.
+                // If the parts are no whole number of sub-frames, the nearest is at most half of
+                // one away.
                 assert!(
                     (middle - expected).abs() <= 0.5 / count as f64 + 1e-12,
                     "{parts} of {count}: {halves:?}"

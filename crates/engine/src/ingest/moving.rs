@@ -1,8 +1,10 @@
-//! Pixels where anything moves while an engine's shutter is open, judged by its colours and its velocity.
+//! Pixels where anything moves while an engine's shutter is open, judged by its colours and its
+//! velocity.
 
 use frame::{Image, Raster, Shutter, Vectors};
 
-/// Smallest change of a displayed colour between sub-frames that counts as motion: two steps of 8 bits.
+/// Smallest change of a displayed colour between sub-frames that counts as motion: two steps of 8
+/// bits.
 const LEAST_CHANGE: f32 = 2.0 / 255.0;
 /// Smallest motion while the shutter is open, in pixels.
 const LEAST_MOTION: f32 = 0.1;
@@ -75,8 +77,8 @@ fn encode(radiance: f32, stops: f32) -> f32 {
     (radiance.max(0.0) * stops.exp2()).powf(1.0 / 2.2)
 }
 
-/// Returns the 99th percentile of the moving pixels' speed, in pixels per frame; 0 if nothing moves. Some engines leave absurd velocities
-/// in a few pixels.
+/// Returns the 99th percentile of the moving pixels' speed, in pixels per frame; 0 if nothing
+/// moves. Some engines leave absurd velocities in a few pixels.
 pub fn usual_top_speed(velocity: &Vectors) -> f64 {
     let speeds = velocity.pixels.iter().map(|[x, y]| x.hypot(*y));
     let mut moving: Vec<f32> = speeds.filter(|speed| *speed >= LEAST_MOTION).collect();
@@ -111,7 +113,8 @@ mod tests {
             |changed: f32| Raster::from_fn(8, 1, |x, _| [if x == 7 { changed } else { 0.5 }; 3]);
         range.add(&color(0.5));
         range.add(&color(0.6));
-        // Two pixels to the right per frame, with the shutter open for one frame before the instant.
+        // Two pixels to the right per frame, with the shutter open for one frame before the
+        // instant.
         let velocity = Raster::from_fn(8, 1, |x, _| [if x == 4 { 2.0 } else { 0.0 }, 0.0]);
         let shutter = Alignment::Trailing.shutter(1.0).unwrap();
         let marks = |marks: Raster<bool>| -> String {

@@ -11,8 +11,9 @@ const BACKGROUND: &str = "background";
 /// Upper limit on objects: each needs memory in every picture.
 const MAX_OBJECTS: usize = 64;
 
-/// Names the objects by their ids: as in the scene that the engine drew, or by their numbers. Only the background if the frame or its
-/// sub-frames have no ids: then nobody knows what the open shutter saw.
+/// Names the objects by their ids: as in the scene that the engine drew, or by their numbers. Only
+/// the background if the frame or its sub-frames have no ids: then nobody knows what the open
+/// shutter saw.
 pub fn name_objects(capture: &Capture, known: Option<Vec<String>>) -> Result<Vec<String>, Error> {
     let Some(ids) = &capture.object_id else {
         return Ok(vec![BACKGROUND.to_owned()]);

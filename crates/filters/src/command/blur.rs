@@ -22,7 +22,8 @@ pub const BESIDE_PIXELS: u64 = 1 << 20;
 
 /// A filter that is a program, ready to run on images of one size.
 ///
-/// Programs run one at a time. On Linux, every process that this one starts while a program runs ends with the program.
+/// Programs run one at a time. On Linux, every process that this one starts while a program runs
+/// ends with the program.
 #[derive(Debug)]
 pub struct CommandBlur {
     filter: Filter,
@@ -163,7 +164,8 @@ impl CommandBlur {
         )
     }
 
-    /// Refuses anything but a regular file of bounded size. The program has ended, so nothing can replace the file.
+    /// Refuses anything but a regular file of bounded size. The program has ended, so nothing can
+    /// replace the file.
     fn check_file(&self, out: &Path) -> Result<(), String> {
         let Ok(found) = std::fs::symlink_metadata(out) else {
             return Err(

@@ -26,8 +26,8 @@ const PASSED_ON_WINDOWS: [&str; 8] = [
     "windir",
 ];
 
-/// Collects the variables of this process that a program gets: those above, languages and formats such as `LC_ALL`, and those that are
-/// `named`.
+/// Collects the variables of this process that a program gets: those above, languages and formats
+/// such as `LC_ALL`, and those that are `named`.
 pub(crate) fn collect_environment(named: &[String]) -> Vec<(OsString, OsString)> {
     let on_windows = PASSED_ON_WINDOWS.into_iter().filter(|_| cfg!(windows));
     let known = PASSED.into_iter().chain(on_windows);

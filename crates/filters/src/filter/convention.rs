@@ -13,12 +13,13 @@ pub(crate) const CONVENTION_VALUES: [&str; 5] = [
     "color_scale",
 ];
 
-/// Form in which an engine has its textures. The default is the form of frames: velocity in pixels per frame, +x
-/// right, +y down, and depth in metres.
+/// Form in which an engine has its textures. The default is the form of frames: velocity in pixels
+/// per frame, +x right, +y down, and depth in metres.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Convention {
-    /// Corner of the picture where texels, texture coordinates and `gl_FragCoord` begin; the top left if left out.
+    /// Corner of the picture where texels, texture coordinates and `gl_FragCoord` begin; the top
+    /// left if left out.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub origin: Option<Origin>,
     /// Unit of velocity.
@@ -228,7 +229,8 @@ impl Convention {
         })
     }
 
-    /// Returns a value that members of uniform blocks may name; none if the convention does not have it.
+    /// Returns a value that members of uniform blocks may name; none if the convention does not
+    /// have it.
     pub(crate) fn value(&self, name: &str) -> Option<f64> {
         match name {
             "frames_per_second" => self.frames_per_second,
@@ -240,7 +242,8 @@ impl Convention {
         }
     }
 
-    /// Fills in what was left out, so that the record is complete. `far` stays empty without a far plane.
+    /// Fills in what was left out, so that the record is complete. `far` stays empty without a far
+    /// plane.
     pub fn resolved(self) -> Self {
         Self {
             velocity_y: Some(self.velocity_y()),
@@ -253,7 +256,8 @@ impl Convention {
         }
     }
 
-    /// Returns the format of a texture that every filter has; the format of `output` is for fragment shaders.
+    /// Returns the format of a texture that every filter has; the format of `output` is for
+    /// fragment shaders.
     pub(crate) fn format_of(&self, name: &str) -> Format {
         match name.strip_suffix("_before").unwrap_or(name) {
             "color" => self.color_format.unwrap_or(Format::Rgba32Float),

@@ -32,7 +32,8 @@ impl Convention {
         Ok(restored)
     }
 
-    /// Returns the engine's velocity of a surface that moves by a pixel per frame to the right and down.
+    /// Returns the engine's velocity of a surface that moves by a pixel per frame to the right and
+    /// down.
     pub(crate) fn velocity_factors(&self, [width, height]: [u32; 2], exposure: f64) -> [f64; 2] {
         let sign = match self.velocity_sign {
             VelocitySign::CurrentMinusPrevious => 1.0,

@@ -23,7 +23,8 @@ pub const EXCLUSION: &str = "exclusion";
 /// Textures that a filter gets if one of its shaders reads them: few frames have them.
 pub(crate) const FURTHER_INPUTS: [&str; 3] = ["velocity_next", "velocity_z", EXCLUSION];
 
-/// Seconds that one run of a program, or one dispatch of a pass, may take if filter.toml does not say.
+/// Seconds that one run of a program, or one dispatch of a pass, may take if filter.toml does not
+/// say.
 pub(crate) const DEFAULT_TIME_LIMIT: f64 = 60.0;
 
 /// A filter folder, read and checked: everything but the adapter is known to fit.
@@ -91,7 +92,8 @@ impl Filter {
         &self.shaders[pass.shaders[0]]
     }
 
-    /// Says which compiler made the shader of each pass that needs one, and why others failed: `blur.hlsl compiled by slangc`.
+    /// Says which compiler made the shader of each pass that needs one, and why others failed:
+    /// `blur.hlsl compiled by slangc`.
     pub fn list_compilers(&self) -> Vec<String> {
         let mut listed = Vec::new();
         for pass in &self.passes {
@@ -105,7 +107,8 @@ impl Filter {
         listed
     }
 
-    /// Lists the stages of a pass: its kernel or fragment shader, then the vertex stage if the pass names one.
+    /// Lists the stages of a pass: its kernel or fragment shader, then the vertex stage if the pass
+    /// names one.
     pub(crate) fn stages(&self, pass: &Pass) -> Vec<(&Shader, &EntryPoint)> {
         let corners = pass.shaders[1..].iter().map(|index| &self.shaders[*index]);
         let corners = corners.map(|shader| (shader, &shader.entry_points[0]));
@@ -113,14 +116,16 @@ impl Filter {
         [own].into_iter().chain(corners).collect()
     }
 
-    /// Lists the inputs that its shaders read and few frames have: `velocity_next`, `velocity_z` and `exclusion`.
+    /// Lists the inputs that its shaders read and few frames have: `velocity_next`, `velocity_z`
+    /// and `exclusion`.
     pub fn further_inputs(&self) -> Vec<&'static str> {
         let stages = || self.passes.iter().flat_map(|pass| self.stages(pass));
         let is_read = |name: &&str| stages().any(|(_, entry)| entry.reads.contains(*name));
         FURTHER_INPUTS.into_iter().filter(is_read).collect()
     }
 
-    /// Returns true if the first pass that writes the output reads it, too: it begins as a copy of the colours.
+    /// Returns true if the first pass that writes the output reads it, too: it begins as a copy of
+    /// the colours.
     pub(crate) fn is_in_place(&self) -> bool {
         let entries = self.passes.iter().map(|pass| self.entry_point(pass));
         let mut writers = entries.filter(|entry| entry.writes.contains("output"));

@@ -31,7 +31,8 @@ impl Filter {
         notes
     }
 
-    /// Finds the first texture that a kernel writes if all of them are smaller than the picture over which it runs.
+    /// Finds the first texture that a kernel writes if all of them are smaller than the picture
+    /// over which it runs.
     fn find_smaller<'f>(&'f self, pass: &Pass, entry: &'f EntryPoint) -> Option<&'f str> {
         let is_smaller = |name: &String| {
             let texture = self.texture(name);

@@ -16,7 +16,8 @@ pub struct Parameter {
     pub unit: Option<Unit>,
     /// True if a tuner may change it.
     pub tunable: bool,
-    /// The value at which the kernels do not read the camera's motion, so that frames without it can be blurred.
+    /// The value at which the kernels do not read the camera's motion, so that frames without it
+    /// can be blurred.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub no_camera_at: Option<Value>,
     /// Meaning and unit, and what raising it costs.
@@ -123,7 +124,8 @@ impl Kind {
         self.allows(&value).then_some(value)
     }
 
-    /// Multiplies a number by a factor, rounds it if it is whole, and clamps it to the range. Choices stay as they are.
+    /// Multiplies a number by a factor, rounds it if it is whole, and clamps it to the range.
+    /// Choices stay as they are.
     pub(crate) fn scale(&self, value: &Value, factor: f64) -> Value {
         match (self, value) {
             (Kind::Integer { min, max, .. }, Value::Integer(value)) => {

@@ -10,7 +10,8 @@ pub struct Texture {
     pub name: String,
     /// Numbers per texel.
     pub format: Format,
-    /// Divisors of the image's width and height, of parameters, `width` and `height`; `None` for the image's own size.
+    /// Divisors of the image's width and height, of parameters, `width` and `height`; `None` for
+    /// the image's own size.
     pub(crate) divided_by: Option<[Expression; 2]>,
     /// Rounding of the quotients.
     pub(crate) rounding: Rounding,
@@ -42,7 +43,8 @@ pub enum Holds {
 /// One kernel, run over a whole texture.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Pass {
-    /// Name in messages: the entry point of the kernel, or the file of a shader whose entry point is `main`.
+    /// Name in messages: the entry point of the kernel, or the file of a shader whose entry point
+    /// is `main`.
     pub entry: String,
     /// The shader, if the pass names one of its own.
     pub shader: Option<PassShader>,

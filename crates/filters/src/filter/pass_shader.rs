@@ -59,7 +59,8 @@ impl PassShader {
         constants.chain(levels).chain(&self.level)
     }
 
-    /// Lists its stages, each as a shader of its own: itself, then the vertex stage if it names one.
+    /// Lists its stages, each as a shader of its own: itself, then the vertex stage if it names
+    /// one.
     pub(crate) fn stages(&self) -> Vec<PassShader> {
         let vertex = self.vertex.as_ref().map(|vertex| PassShader {
             file: vertex.file.clone(),

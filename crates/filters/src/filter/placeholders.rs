@@ -9,8 +9,8 @@ pub(crate) const PLACEHOLDERS: [&str; 5] = [
     "frames_per_second",
 ];
 
-/// Replaces each `{name}` in a word by `value(name)`, and `{{` and `}}` by braces. The error says which name has no
-/// value, or that a brace is unmatched.
+/// Replaces each `{name}` in a word by `value(name)`, and `{{` and `}}` by braces. The error says
+/// which name has no value, or that a brace is unmatched.
 pub(crate) fn fill_placeholders(
     word: &str,
     mut value: impl FnMut(&str) -> Option<String>,

@@ -24,7 +24,8 @@ pub struct Preset {
     pub tuned: Option<TuningRecord>,
 }
 
-/// Work that a preset follows, and where the preset departs from it: `[preset.source]` of filter.toml.
+/// Work that a preset follows, and where the preset departs from it: `[preset.source]` of
+/// filter.toml.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Source {
     /// The source code; `None` if only a publication was followed.

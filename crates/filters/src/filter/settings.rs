@@ -19,7 +19,8 @@ pub struct Settings {
     pub preset: String,
     /// Values by parameter name.
     pub values: BTreeMap<String, Value>,
-    /// Width of the pictures that the values in pixels are meant for; `None` if they are meant for every width.
+    /// Width of the pictures that the values in pixels are meant for; `None` if they are meant for
+    /// every width.
     pub reference_width: Option<u32>,
     /// Parameters that stay as they are at every width: set by hand, or scaled already.
     pub fixed: BTreeSet<String>,
@@ -86,8 +87,9 @@ impl Settings {
         self
     }
 
-    /// Multiplies the values in pixels by `width` / reference width, for pictures `width` pixels wide. Values that were set by
-    /// hand stay. Whole numbers are rounded, and all values stay in range.
+    /// Multiplies the values in pixels by `width` / reference width, for pictures `width` pixels
+    /// wide. Values that were set by hand stay. Whole numbers are rounded, and all values stay in
+    /// range.
     pub fn scaled_to(&self, filter: &Filter, width: u32) -> Self {
         let mut scaled = self.clone();
         let Some(reference_width) = self.reference_width else {
@@ -125,7 +127,8 @@ impl Settings {
         Ok(())
     }
 
-    /// Lists the numbers that expressions know by name, except a frame's: parameters and the convention.
+    /// Lists the numbers that expressions know by name, except a frame's: parameters and the
+    /// convention.
     pub(crate) fn list_numbers(&self, filter: &Filter) -> BTreeMap<String, f64> {
         let convention = CONVENTION_VALUES.into_iter().filter_map(|name| {
             let value = filter.convention.value(name)?;
@@ -151,7 +154,8 @@ impl Settings {
         })
     }
 
-    /// Returns a number, or the value of an integer parameter, which the check of the folder found to be positive.
+    /// Returns a number, or the value of an integer parameter, which the check of the folder found
+    /// to be positive.
     pub(crate) fn count(&self, count: &Count) -> u32 {
         match count {
             Count::Number(number) => *number,
@@ -162,8 +166,8 @@ impl Settings {
         }
     }
 
-    /// Sets the smallest reach that covers trails of `pixels`. Changes nothing if the reach of the filter has no bound. Fails
-    /// if the range of the parameter ends below that.
+    /// Sets the smallest reach that covers trails of `pixels`. Changes nothing if the reach of the
+    /// filter has no bound. Fails if the range of the parameter ends below that.
     pub fn with_reach(&self, filter: &Filter, pixels: u32) -> Result<Settings, FilterError> {
         let mut settings = self.clone();
         if let Some(reach_by) = &filter.reach_by {

@@ -17,7 +17,8 @@ const NUMBERS: [&str; 6] = [
 /// Values of two numbers. `resolution[0]` is the first number.
 const PAIRS: [&str; 2] = ["resolution", "jitter"];
 
-/// Matrices of the camera of this frame. With `previous_` before its name, each belongs to the frame before.
+/// Matrices of the camera of this frame. With `previous_` before its name, each belongs to the
+/// frame before.
 pub(crate) const MATRICES: [&str; 6] = [
     "projection",
     "inverse_projection",

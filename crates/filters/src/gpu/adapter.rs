@@ -12,8 +12,9 @@ pub fn list_adapters() -> Vec<AdapterDescription> {
 }
 
 impl Gpu {
-    /// Opens the adapter with that index in [`list_adapters`], or the first whose name contains the text (in any
-    /// case). `None` chooses the first of the fastest kind: discrete, integrated, virtual, then software.
+    /// Opens the adapter with that index in [`list_adapters`], or the first whose name contains the
+    /// text (in any case). `None` chooses the first of the fastest kind: discrete, integrated,
+    /// virtual, then software.
     pub fn new(adapter: Option<&str>) -> Result<Self, FilterError> {
         let adapters = find_adapters();
         if adapters.is_empty() {

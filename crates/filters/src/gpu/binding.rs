@@ -52,7 +52,8 @@ impl CompiledStage {
         }
     }
 
-    /// Binds each variable of the stage to its resource, and the buffer of loop iterations if they are counted.
+    /// Binds each variable of the stage to its resource, and the buffer of loop iterations if they
+    /// are counted.
     pub fn bind<'r>(
         &self,
         gpu: &Gpu,
@@ -77,7 +78,8 @@ impl CompiledStage {
     }
 }
 
-/// Creates the layout of a group as the shader uses it, with the buffer of loop iterations if there is one.
+/// Creates the layout of a group as the shader uses it, with the buffer of loop iterations if there
+/// is one.
 fn create_layout(
     gpu: &Gpu,
     shader: &Shader,
@@ -181,8 +183,9 @@ pub(super) fn create_pipeline(
     Pipeline::Compute(pipeline)
 }
 
-/// Makes the vertex stage of a triangle over the whole picture. Each location that the fragment shader reads gets texture coordinates
-/// from the origin, and then, as in Unreal, the place in clip space, where +y is up in the picture.
+/// Makes the vertex stage of a triangle over the whole picture. Each location that the fragment
+/// shader reads gets texture coordinates from the origin, and then, as in Unreal, the place in clip
+/// space, where +y is up in the picture.
 pub(crate) fn make_triangle(read: &[Varying], origin: Origin) -> Module {
     let (mut members, mut values) = (String::new(), String::new());
     for varying in read {

@@ -27,7 +27,8 @@ pub struct Blur<'g> {
 }
 
 impl<'g> Blur<'g> {
-    /// Compiles the kernels and makes the textures for one filter, its settings and a size in pixels.
+    /// Compiles the kernels and makes the textures for one filter, its settings and a size in
+    /// pixels.
     pub fn new(
         gpu: &'g Gpu,
         filter: &Filter,
@@ -66,14 +67,15 @@ impl<'g> Blur<'g> {
         &self.kernels.filter
     }
 
-    /// Blurs every colour image of the input, in order. The same input gives the same bytes on the same adapter. For filters with
-    /// history the frame before is the input itself, as at the beginning of a sequence.
+    /// Blurs every colour image of the input, in order. The same input gives the same bytes on the
+    /// same adapter. For filters with history the frame before is the input itself, as at the
+    /// beginning of a sequence.
     pub fn run(&mut self, input: &Input) -> Result<Vec<Image>, FilterError> {
         self.run_after(input, input)
     }
 
-    /// Blurs every colour image of the input as [`Blur::run`] does, for filters with history after another frame, which has
-    /// as many colour images, in the same order.
+    /// Blurs every colour image of the input as [`Blur::run`] does, for filters with history after
+    /// another frame, which has as many colour images, in the same order.
     pub fn run_after(&mut self, input: &Input, before: &Input) -> Result<Vec<Image>, FilterError> {
         self.check(input)?;
         self.check(before)?;
@@ -94,8 +96,8 @@ impl<'g> Blur<'g> {
         Ok(outputs)
     }
 
-    /// Blurs the first colour image of the input once per frame index, as [`Blur::run`] would with each of them. Returns `None` if
-    /// the index changes nothing.
+    /// Blurs the first colour image of the input once per frame index, as [`Blur::run`] would with
+    /// each of them. Returns `None` if the index changes nothing.
     pub fn run_noise(
         &mut self,
         input: &Input,
@@ -168,7 +170,8 @@ impl<'g> Blur<'g> {
         ))
     }
 
-    /// Runs the passes again, and names the first that writes a value that is not finite to a texture between them.
+    /// Runs the passes again, and names the first that writes a value that is not finite to a
+    /// texture between them.
     fn find_first_broken(&self) -> Option<String> {
         for dispatch in &self.passes.dispatches {
             self.run_dispatch(dispatch).ok()?;
@@ -198,8 +201,9 @@ impl<'g> Blur<'g> {
         }
     }
 
-    /// Reads what the last run left in a texture between the passes. Components that its format lacks are 0, and a number
-    /// of `r32uint` is the float of the same bits. Panics if the filter has no such texture.
+    /// Reads what the last run left in a texture between the passes. Components that its format
+    /// lacks are 0, and a number of `r32uint` is the float of the same bits. Panics if the filter
+    /// has no such texture.
     pub fn read_texture(&self, name: &str) -> Result<Raster<[f32; 4]>, FilterError> {
         let target = self.passes.target(name);
         let texels = self.gpu.download(target, self.place("read back"))?;

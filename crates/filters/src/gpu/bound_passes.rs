@@ -77,7 +77,8 @@ impl BoundPasses {
         })
     }
 
-    /// Copies the mark to the output if every dispatch that writes it is wanted. Pixels that keep the mark were not written.
+    /// Copies the mark to the output if every dispatch that writes it is wanted. Pixels that keep
+    /// the mark were not written.
     pub fn mark_output(&self, gpu: &Gpu, is_wanted: impl Fn(&Dispatch) -> bool) {
         let mut writers = (self.dispatches.iter()).filter(|it| it.writes("output"));
         if writers.all(is_wanted) {
@@ -121,7 +122,8 @@ struct Binder<'a> {
 type Groups = (Vec<wgpu::BindGroup>, Vec<(UniformBlock, wgpu::Buffer)>);
 
 impl Binder<'_> {
-    /// Binds every run of a pass. `depends_on` says whether its result changes with colour, and with noise.
+    /// Binds every run of a pass. `depends_on` says whether its result changes with colour, and
+    /// with noise.
     fn bind_pass(
         &mut self,
         pass: &Pass,
@@ -218,7 +220,8 @@ fn count_workgroups(targets: &Targets, filter: &Filter, pass: &Pass, levels: &Le
     [width.div_ceil(x), height.div_ceil(y)]
 }
 
-/// Sums the bytes of the textures that a pass reads and of those that it writes, render targets included.
+/// Sums the bytes of the textures that a pass reads and of those that it writes, render targets
+/// included.
 fn sum_bytes(targets: &Targets, filter: &Filter, pass: &Pass, levels: &Levels) -> u64 {
     let (shader, entry) = (filter.shader(pass), filter.entry_point(pass));
     let variables = (entry.variables.iter()).map(|index| (*index, &shader.variables[*index]));

@@ -6,7 +6,8 @@ use crate::Filter;
 use crate::filter::History;
 use crate::shader::EntryPoint;
 
-/// Finds the passes whose result depends on the colour image, by themselves or through other passes.
+/// Finds the passes whose result depends on the colour image, by themselves or through other
+/// passes.
 pub(super) fn find_color_dependent(filter: &Filter) -> Vec<bool> {
     let before = History::Color.texture();
     find_dependent(filter, BTreeSet::from(["color", before, "output"]), |_| {
@@ -14,12 +15,14 @@ pub(super) fn find_color_dependent(filter: &Filter) -> Vec<bool> {
     })
 }
 
-/// Finds the passes whose result depends on the frame's index, by themselves or through other passes.
+/// Finds the passes whose result depends on the frame's index, by themselves or through other
+/// passes.
 pub(super) fn find_noise_dependent(filter: &Filter) -> Vec<bool> {
     find_dependent(filter, BTreeSet::new(), |entry| entry.draws_noise)
 }
 
-/// Finds the passes that are sources, that touch a tainted texture, or that touch what such a pass writes.
+/// Finds the passes that are sources, that touch a tainted texture, or that touch what such a pass
+/// writes.
 fn find_dependent<'f>(
     filter: &'f Filter,
     mut tainted: BTreeSet<&'f str>,

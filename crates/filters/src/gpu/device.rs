@@ -10,8 +10,8 @@ use crate::{FilterError, Format};
 pub(super) const TIMESTAMPS: wgpu::Features =
     wgpu::Features::TIMESTAMP_QUERY.union(wgpu::Features::TIMESTAMP_QUERY_INSIDE_ENCODERS);
 
-/// Features that shaders of engines may need: samplers that interpolate 32-bit floats or have a border, and storage textures in more
-/// formats.
+/// Features that shaders of engines may need: samplers that interpolate 32-bit floats or have a
+/// border, and storage textures in more formats.
 const SHADERS_OF_ENGINES: wgpu::Features = wgpu::Features::FLOAT32_FILTERABLE
     .union(wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES)
     .union(wgpu::Features::RG11B10UFLOAT_RENDERABLE)
@@ -40,8 +40,8 @@ pub struct AdapterDescription {
 pub enum Clock {
     /// The GPU's own clock, read between two pieces of work.
     Timestamps,
-    /// The computer's clock, read before each piece is submitted and once the GPU is idle. It includes submission and waiting,
-    /// so short work seems longer.
+    /// The computer's clock, read before each piece is submitted and once the GPU is idle. It
+    /// includes submission and waiting, so short work seems longer.
     WallClock,
 }
 
@@ -50,12 +50,14 @@ pub enum Clock {
 pub struct LoopLimit {
     /// Iterations after which every loop ends.
     pub iterations: u32,
-    /// Most invocations that run in lockstep and share the limit: if they branch apart, their iterations add up.
+    /// Most invocations that run in lockstep and share the limit: if they branch apart, their
+    /// iterations add up.
     pub lanes: u32,
 }
 
 impl LoopLimit {
-    /// Returns the iterations of one invocation above which the picture may be wrong: its lockstep neighbours may take as many.
+    /// Returns the iterations of one invocation above which the picture may be wrong: its lockstep
+    /// neighbours may take as many.
     pub fn safe(self) -> u32 {
         self.iterations / self.lanes.max(1)
     }
@@ -74,7 +76,8 @@ pub struct Gpu {
     pub(super) stored_formats: Vec<Format>,
     /// True if its shaders convert between floats of 32 and of 16 bits.
     pub(super) packs_halves: bool,
-    /// Function polled while the GPU works; work stops when it returns true. The default never does.
+    /// Function polled while the GPU works; work stops when it returns true. The default never
+    /// does.
     pub interrupted: fn() -> bool,
     pub(super) opened: wgpu::Adapter,
     pub(super) device: RwLock<Device>,

@@ -18,7 +18,8 @@ pub(super) struct Dispatch {
     pub copies: Vec<[wgpu::Texture; 2]>,
     /// Uniform blocks, with the buffers that hold them.
     pub blocks: Vec<(UniformBlock, wgpu::Buffer)>,
-    /// Bytes of the textures that it reads and of those that it writes, each counted once and whole.
+    /// Bytes of the textures that it reads and of those that it writes, each counted once and
+    /// whole.
     pub bytes: u64,
     /// True if its result changes with the colour image.
     pub depends_on_color: bool,

@@ -19,12 +19,14 @@ use crate::shader::{
 use crate::translate::{list_constants, specialise};
 use crate::{Filter, FilterError, Pass, Settings};
 
-/// The compiled kernels of one filter, from which [`Blur::with_kernels`](super::Blur::with_kernels) makes blurs without compiling again.
+/// The compiled kernels of one filter, from which [`Blur::with_kernels`](super::Blur::with_kernels)
+/// makes blurs without compiling again.
 #[derive(Debug)]
 pub struct Kernels<'g> {
     pub(super) gpu: &'g Gpu,
     pub(super) filter: Filter,
-    /// Values of specialisation constants that the filter's shaders have: those of the first preset.
+    /// Values of specialisation constants that the filter's shaders have: those of the first
+    /// preset.
     constants: Vec<Constants>,
     /// Kernels for those, then for other values of specialisation constants.
     specialised: Mutex<Vec<Arc<Specialised>>>,
@@ -57,8 +59,8 @@ pub(super) struct Compiled {
 const MAX_KEPT: usize = 16;
 
 impl<'g> Kernels<'g> {
-    /// Compiles every pass. Fails for a filter that is a command, for one that asks for more than the adapter grants, and if the
-    /// driver refuses.
+    /// Compiles every pass. Fails for a filter that is a command, for one that asks for more than
+    /// the adapter grants, and if the driver refuses.
     pub fn compile(gpu: &'g Gpu, filter: &Filter) -> Result<Self, FilterError> {
         if filter.command.is_some() {
             return Err(FilterError::Command {
@@ -78,7 +80,8 @@ impl<'g> Kernels<'g> {
         })
     }
 
-    /// Returns the kernels with the specialisation constants that settings give them. Those of new values are compiled.
+    /// Returns the kernels with the specialisation constants that settings give them. Those of new
+    /// values are compiled.
     pub(super) fn specialise(&self, settings: &Settings) -> Result<Arc<Specialised>, FilterError> {
         let constants = list_all_constants(&self.filter, settings);
         let lock = || (self.specialised.lock()).unwrap_or_else(|broken| broken.into_inner());
@@ -155,7 +158,8 @@ fn compile(
     })
 }
 
-/// Modules of shaders by their index, each with the binding of the buffer of loop iterations if they are counted.
+/// Modules of shaders by their index, each with the binding of the buffer of loop iterations if
+/// they are counted.
 type Modules = BTreeMap<usize, (wgpu::ShaderModule, Option<u32>)>;
 
 fn compile_pass(
@@ -187,8 +191,8 @@ fn compile_pass(
     compiled.map_err(|reason| refuse(gpu, filter, &pass.entry, &reason))
 }
 
-/// Compiles a module. Its loops are counted if the adapter ends long ones, except in vertex stages, which may store nothing;
-/// those are interpolated as their fragment shader reads them.
+/// Compiles a module. Its loops are counted if the adapter ends long ones, except in vertex stages,
+/// which may store nothing; those are interpolated as their fragment shader reads them.
 fn compile_shader(
     gpu: &Gpu,
     filter: &Filter,
@@ -226,7 +230,8 @@ fn compile_shader(
     Ok((module, counted_at))
 }
 
-/// Makes an error of what wgpu or the driver says of a pass or of all kernels; it names the file and the adapter.
+/// Makes an error of what wgpu or the driver says of a pass or of all kernels; it names the file
+/// and the adapter.
 fn refuse(gpu: &Gpu, filter: &Filter, pass: &str, reason: &str) -> FilterError {
     let known = filter.passes.iter().find(|known| known.entry == pass);
     let line = known.and_then(|known| filter.entry_point(known).line);

@@ -63,7 +63,8 @@ impl Limits {
         Ok(())
     }
 
-    /// Describes the first texture of 32-bit floats that a pass interpolates although the device cannot.
+    /// Describes the first texture of 32-bit floats that a pass interpolates although the device
+    /// cannot.
     fn find_uninterpolated(&self, filter: &Filter, pass: &Pass) -> Option<String> {
         if self.interpolates_floats {
             return None;

@@ -1,7 +1,7 @@
 //! Probe that finds the loop limit of an adapter.
 //!
-//! Mesa's llvmpipe silently ends every loop of an invocation after 65,535 iterations in total: the picture is wrong
-//! without an error. Kernels on such an adapter count their iterations, see
+//! Mesa's llvmpipe silently ends every loop of an invocation after 65,535 iterations in total: the
+//! picture is wrong without an error. Kernels on such an adapter count their iterations, see
 //! [`count_loop_iterations`](crate::shader::count_loop_iterations).
 
 use super::device::Gpu;
@@ -11,7 +11,8 @@ use crate::FilterError;
 /// Iterations that the probe asks for. An adapter that grants these counts as unlimited.
 const PROBED: u32 = 1 << 20;
 
-/// Kernel with one invocation that counts its iterations. The arithmetic keeps a compiler from working the count out.
+/// Kernel with one invocation that counts its iterations. The arithmetic keeps a compiler from
+/// working the count out.
 const PROBE: &str = "
 @group(0) @binding(0) var<storage, read_write> found: array<u32, 2>;
 @compute @workgroup_size(1)

@@ -1,7 +1,7 @@
 //! Matrices of a camera, as engines pass them to shaders.
 //!
-//! They act on columns. The camera looks along its own -z with +y up; clip space has +x right and +y up, and the depth that
-//! `[convention]` says.
+//! They act on columns. The camera looks along its own -z with +y up; clip space has +x right and
+//! +y up, and the depth that `[convention]` says.
 
 use frame::{Camera, CameraPose};
 use glam::{DMat4, DVec4};

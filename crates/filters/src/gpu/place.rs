@@ -33,7 +33,8 @@ impl Filter {
 }
 
 impl Gpu {
-    /// Does `work`, and returns an error that names the place if wgpu refuses any of it or the device gets lost.
+    /// Does `work`, and returns an error that names the place if wgpu refuses any of it or the
+    /// device gets lost.
     pub(super) fn catch_errors<T>(
         &self,
         place: Place,
@@ -57,7 +58,8 @@ impl Gpu {
         }
     }
 
-    /// Does `work`, and returns what wgpu says if it refuses any of it. After a loss of the device, everything seems to work.
+    /// Does `work`, and returns what wgpu says if it refuses any of it. After a loss of the device,
+    /// everything seems to work.
     pub(super) fn catch<T>(&self, work: impl FnOnce() -> T) -> Result<T, String> {
         let [memory, internal, validation] = [
             wgpu::ErrorFilter::OutOfMemory,

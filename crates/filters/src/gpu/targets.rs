@@ -8,7 +8,8 @@ use crate::filter::{INPUTS, Rounding};
 use crate::shader::{EntryPoint, Role, Variable};
 use crate::{Filter, FilterError, Format, Pass, Settings, Texture};
 
-/// Textures by name. One that a pass both reads and writes has two copies; the first is the one to read.
+/// Textures by name. One that a pass both reads and writes has two copies; the first is the one to
+/// read.
 #[derive(Debug)]
 pub(super) struct Targets(BTreeMap<String, Vec<Target>>);
 
@@ -61,7 +62,8 @@ fn plan_targets(
     all.map(plan).collect()
 }
 
-/// Computes the divisors of a texture's width and height on pictures of a size. `numbers` are the settings by name.
+/// Computes the divisors of a texture's width and height on pictures of a size. `numbers` are the
+/// settings by name.
 fn find_divisors(
     texture: &Texture,
     numbers: &BTreeMap<String, f64>,
@@ -89,7 +91,8 @@ fn find_divisors(
     Ok([width?, height?])
 }
 
-/// Finds the format of the output: the one in which a shader stores it, or the convention's for render targets.
+/// Finds the format of the output: the one in which a shader stores it, or the convention's for
+/// render targets.
 pub(crate) fn output_format(filter: &Filter) -> Format {
     let mut stored = (filter.shaders.iter()).filter_map(|shader| shader.stored_format("output"));
     (stored.next()).unwrap_or(filter.convention.format_of("output"))

@@ -16,8 +16,8 @@ pub struct PassTime {
     pub entry: String,
     /// Duration in seconds.
     pub seconds: f64,
-    /// Bytes of the textures that it reads and of those that it writes, each counted once and whole, however often a kernel
-    /// fetches from it: the least traffic with memory.
+    /// Bytes of the textures that it reads and of those that it writes, each counted once and
+    /// whole, however often a kernel fetches from it: the least traffic with memory.
     pub bytes: u64,
 }
 

@@ -96,14 +96,16 @@ fn unpack(bytes: &[u8], texel: impl Fn(u32) -> [f32; 4]) -> Vec<f32> {
     words.flat_map(texel).collect()
 }
 
-/// Rounds a number from 0 to a 16-bit float without its sign and its last `cut` bits; larger numbers become the largest one.
+/// Rounds a number from 0 to a 16-bit float without its sign and its last `cut` bits; larger
+/// numbers become the largest one.
 fn shorten(value: f32, cut: u32) -> u32 {
     let bits = u32::from(f16::from_f32(value.clamp(0.0, LARGEST_F16)).to_bits());
     let largest = (0x7c00 >> cut) - 1;
     ((bits + (1 << (cut - 1))) >> cut).min(largest)
 }
 
-/// The largest number of 16 bits: larger ones, such as the depth of the background, become this and not infinite.
+/// The largest number of 16 bits: larger ones, such as the depth of the background, become this and
+/// not infinite.
 const LARGEST_F16: f32 = 65504.0;
 
 /// A texture on the GPU.
@@ -145,7 +147,8 @@ pub(super) fn count_texels(width: u32, height: u32, levels: std::ops::Range<u32>
         .sum()
 }
 
-/// Converts a velocity of an input as a shader expects it, with as many components as its format has.
+/// Converts a velocity of an input as a shader expects it, with as many components as its format
+/// has.
 pub(super) fn velocity_texels(
     convention: &Convention,
     input: &Input,

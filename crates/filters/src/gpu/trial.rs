@@ -1,4 +1,5 @@
-//! Trial of a filter before it is measured: every preset, and both ends of every range, on a tiny frame.
+//! Trial of a filter before it is measured: every preset, and both ends of every range, on a tiny
+//! frame.
 
 use frame::{Camera, CameraPose, FAR_DEPTH, Image, Plane, Raster, Reprojection, Vectors};
 
@@ -16,12 +17,13 @@ const MAX_LISTED: usize = 20;
 /// Settings to try, their description, and the line of filter.toml that declares them.
 type Trial = (Settings, String, Option<usize>);
 
-/// Runs kernels with every preset, and with the first preset and one parameter at either end of its range, or at each of its
-/// choices. The frame has 16x16 pixels: still ones, moving ones, and some that move farther than the frame is wide.
+/// Runs kernels with every preset, and with the first preset and one parameter at either end of its
+/// range, or at each of its choices. The frame has 16x16 pixels: still ones, moving ones, and some
+/// that move farther than the frame is wide.
 ///
 /// # Errors
-/// Lists the failures with their places in filter.toml: a pixel that is not finite or not written, loops that are too long, a pass
-/// that is too slow. A filter that is a command is not run.
+/// Lists the failures with their places in filter.toml: a pixel that is not finite or not written,
+/// loops that are too long, a pass that is too slow. A filter that is a command is not run.
 pub fn try_out(gpu: &Gpu, filter: &Filter) -> Result<(), FilterError> {
     if filter.command.is_some() {
         return Ok(());

@@ -10,8 +10,8 @@ use crate::FilterError;
 const SLICE: Duration = Duration::from_millis(100);
 
 impl Gpu {
-    /// Waits until the GPU has done everything that it was given. Gives up after `time_limit` seconds, and when the user
-    /// interrupts.
+    /// Waits until the GPU has done everything that it was given. Gives up after `time_limit`
+    /// seconds, and when the user interrupts.
     pub(super) fn wait(&self, place: Place, time_limit: f64) -> Result<(), FilterError> {
         let start = Instant::now();
         loop {
@@ -42,7 +42,8 @@ impl Gpu {
         }
     }
 
-    /// Keeps the device open until the process ends: closing it would wait for the work that was given up.
+    /// Keeps the device open until the process ends: closing it would wait for the work that was
+    /// given up.
     fn abandon(&self) {
         std::mem::forget((self.device(), self.queue()));
     }

@@ -8,9 +8,10 @@ use crate::filter::History;
 use crate::{Filter, Format};
 
 impl Filter {
-    /// Returns the filter with 32-bit floats for the colour, the output, and the textures of floats that depend on colour.
-    /// Velocity, depth and textures made from them alone keep their formats, so that the weights do not change. None if all of
-    /// these have 32 bits already, or if a shader cannot store them so.
+    /// Returns the filter with 32-bit floats for the colour, the output, and the textures of floats
+    /// that depend on colour. Velocity, depth and textures made from them alone keep their formats,
+    /// so that the weights do not change. None if all of these have 32 bits already, or if a shader
+    /// cannot store them so.
     pub fn widen_colors(&self) -> Option<Self> {
         let colored = self.list_colored();
         let widen = |name: &str, format: Format| {

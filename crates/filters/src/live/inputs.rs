@@ -7,8 +7,9 @@ use serde_json::{Value, json};
 use crate::filter::{EXCLUSION, INPUTS};
 use crate::{Convention, DepthKind, Filter, Input};
 
-/// Lists the textures that the frame fills; those of the frame before show the first frame of a sequence itself. Each has one expression per
-/// component of the frame's input, of `frame.value` and of [`list_values`]; none if the filter gets the frame's own numbers.
+/// Lists the textures that the frame fills; those of the frame before show the first frame of a
+/// sequence itself. Each has one expression per component of the frame's input, of `frame.value`
+/// and of [`list_values`]; none if the filter gets the frame's own numbers.
 pub(super) fn list_inputs(filter: &Filter) -> Vec<Value> {
     let own = INPUTS.into_iter().chain(filter.further_inputs());
     let own = own.map(|name| (name, name));

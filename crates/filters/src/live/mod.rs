@@ -1,4 +1,5 @@
-//! A filter as JSON for a program that runs it elsewhere, such as a page in a browser: all that `gpu` binds and dispatches.
+//! A filter as JSON for a program that runs it elsewhere, such as a page in a browser: all that
+//! `gpu` binds and dispatches.
 
 mod bindings;
 mod expressions;
@@ -23,10 +24,12 @@ use passes::{describe_pass, list_features};
 use translated::rewrite;
 
 impl Filter {
-    /// Describes the filter for pictures of a width, without their guard band; `as_written` leaves the presets' values in pixels unscaled.
+    /// Describes the filter for pictures of a width, without their guard band; `as_written` leaves
+    /// the presets' values in pixels unscaled.
     ///
     /// # Errors
-    /// It is a program, WGSL cannot say what its shaders do, or its files cannot be read again: a sentence for the page's reader.
+    /// It is a program, WGSL cannot say what its shaders do, or its files cannot be read again: a
+    /// sentence for the page's reader.
     pub fn live(&self, width: u32, as_written: bool) -> Result<Value, String> {
         if self.command.is_some() {
             return Err("A browser cannot run this filter: it is a program.".into());
@@ -85,7 +88,8 @@ impl Filter {
         }
     }
 
-    /// Lists the files of a folder that has the filter in WGSL, each with its text: filter.toml, then its modules.
+    /// Lists the files of a folder that has the filter in WGSL, each with its text: filter.toml,
+    /// then its modules.
     ///
     /// # Errors
     /// As [`Filter::live`].
@@ -98,7 +102,8 @@ impl Filter {
         Ok(toml.into_iter().chain(modules).collect())
     }
 
-    /// Lists the numbers of a frame that the filter's data name, without the run of a pass. Fails for a frame that lacks one of them.
+    /// Lists the numbers of a frame that the filter's data name, without the run of a pass. Fails
+    /// for a frame that lacks one of them.
     pub fn frame_values(&self, input: &Input) -> Result<BTreeMap<String, f64>, String> {
         let frame = FrameValues::of(input, &self.convention);
         let mut known = inputs::list_values(self, input);

@@ -1,4 +1,5 @@
-//! Modules of a filter as WGSL: `wgsl`, a line break and `appended` are compiled as one; those with a `file` belong to the filter.
+//! Modules of a filter as WGSL: `wgsl`, a line break and `appended` are compiled as one; those with
+//! a `file` belong to the filter.
 
 use naga::Module;
 use naga::back::wgsl::{WriterFlags, write_string};
@@ -75,7 +76,8 @@ fn translate(module: &Module) -> Result<String, String> {
     })
 }
 
-/// Describes the vertex stage of a fragment shader; the program's own triangle becomes another module. None for a kernel.
+/// Describes the vertex stage of a fragment shader; the program's own triangle becomes another
+/// module. None for a kernel.
 pub(super) fn describe_vertex(
     filter: &Filter,
     pass: &Pass,

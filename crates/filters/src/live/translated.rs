@@ -18,7 +18,8 @@ const LEFT_OUT: [&str; 6] = [
     "compiler",
 ];
 
-/// Binds the translated modules in the text of filter.toml, without its comments; text without a foreign shader stays as it is.
+/// Binds the translated modules in the text of filter.toml, without its comments; text without a
+/// foreign shader stays as it is.
 pub(super) fn rewrite(filter: &Filter, text: String) -> String {
     if filter.passes.iter().all(|pass| pass.shader.is_none()) {
         return text;
@@ -81,7 +82,8 @@ fn describe_binding(shader: &Shader, group: usize, variable: &Variable) -> Value
             let ty = global.expect("the module has the block").ty;
             let members = list_members(&shader.module, ty, &|_, _| 0).unwrap_or_default();
             let starts: Vec<u32> = members.iter().map(|member| member.offset).collect();
-            // By their offsets: naga changes some names. An array without a length has the numbers up to the end.
+            // By their offsets: naga changes some names. An array without a length has the numbers
+            // up to the end.
             for (at, start) in starts.iter().enumerate() {
                 let end = starts.get(at + 1).copied().unwrap_or(u32::MAX);
                 let numbers = shader.blocks[block].numbers.iter();

@@ -10,8 +10,8 @@ use crate::translate::check_texture;
 use crate::{Count, Expression, Filter, FilterError, Pass};
 
 impl Filter {
-    /// Refuses a filter whose declarations and kernels differ: parameters, textures, entry points, and the order in which
-    /// passes read and write.
+    /// Refuses a filter whose declarations and kernels differ: parameters, textures, entry points,
+    /// and the order in which passes read and write.
     pub(super) fn check_agreement(&self) -> Result<(), FilterError> {
         // The kernels of the filter's WGSL file are bound by name.
         match self.passes.iter().find(|pass| pass.shader.is_none()) {
@@ -22,7 +22,8 @@ impl Filter {
         self.check_passes()
     }
 
-    /// Checks the variables of the WGSL file, which are bound by name, and the uniform of parameters.
+    /// Checks the variables of the WGSL file, which are bound by name, and the uniform of
+    /// parameters.
     fn check_kernels(&self, kernels: &Shader) -> Result<(), FilterError> {
         let mut uniforms = kernels.variables.iter().filter_map(|it| match it.role {
             Role::Block(block) => Some((it, &kernels.blocks[block])),
@@ -40,7 +41,8 @@ impl Filter {
         Ok(())
     }
 
-    /// Compares the parameters with the numbers of their uniform: names, types and offsets. `line` is the uniform's.
+    /// Compares the parameters with the numbers of their uniform: names, types and offsets. `line`
+    /// is the uniform's.
     fn check_members(
         &self,
         members: &[BlockNumber],
@@ -115,7 +117,8 @@ impl Filter {
         }
     }
 
-    /// Refuses a parameter that changes nothing, if shaders read only the parameters that they want.
+    /// Refuses a parameter that changes nothing, if shaders read only the parameters that they
+    /// want.
     fn check_parameters_are_used(&self) -> Result<(), FilterError> {
         let Filter {
             shaders,

@@ -21,8 +21,9 @@ pub const MAX_MANIFEST_BYTES: u64 = 1 << 20;
 pub const MAX_KERNEL_BYTES: u64 = 256 << 10;
 
 impl Filter {
-    /// Reads and checks a filter folder: `filter.toml` and, unless it is a command, the WGSL file that it names. Both are
-    /// regular files of at most [`MAX_MANIFEST_BYTES`] and [`MAX_KERNEL_BYTES`].
+    /// Reads and checks a filter folder: `filter.toml` and, unless it is a command, the WGSL file
+    /// that it names. Both are regular files of at most [`MAX_MANIFEST_BYTES`] and
+    /// [`MAX_KERNEL_BYTES`].
     pub fn load(folder: &Path) -> Result<Self, FilterError> {
         let read = |path: &Path, limit| {
             // A device, a FIFO or a folder is refused later, with a better message.

@@ -34,7 +34,8 @@ pub(super) fn read_command(
     }))
 }
 
-/// Refuses a command without a program, unknown placeholders, and a command that lacks required ones.
+/// Refuses a command without a program, unknown placeholders, and a command that lacks required
+/// ones.
 fn check_words(words: &[String], parameters: &[Parameter]) -> Result<(), String> {
     let Some((program, arguments)) = words.split_first() else {
         return Err("is empty; its first word is the program".into());

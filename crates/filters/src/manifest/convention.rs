@@ -46,7 +46,8 @@ pub(super) fn read_convention(
     }
 }
 
-/// Refuses the bottom left as the origin of what counts from the top left: kernels with common.wgsl, and places.
+/// Refuses the bottom left as the origin of what counts from the top left: kernels with
+/// common.wgsl, and places.
 pub(super) fn check_origin(
     file: &File,
     convention: Option<&Spanned<Convention>>,

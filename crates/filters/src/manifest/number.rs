@@ -73,7 +73,8 @@ impl Filter {
         })
     }
 
-    /// Reads the mip level of a texture: a number from 0, or an expression of parameters and of the iteration.
+    /// Reads the mip level of a texture: a number from 0, or an expression of parameters and of the
+    /// iteration.
     pub(super) fn read_level(&self, entry: &NumberEntry) -> Result<Expression, String> {
         let of_run = ["iteration", "iterations"];
         match entry {
@@ -90,8 +91,8 @@ impl Filter {
         }
     }
 
-    /// Reads the divisor of a side of the image: a number, an integer parameter, or an expression of
-    /// parameters and of the picture's size.
+    /// Reads the divisor of a side of the image: a number, an integer parameter, or an expression
+    /// of parameters and of the picture's size.
     pub(super) fn read_divisor(&self, entry: &NumberEntry) -> Result<Expression, String> {
         let is_size = |name: &str| matches!(name, "width" | "height");
         match entry {
@@ -112,7 +113,8 @@ impl Filter {
         })
     }
 
-    /// Finds the largest value of a count or a length. Refuses 0, and a name that is not an integer parameter from 1.
+    /// Finds the largest value of a count or a length. Refuses 0, and a name that is not an integer
+    /// parameter from 1.
     pub(super) fn find_largest(&self, count: &Count) -> Result<u32, String> {
         match count {
             Count::Number(0) => Err("0; allowed: 1 or more".into()),
@@ -121,7 +123,8 @@ impl Filter {
         }
     }
 
-    /// Returns the largest value of an integer parameter; refuses any other name, and a range that begins below 1.
+    /// Returns the largest value of an integer parameter; refuses any other name, and a range that
+    /// begins below 1.
     pub(super) fn check_parameter(&self, name: &str) -> Result<u32, String> {
         let parameter = self.parameters.iter().find(|known| known.name == name);
         match parameter.map(|parameter| &parameter.kind) {

@@ -137,7 +137,8 @@ fn check_compiler(keys: &PassEntry, language: Language, path: &str) -> Result<()
     }
 }
 
-/// Refuses names of entry points and conditions that are not words, because a compiler gets them on its command line.
+/// Refuses names of entry points and conditions that are not words, because a compiler gets them on
+/// its command line.
 fn check_names<'n>(mut names: impl Iterator<Item = &'n str>) -> Result<(), String> {
     let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
     let is_name = |name: &str| name.starts_with(is_part) && name.chars().all(is_part);

@@ -26,8 +26,8 @@ fn one() -> u32 {
     1
 }
 
-/// Upper limit on the dispatches of a filter, with the largest value that each `repeat` may have. A GPU
-/// takes no more timestamps at once.
+/// Upper limit on the dispatches of a filter, with the largest value that each `repeat` may have. A
+/// GPU takes no more timestamps at once.
 pub const MAX_DISPATCHES: u32 = 4095;
 
 /// Upper limit on the mip levels of a texture: the largest has 16,384 texels on a side.
@@ -200,7 +200,8 @@ fn read_pass(
     Ok((pass, times))
 }
 
-/// Names a pass with a shader of its own: after its entry point, or after its file if the entry point is just `main`.
+/// Names a pass with a shader of its own: after its entry point, or after its file if the entry
+/// point is just `main`.
 fn name_pass(shader: &PassShader) -> String {
     let stem = shader.file.file_stem().and_then(|stem| stem.to_str());
     match (&shader.entry[..], stem) {

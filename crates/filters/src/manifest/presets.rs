@@ -23,8 +23,8 @@ pub(super) struct PresetEntry {
     tuned: Option<TuningRecord>,
 }
 
-/// Reads every preset; a filter without any gets one with every parameter at its default. `reference_width` is the filter's,
-/// for presets without one of their own.
+/// Reads every preset; a filter without any gets one with every parameter at its default.
+/// `reference_width` is the filter's, for presets without one of their own.
 pub(super) fn read_presets(
     file: &File,
     entries: &[Spanned<PresetEntry>],
@@ -104,7 +104,8 @@ fn read_preset(
     })
 }
 
-/// Reads the width that a filter or a preset was made for, which `named` names; refuses one that changes no parameter.
+/// Reads the width that a filter or a preset was made for, which `named` names; refuses one that
+/// changes no parameter.
 fn read_reference_width(
     file: &File,
     named: &str,

@@ -58,7 +58,8 @@ impl UniformBlock {
         })
     }
 
-    /// Returns the size of its buffer. That of a storage buffer is exact: it says how long the last array is.
+    /// Returns the size of its buffer. That of a storage buffer is exact: it says how long the last
+    /// array is.
     pub fn buffer_bytes(&self) -> usize {
         if self.is_storage {
             self.bytes as usize

@@ -34,7 +34,8 @@ pub(crate) fn try_each<C, T>(
     Err(join(failed))
 }
 
-/// Joins the errors of all compilers to one at the place of the first; an error that all share appears once.
+/// Joins the errors of all compilers to one at the place of the first; an error that all share
+/// appears once.
 fn join(mut failed: Vec<Failure>) -> FilterError {
     failed.dedup_by(|a, b| a.error == b.error);
     let reasons: Vec<String> = failed.iter().map(Failure::reason).collect();

@@ -68,8 +68,8 @@ fn parse_source(source: &Source) -> Result<Module, FilterError> {
 }
 
 impl Shader {
-    /// Parses and validates the kernels at `path`, with common.wgsl appended. Refuses text that is nested
-    /// too deeply before naga sees it.
+    /// Parses and validates the kernels at `path`, with common.wgsl appended. Refuses text that is
+    /// nested too deeply before naga sees it.
     pub fn parse(path: &Path, kernels: &str) -> Result<Self, FilterError> {
         check_nesting(path, kernels)?;
         guard(path, "reads WGSL", || Self::parse_here(path, kernels))

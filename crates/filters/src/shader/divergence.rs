@@ -1,5 +1,6 @@
-//! Search for barriers that only some invocations of a workgroup may reach. The search for what differs among invocations follows
-//! values through variables and calls, and knows no order of statements.
+//! Search for barriers that only some invocations of a workgroup may reach. The search for what
+//! differs among invocations follows values through variables and calls, and knows no order of
+//! statements.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -30,8 +31,8 @@ pub(super) fn find_divergent_barrier(module: &Module, entry: &EntryPoint) -> Opt
     }
 }
 
-/// Returns true for a value of an entry point that differs among the invocations of a workgroup; a struct's members are looked at
-/// one by one.
+/// Returns true for a value of an entry point that differs among the invocations of a workgroup; a
+/// struct's members are looked at one by one.
 fn differs_at_start(binding: &Option<Binding>) -> bool {
     !matches!(
         binding,
@@ -46,14 +47,15 @@ struct Search<'m> {
     module: &'m Module,
     /// Private variables whose values differ among invocations.
     private: BTreeSet<Handle<GlobalVariable>>,
-    /// Whether the result of a function differs, by its arguments and by whether all invocations call it.
+    /// Whether the result of a function differs, by its arguments and by whether all invocations
+    /// call it.
     known: BTreeMap<(usize, Vec<bool>, bool), bool>,
     found: Option<String>,
 }
 
 impl Search<'_> {
-    /// Searches a function, some of whose `arguments` differ; `divergent` if only some invocations call it. Returns whether its result
-    /// differs.
+    /// Searches a function, some of whose `arguments` differ; `divergent` if only some invocations
+    /// call it. Returns whether its result differs.
     fn search(&mut self, function: &Function, arguments: &[bool], divergent: bool) -> bool {
         let mut visit = Visit {
             function,
@@ -73,7 +75,8 @@ impl Search<'_> {
         }
     }
 
-    /// Follows control through a block that only some invocations run if `divergent`. Returns how some may leave it before its end.
+    /// Follows control through a block that only some invocations run if `divergent`. Returns how
+    /// some may leave it before its end.
     fn follow(&mut self, visit: &mut Visit, block: &Block, mut divergent: bool) -> Left {
         let mut left = Left::default();
         for statement in block.iter() {

@@ -32,7 +32,8 @@ pub(crate) struct EntryPoint {
     pub reads_whole: BTreeSet<String>,
     /// Names of the textures that it writes.
     pub writes: BTreeSet<String>,
-    /// True if texels of a texture that it reads and writes keep their content unless it writes them, as in engines.
+    /// True if texels of a texture that it reads and writes keep their content unless it writes
+    /// them, as in engines.
     pub keeps_unwritten: bool,
     /// True if it reads the frame's index, from which noise is drawn.
     pub draws_noise: bool,
@@ -50,14 +51,15 @@ impl EntryPoint {
         self.stage == ShaderStage::Fragment
     }
 
-    /// Names the textures that it both reads and writes: those have two copies, exchanged after each iteration. If it reads
-    /// single mip levels, one copy is enough.
+    /// Names the textures that it both reads and writes: those have two copies, exchanged after
+    /// each iteration. If it reads single mip levels, one copy is enough.
     pub fn exchanged_textures(&self) -> impl Iterator<Item = &String> {
         self.reads_whole.intersection(&self.writes)
     }
 }
 
-/// Lists the entry points. `handles` are those of `variables`, and `find_line` finds the line of a function.
+/// Lists the entry points. `handles` are those of `variables`, and `find_line` finds the line of a
+/// function.
 pub(crate) fn find_entry_points(
     module: &Module,
     module_info: &ModuleInfo,

@@ -2,7 +2,8 @@
 
 use wgpu::naga::{Block, Module, Statement, SwitchCase};
 
-/// Tells naga which cases never reach their end. It takes each that does not end with `break` and the like for one that falls through.
+/// Tells naga which cases never reach their end. It takes each that does not end with `break` and
+/// the like for one that falls through.
 pub(crate) fn settle_fall_through(module: &mut Module) {
     let functions = module.functions.iter_mut().map(|(_, function)| function);
     let entries = module
@@ -18,8 +19,9 @@ pub(crate) fn settle_fall_through(module: &mut Module) {
     }
 }
 
-/// Finds a case that falls through into the next one, after labels that share a body. The writer of SPIR-V counts such labels as one,
-/// and jumps to a wrong case: to the falling one itself, without end.
+/// Finds a case that falls through into the next one, after labels that share a body. The writer of
+/// SPIR-V counts such labels as one, and jumps to a wrong case: to the falling one itself, without
+/// end.
 pub(crate) fn falls_through_wrongly(module: &Module) -> bool {
     let mut found = false;
     let functions = module.functions.iter().map(|(_, function)| function);

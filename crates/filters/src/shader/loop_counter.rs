@@ -6,8 +6,8 @@ use wgpu::naga::{
     ResourceBinding, Scalar, Span, Statement, StorageAccess, Type, TypeInner,
 };
 
-/// Rewrites validated kernels so that every invocation counts its loop iterations. Counts from `least` on raise the number in the
-/// storage buffer at `binding`.
+/// Rewrites validated kernels so that every invocation counts its loop iterations. Counts from
+/// `least` on raise the number in the storage buffer at `binding`.
 pub(crate) fn count_loop_iterations(module: &Module, binding: u32, least: u32) -> Module {
     let mut module = module.clone();
     let counter = Counter::declare(&mut module, binding);

@@ -2,7 +2,8 @@
 
 use wgpu::naga::{ArraySize, Handle, Module, Scalar, Type, TypeInner, VectorSize};
 
-/// Upper limit on the numbers of a block. The data of a scene that Godot hands over, of this frame and the last, has some 1,500.
+/// Upper limit on the numbers of a block. The data of a scene that Godot hands over, of this frame
+/// and the last, has some 1,500.
 const MAX_NUMBERS: usize = 4096;
 
 /// A member of a block: its name, its place and its numbers.
@@ -35,8 +36,8 @@ pub(crate) fn name_element(whole: &str, index: usize) -> String {
     format!("{whole}[{index}]")
 }
 
-/// Lists the members of a block; those of structs in it by their paths. `find_length` says how many numbers an array without a length
-/// gets, by its name and offset.
+/// Lists the members of a block; those of structs in it by their paths. `find_length` says how many
+/// numbers an array without a length gets, by its name and offset.
 pub(crate) fn list_members(
     module: &Module,
     block: Handle<Type>,

@@ -4,12 +4,15 @@ use std::path::Path;
 
 use crate::FilterError;
 
-/// Upper limit on operators, brackets and `else if` within one another: a sum of that many terms and one more.
+/// Upper limit on operators, brackets and `else if` within one another: a sum of that many terms
+/// and one more.
 pub const MAX_NESTING: usize = 1000;
 
-/// Refuses kernels with an expression, a statement or a type that is nested more deeply than [`MAX_NESTING`].
+/// Refuses kernels with an expression, a statement or a type that is nested more deeply than
+/// [`MAX_NESTING`].
 ///
-/// A sum `a + b + c` is `(a + b) + c` to a parser, so each operator counts as a level until the next `,` or `;`.
+/// A sum `a + b + c` is `(a + b) + c` to a parser, so each operator counts as a level until the
+/// next `,` or `;`.
 pub(super) fn check_nesting(path: &Path, kernels: &str) -> Result<(), FilterError> {
     let mut nesting = Nesting::default();
     let mut rest = kernels;

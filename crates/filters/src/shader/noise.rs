@@ -4,8 +4,8 @@ use wgpu::naga::{Expression, Function, GlobalVariable, Handle, Module, TypeInner
 
 use super::resource_usage::list_called;
 
-/// Returns true if a function, or one that it calls, may read the member `frame_index` of the uniform `frame`. A read of the whole uniform
-/// counts.
+/// Returns true if a function, or one that it calls, may read the member `frame_index` of the
+/// uniform `frame`. A read of the whole uniform counts.
 pub(super) fn reads_frame_index(module: &Module, function: &Function) -> bool {
     let Some((frame, index)) = find_frame_index(module) else {
         return false;

@@ -2,7 +2,8 @@
 
 use wgpu::naga::{Expression, Handle, ImageQuery, SampleLevel};
 
-/// Lists the expressions that one is made of, except layers and samples of textures, which no filter has.
+/// Lists the expressions that one is made of, except layers and samples of textures, which no
+/// filter has.
 pub(super) fn list_operands(expression: &Expression) -> Vec<Handle<Expression>> {
     let several = |first: &[Handle<Expression>], more: &[Option<Handle<Expression>>]| {
         let more = more.iter().flatten();

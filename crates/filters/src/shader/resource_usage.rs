@@ -6,12 +6,13 @@ use wgpu::naga::{
     TypeInner,
 };
 
-/// Bytes that the variables of one invocation may take: those of a kernel and of all functions that it calls, and
-/// `var<private>`; WGSL promises 8,192 for each of the two kinds. No value may be larger either, such as a table in a `const`.
+/// Bytes that the variables of one invocation may take: those of a kernel and of all functions that
+/// it calls, and `var<private>`; WGSL promises 8,192 for each of the two kinds. No value may be
+/// larger either, such as a table in a `const`.
 pub const MAX_INVOCATION_BYTES: u64 = 16_384;
 
-/// Expressions and statements of a kernel and of every function that it calls, when each call is replaced by the function's
-/// body, as compilers for GPUs do.
+/// Expressions and statements of a kernel and of every function that it calls, when each call is
+/// replaced by the function's body, as compilers for GPUs do.
 pub const MAX_INLINED: u64 = 200_000;
 
 /// Resources that one entry point asks for.
@@ -123,8 +124,8 @@ pub(super) fn list_called(module: &Module, caller: &Function) -> Vec<Handle<Func
     distinct
 }
 
-/// Counts the expressions and statements of an entry point and of the functions that it calls, with every call inlined. Naga
-/// lists functions after those that they call.
+/// Counts the expressions and statements of an entry point and of the functions that it calls, with
+/// every call inlined. Naga lists functions after those that they call.
 fn count_inlined(module: &Module, entry: &EntryPoint, called: &[Handle<Function>]) -> u64 {
     let mut sizes = Vec::with_capacity(module.functions.len());
     let count = |sizes: &[u64], function: &Function| {

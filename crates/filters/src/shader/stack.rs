@@ -9,14 +9,15 @@ use crate::FilterError;
 use crate::printable::escape_controls;
 
 /// Bytes of stack for reading and compiling kernels. Naga takes less than 2 KB per level of
-/// [`MAX_NESTING`](super::MAX_NESTING), and less than 1 KB per declaration that refers to another one.
+/// [`MAX_NESTING`](super::MAX_NESTING), and less than 1 KB per declaration that refers to another
+/// one.
 const STACK_BYTES: usize = 64 << 20;
 
 /// Name of such threads.
 const NAME: &str = "kernels";
 
-/// Does the work on a thread with a large stack. Fails if no thread can be started or the work panics, and says why. Such a
-/// panic is not printed: it becomes an error.
+/// Does the work on a thread with a large stack. Fails if no thread can be started or the work
+/// panics, and says why. Such a panic is not printed: it becomes an error.
 pub(crate) fn run_on_large_stack<T: Send>(work: impl FnOnce() -> T + Send) -> Result<T, String> {
     keep_panics_unprinted();
     thread::scope(|scope| {

@@ -9,8 +9,9 @@ use super::texel::Format;
 use super::variable::Role;
 
 impl Shader {
-    /// Returns the shader with other formats of the textures that it stores to: `choose` gets the name of each and the format that
-    /// it has. None if the module is not valid then, such as one that hands its textures to functions.
+    /// Returns the shader with other formats of the textures that it stores to: `choose` gets the
+    /// name of each and the format that it has. None if the module is not valid then, such as one
+    /// that hands its textures to functions.
     pub fn store_as(&self, choose: &dyn Fn(&str, Format) -> Format) -> Option<Self> {
         let mut stored = self.clone();
         let mut module = None;

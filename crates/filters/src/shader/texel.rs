@@ -4,7 +4,8 @@ use serde::{Deserialize, Serialize};
 use wgpu::TextureFormat;
 use wgpu::naga::{Scalar, ScalarKind, StorageFormat};
 
-/// Declares the formats: each with its name in filter.toml and in WGSL, and how many numbers a texel is given as.
+/// Declares the formats: each with its name in filter.toml and in WGSL, and how many numbers a
+/// texel is given as.
 macro_rules! formats {
     ($($format:ident $word:ident $components:literal,)*) => {
         /// Texel format, named as in WGSL.
@@ -21,7 +22,8 @@ macro_rules! formats {
             /// Every format.
             pub(crate) const ALL: &[Self] = &[$(Self::$format),*];
 
-            /// Returns its name, how many numbers a texel is given as, and its formats as a texture and as a storage texture.
+            /// Returns its name, how many numbers a texel is given as, and its formats as a texture
+            /// and as a storage texture.
             fn describe(self) -> (&'static str, usize, TextureFormat, StorageFormat) {
                 match self {
                     $(Self::$format => {

@@ -38,12 +38,14 @@ pub(crate) enum Role {
     Sampler(Sampling),
 }
 
-/// Names the texture that a variable writes: `<texture>_out` writes `<texture>`, and `output` itself.
+/// Names the texture that a variable writes: `<texture>_out` writes `<texture>`, and `output`
+/// itself.
 pub(crate) fn written_texture(variable: &str) -> &str {
     variable.strip_suffix("_out").unwrap_or(variable)
 }
 
-/// Finds the role of a variable, and adds the block of a uniform; refuses one that nothing can be bound to.
+/// Finds the role of a variable, and adds the block of a uniform; refuses one that nothing can be
+/// bound to.
 pub(super) fn find_variable(
     source: &Source,
     module: &Module,
@@ -91,7 +93,8 @@ pub(super) fn find_variable(
     })
 }
 
-/// First part of the names of numbers of the uniform `frame` of common.wgsl. No parameter's name contains it.
+/// First part of the names of numbers of the uniform `frame` of common.wgsl. No parameter's name
+/// contains it.
 pub(crate) const FRAME_PREFIX: &str = "frame.";
 
 /// Finds the role of a texture; none for one that cannot be bound.

@@ -21,8 +21,8 @@ use crate::shader::{
 };
 use crate::{Filter, FilterError};
 
-/// Makes the shader of a pass: one entry point, and one group with a binding for each variable that it uses. A vertex stage has
-/// group 1, any other group 0.
+/// Makes the shader of a pass: one entry point, and one group with a binding for each variable that
+/// it uses. A vertex stage has group 1, any other group 0.
 pub(super) fn bind(
     filter: &Filter,
     shader: &PassShader,
@@ -106,7 +106,8 @@ struct Binder<'a> {
 }
 
 impl Binder<'_> {
-    /// Binds every variable that needs it; returns their handles. `owners` has the places that explain others.
+    /// Binds every variable that needs it; returns their handles. `owners` has the places that
+    /// explain others.
     fn bind_all(
         &mut self,
         module: &mut Module,
@@ -132,7 +133,8 @@ impl Binder<'_> {
         Ok(placed.into_iter().map(|(handle, _)| handle).collect())
     }
 
-    /// Makes an error of a variable. It names the line of filter.toml that explains the variable, or else the shader.
+    /// Makes an error of a variable. It names the line of filter.toml that explains the variable,
+    /// or else the shader.
     fn refuse(
         &self,
         module: &Module,
@@ -156,7 +158,8 @@ impl Binder<'_> {
         }
     }
 
-    /// Adds a variable, and what filter.toml says about it. `is_split` is true for one that was split from another.
+    /// Adds a variable, and what filter.toml says about it. `is_split` is true for one that was
+    /// split from another.
     fn bind(
         &mut self,
         module: &Module,
@@ -215,7 +218,8 @@ impl Binder<'_> {
         Ok(())
     }
 
-    /// Names the texture of a binding: the one that filter.toml names, or the one that the variable is named after.
+    /// Names the texture of a binding: the one that filter.toml names, or the one that the variable
+    /// is named after.
     fn name_texture(&self, binding: Option<&Binding>, variable: &str) -> Result<String, String> {
         if let Some(texture) = binding.and_then(|binding| binding.texture.clone()) {
             return Ok(texture);

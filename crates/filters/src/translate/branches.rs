@@ -100,7 +100,8 @@ fn read_exit(instruction: &Instruction) -> Option<Exit> {
     })
 }
 
-/// Leaves out the numbers of a `switch` that lead where all others do. naga takes the first of them for the next case.
+/// Leaves out the numbers of a `switch` that lead where all others do. naga takes the first of them
+/// for the next case.
 pub(super) fn drop_default_cases(words: &mut Words) {
     for instruction in &mut words.instructions {
         if let (Op::Switch, [_, default, ..]) = (instruction.op, &instruction.operands[..]) {

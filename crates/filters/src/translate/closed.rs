@@ -1,7 +1,7 @@
 //! Check that a compiler's input names only files that the program resolved.
 //!
-//! Compilers and the program may disagree about what is a comment, a text in quotes or the end of a line. So the check asks for
-//! words, wherever they are, and refuses what could hide one.
+//! Compilers and the program may disagree about what is a comment, a text in quotes or the end of a
+//! line. So the check asks for words, wherever they are, and refuses what could hide one.
 
 use super::includes::{IMPORTS, ends_with_import, list_lines};
 use super::language::Language;
@@ -91,8 +91,9 @@ fn list_directives(line: &str) -> Vec<&str> {
         .collect()
 }
 
-/// Finds what may form the name of a module of Slang: its words in a macro, and paths in quotes that lead out of a folder.
-/// Lines that [`find_hidden`] judges form none, and neither do messages of `#error`.
+/// Finds what may form the name of a module of Slang: its words in a macro, and paths in quotes
+/// that lead out of a folder. Lines that [`find_hidden`] judges form none, and neither do messages
+/// of `#error`.
 fn find_hidden_module(line: &str) -> Option<String> {
     let trimmed = line.trim_start();
     let directive = trimmed.strip_prefix('#').or(trimmed.strip_prefix("%:"));

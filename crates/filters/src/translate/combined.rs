@@ -1,7 +1,7 @@
 //! Split of combined image samplers (`sampler2D` of GLSL) into a texture and a sampler.
 //!
-//! WGSL and wgpu have no combined ones. A variable keeps its binding for the texture, and its sampler gets a free one. A
-//! function with a combined parameter has two parameters instead.
+//! WGSL and wgpu have no combined ones. A variable keeps its binding for the texture, and its
+//! sampler gets a free one. A function with a combined parameter has two parameters instead.
 
 use std::collections::BTreeMap;
 
@@ -15,7 +15,8 @@ struct Split {
     images: BTreeMap<u32, u32>,
     /// New types by the pointer to the combined type.
     types: BTreeMap<u32, SplitTypes>,
-    /// The sampler of each combined variable or parameter; it has the same name, so that a binding by name explains both.
+    /// The sampler of each combined variable or parameter; it has the same name, so that a binding
+    /// by name explains both.
     samplers: BTreeMap<u32, u32>,
     /// Places of the samplers of variables.
     places: BTreeMap<u32, Place>,
@@ -29,7 +30,8 @@ struct SplitTypes {
     sampler_pointer: u32,
 }
 
-/// Splits every combined image sampler. Returns the places of the new samplers, each with the place of its texture.
+/// Splits every combined image sampler. Returns the places of the new samplers, each with the place
+/// of its texture.
 pub(super) fn split_combined_samplers(words: &mut Words) -> Result<BTreeMap<Place, Place>, String> {
     let images: BTreeMap<u32, u32> = (words.all(Op::TypeSampledImage))
         .map(|[combined, image]| (combined, image))

@@ -38,7 +38,8 @@ type Compiled = (String, BTreeMap<PathBuf, String>);
 /// What this process has compiled.
 static COMPILED: Mutex<BTreeMap<Compiled, Vec<u8>>> = Mutex::new(BTreeMap::new());
 
-/// Lists the compilers of a pass that are installed, the best first: all of its language, or the one that it chose.
+/// Lists the compilers of a pass that are installed, the best first: all of its language, or the
+/// one that it chose.
 pub(super) fn list_installed(
     language: Language,
     shader: &PassShader,
@@ -250,7 +251,8 @@ fn find_error(said: &str, input: &Path, copies: &Path, folder: &Path) -> (Option
     (line, shorten(lines))
 }
 
-/// Joins a compiler's messages. If they are too long, lines with errors come first, and the number of omitted lines last.
+/// Joins a compiler's messages. If they are too long, lines with errors come first, and the number
+/// of omitted lines last.
 fn shorten(mut lines: Vec<String>) -> String {
     let mut said = lines.join("\n");
     if said.len() <= MAX_MESSAGE_BYTES {

@@ -9,7 +9,8 @@ use crate::filter::{PassShader, Stage};
 #[derive(Debug)]
 pub(crate) struct Compiler {
     pub program: &'static str,
-    /// Makes the words that it gets for a shader and its texts; `{in}`, `{out}` and `{include}` stand for files.
+    /// Makes the words that it gets for a shader and its texts; `{in}`, `{out}` and `{include}`
+    /// stand for files.
     pub(super) arguments: fn(&PassShader, &Sources) -> String,
     /// Way to get it.
     pub way_out: &'static str,
@@ -85,7 +86,8 @@ static OF_WESL: [Compiler; 1] = [Compiler {
 }];
 
 impl Language {
-    /// Returns the programs that compile it, the best first; none for a language that needs no compiler.
+    /// Returns the programs that compile it, the best first; none for a language that needs no
+    /// compiler.
     pub fn compilers(self) -> &'static [Compiler] {
         match self {
             Self::Glsl => &OF_GLSL,

@@ -34,8 +34,8 @@ struct Constants<'a> {
     given: &'a [(String, f64)],
 }
 
-/// Sets the constants that are `given` by name or number, and computes all that depend on them. Fails for a missing one, unless
-/// `may_miss`.
+/// Sets the constants that are `given` by name or number, and computes all that depend on them.
+/// Fails for a missing one, unless `may_miss`.
 pub(super) fn set_constants(
     words: &mut Words,
     given: &[(String, f64)],
@@ -113,7 +113,8 @@ fn size_workgroups(words: &mut Words, values: &BTreeMap<u32, Value>) {
     }
 }
 
-/// Replaces the bits of an infinite float, which naga refuses, by those of the largest with its sign.
+/// Replaces the bits of an infinite float, which naga refuses, by those of the largest with its
+/// sign.
 fn make_finite(bits: u32) -> u32 {
     let number = f32::from_bits(bits);
     if number.is_infinite() {
@@ -252,7 +253,8 @@ fn encode(scalar: Scalar, name: &str, value: f64) -> Result<u32, String> {
     })
 }
 
-/// Computes an operation on numbers of 32 bits; none for one that is unknown, or that divides by zero.
+/// Computes an operation on numbers of 32 bits; none for one that is unknown, or that divides by
+/// zero.
 fn compute(operation: Op, operands: &[u32]) -> Option<u32> {
     let truth = |is: bool| Some(u32::from(is));
     let (a, b) = match *operands {

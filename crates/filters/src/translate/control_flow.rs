@@ -1,8 +1,9 @@
 //! Check that naga keeps the control flow of a SPIR-V module.
 //!
-//! naga turns branches into `if`, `switch` and `loop`. A branch that leaves several of these at once, such as one out of a `switch`
-//! to the end of the loop around it, becomes a `break` of the innermost (<https://github.com/gfx-rs/wgpu/issues/4449>). So each block
-//! gets a mark, and where control goes from one mark to the next must be the same on both sides.
+//! naga turns branches into `if`, `switch` and `loop`. A branch that leaves several of these at
+//! once, such as one out of a `switch` to the end of the loop around it, becomes a `break` of the
+//! innermost (<https://github.com/gfx-rs/wgpu/issues/4449>). So each block gets a mark, and where
+//! control goes from one mark to the next must be the same on both sides.
 
 use std::collections::BTreeMap;
 

@@ -11,9 +11,9 @@ const DEPTH: &str = "texture_depth_2d";
 /// Change of a text: a range of bytes, and what takes its place.
 type Edit = (Range<usize>, &'static str);
 
-/// Rewrites a text of WGSL so that its depth textures are `texture_2d<f32>`: reading one gives four numbers, and the first is meant.
-/// Lines keep their numbers. None if it has no such texture, or compares with one, which floats cannot do. `module` is made of the
-/// text.
+/// Rewrites a text of WGSL so that its depth textures are `texture_2d<f32>`: reading one gives four
+/// numbers, and the first is meant. Lines keep their numbers. None if it has no such texture, or
+/// compares with one, which floats cannot do. `module` is made of the text.
 pub(super) fn read_depth_as_floats(module: &Module, text: &str) -> Option<String> {
     let mut edits = list_declarations(text);
     if edits.is_empty() {

@@ -27,7 +27,8 @@ const OF_RESHADE: [&str; 6] = [
     "BUFFER_RCP_WIDTH",
 ];
 
-/// Refuses a shader whose compiler would say only that it does not understand it, or that would be read the wrong way up.
+/// Refuses a shader whose compiler would say only that it does not understand it, or that would be
+/// read the wrong way up.
 pub(super) fn check_dialect(
     sources: &Sources,
     shader: &PassShader,

@@ -64,8 +64,8 @@ pub(super) fn keep_entry_point(
     }
 }
 
-/// Sets the `override`s of WGSL. Those that filter.toml does not name keep the value that the shader gives them. A vertex stage takes
-/// those of its fragment shader that it has.
+/// Sets the `override`s of WGSL. Those that filter.toml does not name keep the value that the
+/// shader gives them. A vertex stage takes those of its fragment shader that it has.
 pub(super) fn set_constants(
     shader: &PassShader,
     path: &Path,

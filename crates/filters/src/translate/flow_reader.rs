@@ -9,7 +9,8 @@ use wgpu::naga::{
 
 use super::next_block::Next;
 
-/// Where control goes from the statements of a block: at their end, at a `break`, and at a `continue`.
+/// Where control goes from the statements of a block: at their end, at a `break`, and at a
+/// `continue`.
 #[derive(Clone, Copy)]
 struct Exits<'e> {
     end: &'e dyn Fn() -> Next,
@@ -137,7 +138,8 @@ impl<'m> Reader<'m> {
         (exits.end)()
     }
 
-    /// Calls a function with the blocks of a statement that `rest` follows, and with where control goes from each.
+    /// Calls a function with the blocks of a statement that `rest` follows, and with where control
+    /// goes from each.
     fn visit_blocks(
         &self,
         statement: &Statement,

@@ -64,7 +64,8 @@ pub(super) fn ends_with_import(text: &str) -> bool {
     IMPORTS.contains(&&text[start..])
 }
 
-/// Lists the lines of a plain text, each with its number. An import of Slang continues on the next line.
+/// Lists the lines of a plain text, each with its number. An import of Slang continues on the next
+/// line.
 pub(super) fn list_lines(text: &str) -> Vec<(usize, String)> {
     let mut lines: Vec<(usize, String)> = Vec::new();
     let mut goes_on = false;
@@ -80,8 +81,9 @@ pub(super) fn list_lines(text: &str) -> Vec<(usize, String)> {
     lines
 }
 
-/// Makes the text that a compiler gets, and that [`list_includes`] reads: lines that end with `\` are joined, comments are
-/// removed, and lines keep their numbers. So both see the same, even if they disagree about comments.
+/// Makes the text that a compiler gets, and that [`list_includes`] reads: lines that end with `\`
+/// are joined, comments are removed, and lines keep their numbers. So both see the same, even if
+/// they disagree about comments.
 pub(super) fn make_plain(text: &str) -> String {
     let text = text.trim_start_matches('\u{feff}').replace("\r\n", "\n");
     let text = text.replace(['\u{b}', '\u{c}'], " ");
@@ -121,8 +123,8 @@ fn join_lines(text: &str) -> String {
     joined
 }
 
-/// Removes the comments of a text of joined lines, and keeps its lines. A directive continues after a comment of several lines,
-/// and the comment's empty lines follow it.
+/// Removes the comments of a text of joined lines, and keeps its lines. A directive continues after
+/// a comment of several lines, and the comment's empty lines follow it.
 fn remove_comments(text: &str) -> String {
     let mut plain = String::with_capacity(text.len());
     let mut pending = 0;

@@ -9,7 +9,8 @@ use super::words::Words;
 
 /// Finds the members that contain the rows of a matrix as its author sees it, by name and offset.
 ///
-/// What HLSL and Slang call a column is a row in their SPIR-V, so the decorations say the opposite there.
+/// What HLSL and Slang call a column is a row in their SPIR-V, so the decorations say the opposite
+/// there.
 pub(super) fn find_by_rows(words: &Words, language: Language) -> BTreeSet<(String, u32)> {
     let rows = match language {
         Language::Hlsl | Language::Slang => Decoration::ColMajor,

@@ -11,7 +11,8 @@ use crate::{Expression, Filter};
 /// Name that stands for all members without a value of their own.
 const OTHERS: &str = "*";
 
-/// Lays out the values of a block. `by_rows` has the members that contain the rows of a matrix, by name and offset.
+/// Lays out the values of a block. `by_rows` has the members that contain the rows of a matrix, by
+/// name and offset.
 pub(super) fn fill_block(
     filter: &Filter,
     module: &Module,
@@ -93,7 +94,8 @@ fn refuse_missing(filter: &Filter, missing: &[&Member]) -> String {
     )
 }
 
-/// Finds the values of a member: its own, those that it is called after, or those of all others; none if it has none.
+/// Finds the values of a member: its own, those that it is called after, or those of all others;
+/// none if it has none.
 fn find_values(
     filter: &Filter,
     given: &[(String, Vec<Expression>)],
@@ -112,14 +114,16 @@ fn find_values(
         .or_else(|| others.map(|(_, values)| values.clone()))
 }
 
-/// Returns true if `values` means a member by this name: its own, its offset, or that of a struct or array around it.
+/// Returns true if `values` means a member by this name: its own, its offset, or that of a struct
+/// or array around it.
 fn is_meant(name: &str, member: &str, offset: u32) -> bool {
     let rest = member.strip_prefix(name);
     rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
         || name == format!("@{offset}")
 }
 
-/// Finds what `values` says about a member: under its own name, or else that of the innermost struct that it names.
+/// Finds what `values` says about a member: under its own name, or else that of the innermost
+/// struct that it names.
 fn find_given<'a>(
     given: &'a [(String, Vec<Expression>)],
     member: &str,
@@ -131,7 +135,8 @@ fn find_given<'a>(
     meant.max_by_key(|(name, _)| name.len())
 }
 
-/// Expands a value that stands for several numbers to one value each. Matrices come column by column, or row by row.
+/// Expands a value that stands for several numbers to one value each. Matrices come column by
+/// column, or row by row.
 fn spell_out(filter: &Filter, values: &[Expression], is_by_rows: bool) -> Vec<Expression> {
     let spelled = values.iter().flat_map(|value| {
         let Expression::Name(name) = value else {

@@ -1,7 +1,8 @@
-//! Shaders in the languages of engines, translated to modules of naga with the bindings that the suite gives them.
+//! Shaders in the languages of engines, translated to modules of naga with the bindings that the
+//! suite gives them.
 //!
-//! Every language but WGSL and WESL goes through SPIR-V. Nothing is taken on trust: each module is validated after each change, and
-//! panics of the libraries are caught by the caller.
+//! Every language but WGSL and WESL goes through SPIR-V. Nothing is taken on trust: each module is
+//! validated after each change, and panics of the libraries are caught by the caller.
 
 mod bind;
 mod branches;
@@ -141,7 +142,8 @@ pub(crate) fn specialise(
     })
 }
 
-/// Lists the specialisation constants of a pass, by name or number, with the values that settings give them.
+/// Lists the specialisation constants of a pass, by name or number, with the values that settings
+/// give them.
 pub(crate) fn list_constants(
     filter: &Filter,
     shader: &PassShader,

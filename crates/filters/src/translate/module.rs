@@ -34,14 +34,15 @@ pub(super) struct OpenModule {
     pub by_rows: BTreeSet<(String, u32)>,
 }
 
-/// Place of the block of push constants. It is a uniform block here, and naga knows push constants only up to 256 bytes.
+/// Place of the block of push constants. It is a uniform block here, and naga knows push constants
+/// only up to 256 bytes.
 pub(super) const PUSH_CONSTANTS: ResourceBinding = ResourceBinding {
     group: u32::MAX,
     binding: 0,
 };
 
-/// Compiles the bytes of a shader to SPIR-V, or to WGSL if it is WESL. SPIR-V and WGSL stay as they are. A language that
-/// `compiler` does not support uses the first of its own.
+/// Compiles the bytes of a shader to SPIR-V, or to WGSL if it is WESL. SPIR-V and WGSL stay as they
+/// are. A language that `compiler` does not support uses the first of its own.
 pub(super) fn compile_shader(
     filter: &Filter,
     shader: &PassShader,
@@ -89,7 +90,8 @@ fn find_folder(filter: &Filter) -> &Path {
     }
 }
 
-/// Refuses a macro or a condition that no text of a pass names. `stages` are its shaders, each with its path and bytes.
+/// Refuses a macro or a condition that no text of a pass names. `stages` are its shaders, each with
+/// its path and bytes.
 pub(super) fn check_macros<'s>(
     filter: &Filter,
     shader: &PassShader,
@@ -136,7 +138,8 @@ fn has_word(text: &str, name: &str) -> bool {
     text.split(|c| !is_part(c)).any(|word| word == name)
 }
 
-/// Reads a compiled shader. `constants` are values of specialisation constants, which SPIR-V gets here.
+/// Reads a compiled shader. `constants` are values of specialisation constants, which SPIR-V gets
+/// here.
 pub(super) fn read(
     filter: &Filter,
     shader: &PassShader,
@@ -180,7 +183,8 @@ pub(super) fn find_language(shader: &PassShader, path: &Path) -> Result<Language
     Language::of(&shader.file).map_err(|reason| FilterError::in_file(path, None, reason))
 }
 
-/// Finds the format in which filter.toml has the texture that a shader stores to; none for a texture that it does not name.
+/// Finds the format in which filter.toml has the texture that a shader stores to; none for a
+/// texture that it does not name.
 fn find_stored_format(
     filter: &Filter,
     shader: &PassShader,
@@ -212,7 +216,8 @@ fn in_compiled(path: &Path, error: &FilterError) -> FilterError {
     FilterError::in_file(path, None, reason)
 }
 
-/// Reads SPIR-V. `choose` finds the format that filter.toml has for the image at a place and with a name.
+/// Reads SPIR-V. `choose` finds the format that filter.toml has for the image at a place and with a
+/// name.
 fn read_spirv(
     compiled: &[u8],
     language: Language,

@@ -1,4 +1,5 @@
-//! GLSL of OpenGL, where uniforms need neither a block nor a binding, and pictures begin at the bottom left.
+//! GLSL of OpenGL, where uniforms need neither a block nor a binding, and pictures begin at the
+//! bottom left.
 
 use super::sources::Sources;
 

@@ -1,7 +1,7 @@
 //! Packages of WESL: folders next to a shader, which `import bevy_pbr::render::utils;` names.
 //!
-//! The compiler knows no packages on a disk, but it knows the path `package::` of the shader's folder. So the copies that it gets name
-//! a package by that path.
+//! The compiler knows no packages on a disk, but it knows the path `package::` of the shader's
+//! folder. So the copies that it gets name a package by that path.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};

@@ -44,8 +44,8 @@ impl Declared<'_> {
     }
 }
 
-/// Refuses a binding of filter.toml that none of the stages of a pass has, a second one for the same variable, and a key that means
-/// nothing to its variable.
+/// Refuses a binding of filter.toml that none of the stages of a pass has, a second one for the
+/// same variable, and a key that means nothing to its variable.
 pub(super) fn check_places(
     filter: &Filter,
     shader: &PassShader,

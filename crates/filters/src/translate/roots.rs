@@ -3,14 +3,16 @@
 /// Folders that Unreal calls by such a path.
 const ROOTS: [&str; 3] = ["Engine/", "Plugin/", "Project/"];
 
-/// Removes the slash before a path of Unreal, so that it names a folder next to the shader, as Unity's `Packages/` does.
+/// Removes the slash before a path of Unreal, so that it names a folder next to the shader, as
+/// Unity's `Packages/` does.
 pub(super) fn strip_root(path: &str) -> &str {
     let below = path.strip_prefix('/');
     let known = below.filter(|below| ROOTS.iter().any(|root| below.starts_with(root)));
     known.unwrap_or(path)
 }
 
-/// Makes the line that takes the place of a missing file's `#include`: an error, unless a condition leaves it out.
+/// Makes the line that takes the place of a missing file's `#include`: an error, unless a condition
+/// leaves it out.
 pub(super) fn refuse_if_used(path: &str) -> String {
     let way_out = match strip_root(path) {
         below if below == path => String::new(),

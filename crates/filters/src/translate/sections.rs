@@ -1,9 +1,10 @@
-//! GLSL as Godot has it: sections, which lines such as `#[compute]` begin, and `#include` without an extension.
+//! GLSL as Godot has it: sections, which lines such as `#[compute]` begin, and `#include` without
+//! an extension.
 
 use crate::filter::Stage;
 
-/// Blanks lines that no compiler knows: marks of sections, sections of other stages, and the place where Godot puts its macros. The
-/// numbers of lines hold.
+/// Blanks lines that no compiler knows: marks of sections, sections of other stages, and the place
+/// where Godot puts its macros. The numbers of lines hold.
 pub(super) fn keep_section(text: &str, stage: Stage) -> String {
     let own = match stage {
         Stage::Compute => "compute",

@@ -17,8 +17,8 @@ struct Parts {
     passes: Vec<(String, Range<usize>)>,
 }
 
-/// Blanks every line but the HLSL that all passes share and the HLSL of one pass, so that line numbers stay valid. Fails if that
-/// pass is missing, or if none is named and there are several.
+/// Blanks every line but the HLSL that all passes share and the HLSL of one pass, so that line
+/// numbers stay valid. Fails if that pass is missing, or if none is named and there are several.
 pub(super) fn cut_hlsl(text: &str, wanted: Option<&LabPass>) -> Result<String, String> {
     let parts = find_parts(text)?;
     // Other engines have HLSL alone in files with this ending.

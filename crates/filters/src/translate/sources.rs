@@ -1,4 +1,5 @@
-//! Files that a compiler sees: a shader and what it includes or imports, all from the filter's folder.
+//! Files that a compiler sees: a shader and what it includes or imports, all from the filter's
+//! folder.
 
 use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};
@@ -106,8 +107,9 @@ impl<'a> Sources<'a> {
         Ok(())
     }
 
-    /// Rewrites a plain text so that each `#include` names a copy as seen from the file itself: there every compiler looks first, and
-    /// opens nothing else. Returns the files that it names, too.
+    /// Rewrites a plain text so that each `#include` names a copy as seen from the file itself:
+    /// there every compiler looks first, and opens nothing else. Returns the files that it names,
+    /// too.
     fn resolve(
         &self,
         file: &Path,
@@ -184,8 +186,8 @@ impl<'a> Sources<'a> {
         FilterError::in_file(&self.folder.join(place), line, reason)
     }
 
-    /// Finds a file next to the one that names it, or next to the shader; none if neither exists. A module's name may lack its
-    /// ending.
+    /// Finds a file next to the one that names it, or next to the shader; none if neither exists. A
+    /// module's name may lack its ending.
     fn find(
         &self,
         (by, base): (&Path, &Path),

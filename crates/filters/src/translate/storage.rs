@@ -1,9 +1,10 @@
 //! Access of kernels to storage images, narrowed to what they do.
 //!
-//! GLSL often leaves `readonly` and `writeonly` out, and few formats of WebGPU can be read and written at once. An image that
-//! is only written is declared so. One that is only read becomes a sampled texture, which works for every format. One that is
-//! both becomes two variables first: reads see its content before the pass. HLSL and Slang do not say in which format an image
-//! is stored, and their compilers omit or guess it; filter.toml says.
+//! GLSL often leaves `readonly` and `writeonly` out, and few formats of WebGPU can be read and
+//! written at once. An image that is only written is declared so. One that is only read becomes a
+//! sampled texture, which works for every format. One that is both becomes two variables first:
+//! reads see its content before the pass. HLSL and Slang do not say in which format an image is
+//! stored, and their compilers omit or guess it; filter.toml says.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -36,7 +37,8 @@ pub(super) struct StorageImages {
 }
 
 impl StorageImages {
-    /// Splits images that are read and written, and makes naga accept those that are only read and those without a format.
+    /// Splits images that are read and written, and makes naga accept those that are only read and
+    /// those without a format.
     pub fn prepare(words: &mut Words) -> Self {
         let owners = split_images(words);
         let open = fill_formats(words);
@@ -57,8 +59,8 @@ impl StorageImages {
         }
     }
 
-    /// Narrows the variables of the module that naga made. `choose` finds the format of the image at a place and with a name, whose
-    /// own may be open.
+    /// Narrows the variables of the module that naga made. `choose` finds the format of the image
+    /// at a place and with a name, whose own may be open.
     pub fn narrow(
         &self,
         module: &mut Module,
@@ -116,7 +118,8 @@ fn is_storage_image(ty: &Instruction) -> bool {
     ty.op == Op::TypeImage && ty.operands.get(SAMPLED) == Some(&2)
 }
 
-/// Gives types of storage images without a format one with the same kind of numbers; returns their ids.
+/// Gives types of storage images without a format one with the same kind of numbers; returns their
+/// ids.
 fn fill_formats(words: &mut Words) -> BTreeSet<u32> {
     // Nothing needs these once all have a format.
     let without = [
@@ -148,8 +151,8 @@ fn fill_formats(words: &mut Words) -> BTreeSet<u32> {
     open
 }
 
-/// Splits images that a kernel both reads and writes in two variables. Returns the places of those that are read, each with the
-/// place of the one that is written.
+/// Splits images that a kernel both reads and writes in two variables. Returns the places of those
+/// that are read, each with the place of the one that is written.
 fn split_images(words: &mut Words) -> BTreeMap<Place, Place> {
     let (uses, loaded) = find_uses(words, &find_variables(words));
     let read: BTreeSet<u32> = (words.all(Op::ImageRead))
@@ -249,8 +252,8 @@ fn list_images(instruction: &Instruction) -> &[u32] {
     operands.get(places).unwrap_or_default()
 }
 
-/// Fetches texels from level 0 if a module names none: `texture[pixel]` of Slang, and reads of the storage images in `read`.
-/// naga requires a level for a sampled texture.
+/// Fetches texels from level 0 if a module names none: `texture[pixel]` of Slang, and reads of the
+/// storage images in `read`. naga requires a level for a sampled texture.
 fn name_levels(words: &mut Words, read: &BTreeSet<u32>) {
     let is_bare = |it: &Instruction| match (it.op, &it.operands[..]) {
         (Op::ImageFetch, [_, _, _, _]) => true,

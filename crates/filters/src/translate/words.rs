@@ -10,7 +10,8 @@ pub(super) type Place = (u32, u32);
 /// Upper limit on ids. The largest shaders of engines have a hundredth of it.
 const MAX_IDS: u32 = 1 << 20;
 
-/// Upper limit on branches, on types and on composite constants of a module, each: naga recurses if they are nested.
+/// Upper limit on branches, on types and on composite constants of a module, each: naga recurses if
+/// they are nested.
 const MAX_NESTABLE: usize = 10_000;
 
 /// Storage class of textures and samplers.
@@ -176,7 +177,8 @@ impl Words {
         places
     }
 
-    /// Finds the names of ids (`Op::Name`, one word), or of members by struct and index (`Op::MemberName`, two words).
+    /// Finds the names of ids (`Op::Name`, one word), or of members by struct and index
+    /// (`Op::MemberName`, two words).
     pub fn find_names<const COUNT: usize>(&self, op: Op) -> BTreeMap<[u32; COUNT], String> {
         let named = self.instructions.iter().filter(|it| it.op == op);
         let named = named.filter_map(|it| it.operands.split_first_chunk());

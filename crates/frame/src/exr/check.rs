@@ -1,4 +1,5 @@
-//! Checks of OpenEXR files that this program wrote, and the checksum of their content, which shows a bit that flipped on a disk.
+//! Checks of OpenEXR files that this program wrote, and the checksum of their content, which shows
+//! a bit that flipped on a disk.
 
 use std::collections::BTreeMap;
 
@@ -75,7 +76,8 @@ impl ExrFile {
         Ok(())
     }
 
-    /// Computes the BLAKE3 hash of size, attributes and channels in any order, without the attribute that holds it.
+    /// Computes the BLAKE3 hash of size, attributes and channels in any order, without the
+    /// attribute that holds it.
     pub(crate) fn compute_checksum(&self) -> String {
         let mut hasher = blake3::Hasher::new();
         hasher.update(&self.width.to_le_bytes());

@@ -1,4 +1,5 @@
-//! The header of an OpenEXR file: its limits, checked before memory is allocated for pixels, and its texts in UTF-8.
+//! The header of an OpenEXR file: its limits, checked before memory is allocated for pixels, and
+//! its texts in UTF-8.
 
 use exr::math::Vec2;
 use exr::meta::attribute::Text;
@@ -8,17 +9,18 @@ use exr::meta::header::Header;
 pub const LARGEST_EXR_SIDE: usize = 16_384;
 /// Upper limit on the channels of an OpenEXR file.
 pub const MAX_EXR_CHANNELS: usize = 32_768;
-/// Upper limit on the bytes that the samples of an OpenEXR file take in memory. A file that is larger than this divided by
-/// [`LARGEST_EXR_RATIO`] may take more.
+/// Upper limit on the bytes that the samples of an OpenEXR file take in memory. A file that is
+/// larger than this divided by [`LARGEST_EXR_RATIO`] may take more.
 pub const MAX_EXR_BYTES: u64 = 1 << 30;
-/// Upper limit on the ratio of a large OpenEXR file's samples to its size. Run lengths shrink samples no further.
+/// Upper limit on the ratio of a large OpenEXR file's samples to its size. Run lengths shrink
+/// samples no further.
 pub const LARGEST_EXR_RATIO: u64 = 64;
 
 /// In memory all samples are 32-bit.
 const BYTES_PER_SAMPLE: u64 = 4;
 
-/// Refuses headers of several parts, of deep or subsampled data, and of more pixels, channels or bytes than are allowed.
-/// `file_bytes` is the size of the file.
+/// Refuses headers of several parts, of deep or subsampled data, and of more pixels, channels or
+/// bytes than are allowed. `file_bytes` is the size of the file.
 pub(crate) fn check_header(headers: &[Header], file_bytes: u64) -> Result<(), String> {
     let [header] = headers else {
         return Err(format!(

@@ -16,8 +16,9 @@ use super::header::{check_header, describe_odd_pixels, from_exr};
 use crate::FileError;
 use crate::file::open_regular;
 
-/// Reads a single-part OpenEXR file; refuses one that is cut short, has several parts, or claims more pixels, channels or
-/// bytes than [`MAX_EXR_BYTES`](crate::MAX_EXR_BYTES) and its neighbours allow. Half floats are widened.
+/// Reads a single-part OpenEXR file; refuses one that is cut short, has several parts, or claims
+/// more pixels, channels or bytes than [`MAX_EXR_BYTES`](crate::MAX_EXR_BYTES) and its neighbours
+/// allow. Half floats are widened.
 pub fn read_exr(path: &Path) -> Result<ExrFile, FileError> {
     let (handle, bytes) = open_regular(path, u64::MAX)?;
     decode(BufReader::new(handle), bytes, path)
@@ -114,8 +115,8 @@ fn decode(source: impl Read + Seek, bytes: u64, path: &Path) -> Result<ExrFile, 
     Ok(file)
 }
 
-/// Reads size and text attributes of an OpenEXR file without its pixels, as a file without channels; none if
-/// the file is missing or broken.
+/// Reads size and text attributes of an OpenEXR file without its pixels, as a file without
+/// channels; none if the file is missing or broken.
 pub fn read_exr_header(path: &Path) -> Option<ExrFile> {
     let (handle, _) = open_regular(path, u64::MAX).ok()?;
     let chunks = exr::block::read(BufReader::new(handle), false).ok()?;
@@ -139,7 +140,8 @@ fn set_texts<'a>(
     }
 }
 
-/// Reads one text attribute of an OpenEXR file without its pixels; none if the file or the attribute is missing or broken.
+/// Reads one text attribute of an OpenEXR file without its pixels; none if the file or the
+/// attribute is missing or broken.
 pub fn read_attribute(path: &Path, name: &str) -> Option<String> {
     read_exr_header(path)?.attributes.remove(name)
 }

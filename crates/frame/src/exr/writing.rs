@@ -18,10 +18,11 @@ use super::header::to_exr;
 use crate::FileError;
 use crate::file::write_atomically;
 
-/// Writes single-part, lossless OpenEXR under a temporary name and renames it: the path has the whole file or its old
-/// content. A file of a `kind` gets a checksum of its content.
+/// Writes single-part, lossless OpenEXR under a temporary name and renames it: the path has the
+/// whole file or its old content. A file of a `kind` gets a checksum of its content.
 ///
-/// Run lengths make noise up to a third larger than deflate does, in a sixth to a fourteenth of its time.
+/// Run lengths make noise up to a third larger than deflate does, in a sixth to a fourteenth of its
+/// time.
 pub fn write_exr(path: &Path, file: &ExrFile) -> Result<(), FileError> {
     let quick = Encoding {
         compression: Compression::RLE,
@@ -30,8 +31,9 @@ pub fn write_exr(path: &Path, file: &ExrFile) -> Result<(), FileError> {
     write_encoded(path, file.clone(), quick, FlatSamples::F32)
 }
 
-/// Writes as [`write_exr`] does, smaller (ZIP16) and slower: for files that are made once, or that repeat themselves. A channel
-/// of floats that are all halves, such as a mask, is written as halves.
+/// Writes as [`write_exr`] does, smaller (ZIP16) and slower: for files that are made once, or that
+/// repeat themselves. A channel of floats that are all halves, such as a mask, is written as
+/// halves.
 pub fn write_small_exr(path: &Path, file: ExrFile) -> Result<(), FileError> {
     write_encoded(path, file, Encoding::SMALL_LOSSLESS, shorten)
 }
@@ -55,8 +57,8 @@ fn shorten(floats: Vec<f32>) -> FlatSamples {
     }
 }
 
-/// Writes floats rounded to halves (ZIP16), which is not lossless: for maps that people look at. Larger values become the
-/// largest half.
+/// Writes floats rounded to halves (ZIP16), which is not lossless: for maps that people look at.
+/// Larger values become the largest half.
 pub fn write_half_exr(path: &Path, mut file: ExrFile) -> Result<(), FileError> {
     for channel in &mut file.channels {
         if let Samples::F32(samples) = &mut channel.samples {
@@ -121,10 +123,12 @@ fn write_encoded(
     write_atomically(path, &bytes)
 }
 
-/// Sorts the header's attributes by name: the encoder leaves them in random order, and equal content must give equal
-/// bytes. The header keeps its length, so that every offset in the file stays right.
+/// Sorts the header's attributes by name: the encoder leaves them in random order, and equal
+/// content must give equal bytes. The header keeps its length, so that every offset in the file
+/// stays right.
 ///
-/// An attribute is `name 0 type 0 size value`; an empty name ends the header (OpenEXR file layout, "Header").
+/// An attribute is `name 0 type 0 size value`; an empty name ends the header (OpenEXR file layout,
+/// "Header").
 fn sort_attributes(bytes: &mut [u8]) {
     const MAGIC_AND_VERSION: usize = 8;
     let mut attributes = Vec::new();

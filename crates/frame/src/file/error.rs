@@ -23,7 +23,8 @@ pub enum FileError {
         /// Message of the decoder.
         reason: String,
     },
-    /// Not the file that was asked for: not a regular file, too large, or an OpenEXR file that lacks required content.
+    /// Not the file that was asked for: not a regular file, too large, or an OpenEXR file that
+    /// lacks required content.
     #[error("{path}: {reason}", path = path.display())]
     Foreign {
         /// The file.

@@ -10,9 +10,9 @@ use super::error::FileError;
 
 /// Reads a regular file of at most `limit` bytes.
 ///
-/// Symbolic links are followed. A directory, a FIFO, a socket or a device is refused before it is opened, so that
-/// nothing blocks. A file that is larger than `limit` is refused before it is read. A file that grows while it is read
-/// is refused too: no more than `limit + 1` bytes are ever held.
+/// Symbolic links are followed. A directory, a FIFO, a socket or a device is refused before it is
+/// opened, so that nothing blocks. A file that is larger than `limit` is refused before it is read.
+/// A file that grows while it is read is refused too: no more than `limit + 1` bytes are ever held.
 ///
 /// # Errors
 /// Fails if the file cannot be read, is no regular file, or is larger than `limit`.
@@ -30,8 +30,8 @@ pub fn read_bounded(path: &Path, limit: u64) -> Result<Vec<u8>, FileError> {
     Ok(bytes)
 }
 
-/// Opens a regular file of at most `limit` bytes; returns its size too. Anything else is refused before it is opened, so that
-/// nothing blocks.
+/// Opens a regular file of at most `limit` bytes; returns its size too. Anything else is refused
+/// before it is opened, so that nothing blocks.
 pub fn open_regular(path: &Path, limit: u64) -> Result<(File, u64), FileError> {
     let io = |source| FileError::io(path, "read", source);
     let metadata = std::fs::metadata(path).map_err(io)?;

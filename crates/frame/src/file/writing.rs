@@ -14,20 +14,21 @@ const PREFIX: &str = ".shuttertruth-";
 /// End of that name.
 const SUFFIX: &str = ".tmp";
 
-/// Writes `bytes` under a temporary name in the same folder, then renames the file: the path has all of them or its old
-/// content. Missing folders are made. The umask decides who may read the file, as with every other program.
+/// Writes `bytes` under a temporary name in the same folder, then renames the file: the path has
+/// all of them or its old content. Missing folders are made. The umask decides who may read the
+/// file, as with every other program.
 ///
 /// # Errors
-/// Fails if the file cannot be written, or if a folder, a FIFO, a socket, a device or a link to one is there: renaming would
-/// replace it, even `/dev/null`.
+/// Fails if the file cannot be written, or if a folder, a FIFO, a socket, a device or a link to one
+/// is there: renaming would replace it, even `/dev/null`.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     write_streamed(path, |file| {
         (file.write_all(bytes)).map_err(|error| FileError::io(path, "write", error))
     })
 }
 
-/// Writes a file as [`write_atomically`] does, piece by piece: `write` writes the content. If it fails, the path keeps its old
-/// content.
+/// Writes a file as [`write_atomically`] does, piece by piece: `write` writes the content. If it
+/// fails, the path keeps its old content.
 ///
 /// # Errors
 /// Fails as [`write_atomically`] does, and if `write` fails.
@@ -74,13 +75,15 @@ fn create_temporary(folder: &Path) -> std::io::Result<NamedTempFile> {
         builder.permissions(std::fs::Permissions::from_mode(0o666));
     }
     let temporary = builder.tempfile_in(folder)?;
-    // Locked while its writer lives, so that nobody takes it for a leftover. Some systems cannot lock.
+    // Locked while its writer lives, so that nobody takes it for a leftover. Some systems cannot
+    // lock.
     let _ = temporary.as_file().try_lock();
     Ok(temporary)
 }
 
-/// Removes files that a process was writing into this folder when it was killed. Files that a living process writes stay, and so
-/// do all other files and folders. Removes nothing beyond a link to a folder.
+/// Removes files that a process was writing into this folder when it was killed. Files that a
+/// living process writes stay, and so do all other files and folders. Removes nothing beyond a link
+/// to a folder.
 pub fn remove_leftovers(folder: &Path) {
     if folder.is_symlink() {
         return;

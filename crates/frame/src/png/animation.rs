@@ -4,8 +4,8 @@ use std::path::Path;
 
 use crate::{FileError, Raster, write_atomically};
 
-/// Writes display values in [0, 1] as an animated PNG of 8 bits that plays for ever, at a number of frames per second. All frames
-/// have the size of the first; there is at least one.
+/// Writes display values in [0, 1] as an animated PNG of 8 bits that plays for ever, at a number of
+/// frames per second. All frames have the size of the first; there is at least one.
 pub fn write_animated_png(
     path: &Path,
     frames: &[Raster<[f32; 3]>],

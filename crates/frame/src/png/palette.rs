@@ -3,8 +3,8 @@
 /// Upper limit on the colours of a palette.
 pub const MAX_COLORS: usize = 256;
 
-/// Refuses a PNG with a palette that is not a list of whole colours, at which the decoder would panic. The error's text follows
-/// the file's name. The decoder reports all other faults.
+/// Refuses a PNG with a palette that is not a list of whole colours, at which the decoder would
+/// panic. The error's text follows the file's name. The decoder reports all other faults.
 pub fn check_png_palette(bytes: &[u8]) -> Result<(), String> {
     const SIGNATURE: usize = 8;
     /// Bytes of a chunk besides its content: length, name and checksum.

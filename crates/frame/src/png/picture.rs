@@ -12,7 +12,8 @@ pub const MAX_PNG_PIXELS: u64 = 1 << 25;
 /// Upper limit on the bytes of such a file: the most that its pixels take.
 const MAX_PNG_BYTES: u64 = 16 * MAX_PNG_PIXELS;
 
-/// Refuses a PNG of more than [`MAX_PNG_PIXELS`] by its header: few bytes may encode very many pixels.
+/// Refuses a PNG of more than [`MAX_PNG_PIXELS`] by its header: few bytes may encode very many
+/// pixels.
 fn check_size(bytes: &[u8]) -> Result<(), String> {
     let reader = image::ImageReader::with_format(Cursor::new(bytes), image::ImageFormat::Png);
     let (width, height) = (reader.into_dimensions())
@@ -26,8 +27,8 @@ fn check_size(bytes: &[u8]) -> Result<(), String> {
     }
 }
 
-/// Reads an 8-bit or 16-bit PNG as display values in [0, 1]; grey becomes colour. Refuses a picture that is not opaque, because
-/// its background is not known.
+/// Reads an 8-bit or 16-bit PNG as display values in [0, 1]; grey becomes colour. Refuses a picture
+/// that is not opaque, because its background is not known.
 pub fn read_png(path: &Path) -> Result<Raster<[f32; 3]>, FileError> {
     let bytes = read_bounded(path, MAX_PNG_BYTES)?;
     let foreign = |reason: String| FileError::foreign(path, reason);
@@ -56,8 +57,8 @@ pub fn read_png(path: &Path) -> Result<Raster<[f32; 3]>, FileError> {
     })
 }
 
-/// Encodes display values in [0, 1] (see [`display_srgb`](crate::display_srgb)) as an 8-bit PNG, with a palette if they have at most 256
-/// colours, as error maps do.
+/// Encodes display values in [0, 1] (see [`display_srgb`](crate::display_srgb)) as an 8-bit PNG,
+/// with a palette if they have at most 256 colours, as error maps do.
 pub fn png_bytes(display: &Raster<[f32; 3]>) -> Vec<u8> {
     let values = to_eight_bits(display).into_raw();
     let (pixels, _) = values.as_chunks::<3>();

@@ -17,7 +17,8 @@ pub struct Shutter {
 }
 
 impl Shutter {
-    /// Makes a shutter that is open over `[open, close]`; refuses an interval that is empty, reversed or not finite.
+    /// Makes a shutter that is open over `[open, close]`; refuses an interval that is empty,
+    /// reversed or not finite.
     pub fn new(open: f64, close: f64) -> Result<Self, ShutterError> {
         if open.is_finite() && close.is_finite() && open < close {
             Ok(Self { open, close })

@@ -13,12 +13,13 @@ use crate::exr::ExrFile;
 pub struct ShutterProfile {
     /// Fraction of the light that passes, over the interval.
     pub efficiency: Efficiency,
-    /// Delay from the picture's upper to its lower border, in frames. Row `j` of `height` is shifted by
-    /// `((j + 0.5) / height - 0.5)` of it, so that the middle is not shifted.
+    /// Delay from the picture's upper to its lower border, in frames. Row `j` of `height` is
+    /// shifted by `((j + 0.5) / height - 0.5)` of it, so that the middle is not shifted.
     pub rolling: f64,
 }
 
-/// Fraction of the light that passes, from opening to closing. Only its shape counts: times are drawn in proportion to it.
+/// Fraction of the light that passes, from opening to closing. Only its shape counts: times are
+/// drawn in proportion to it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Efficiency {
     /// All of the light throughout.
@@ -31,7 +32,8 @@ pub enum Efficiency {
         /// Part of the interval that closing takes; at most `1 - rise`.
         fall: f64,
     },
-    /// Values in [0, 1] at equal steps from the opening to the closing, linear between them; at least two.
+    /// Values in [0, 1] at equal steps from the opening to the closing, linear between them; at
+    /// least two.
     Table(Vec<f64>),
 }
 
@@ -46,7 +48,8 @@ impl ShutterProfile {
         }
     }
 
-    /// Returns the delay of a row, out of `height`, relative to the middle of the picture, in frames.
+    /// Returns the delay of a row, out of `height`, relative to the middle of the picture, in
+    /// frames.
     pub fn row_offset(&self, row: u32, height: u32) -> f64 {
         self.rolling * ((f64::from(row) + 0.5) / f64::from(height) - 0.5)
     }
@@ -103,7 +106,8 @@ impl Efficiency {
         }
     }
 
-    /// Lists points `[part of the interval, efficiency]` in rising order, linear in between; a jump is two points at one place.
+    /// Lists points `[part of the interval, efficiency]` in rising order, linear in between; a jump
+    /// is two points at one place.
     pub fn knots(&self) -> Vec<[f64; 2]> {
         match self {
             Efficiency::Box => vec![[0.0, 1.0], [1.0, 1.0]],
@@ -122,7 +126,8 @@ impl Efficiency {
     }
 }
 
-/// Writes the form used in files: `box`, `trapezoid 0.25 0.5`, `table 0 1 0.5`; numbers read back equal.
+/// Writes the form used in files: `box`, `trapezoid 0.25 0.5`, `table 0 1 0.5`; numbers read back
+/// equal.
 impl fmt::Display for Efficiency {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

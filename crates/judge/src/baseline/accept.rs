@@ -89,7 +89,8 @@ fn add_case(baseline: &mut Baseline, case: &Case) -> Result<(), Error> {
     Ok(())
 }
 
-/// Refuses another class of adapter than the baseline's and, if only some scores are replaced, another adapter.
+/// Refuses another class of adapter than the baseline's and, if only some scores are replaced,
+/// another adapter.
 fn check_adapter(run: &Run, old: &Baseline, some: bool) -> Result<(), Error> {
     let [found, allowed] = [&run.adapter, &old.adapter].map(|adapter| match adapter {
         Some(adapter) => format!(

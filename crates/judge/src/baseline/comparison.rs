@@ -24,7 +24,8 @@ pub struct BaselineComparison {
     pub metric: Metric,
     /// Number of compared scenes.
     pub scenes: usize,
-    /// Amount by which the score is worse than the baseline's, mean over scenes, in the metric's unit; negative is better.
+    /// Amount by which the score is worse than the baseline's, mean over scenes, in the metric's
+    /// unit; negative is better.
     pub worse: f64,
     /// One-sided 95 % confidence limits of that mean, the lower and the upper one.
     #[serde(rename = "bounds")]
@@ -83,8 +84,9 @@ impl BaselineComparison {
     }
 }
 
-/// Compares every case of a run with the baseline, scene by scene against the same truth, per filter and per metric with a margin. A
-/// certain loss on one scene decides, however many others are as good as before. `path` is the baseline's file, for messages.
+/// Compares every case of a run with the baseline, scene by scene against the same truth, per
+/// filter and per metric with a margin. A certain loss on one scene decides, however many others
+/// are as good as before. `path` is the baseline's file, for messages.
 pub fn compare_with_baseline(
     run: &Run,
     baseline: &Baseline,
@@ -164,7 +166,8 @@ fn compare_losses(
     }
 }
 
-/// Decides by single scenes if the truth's noise allows it, otherwise by the mean. More samples settle what stays open.
+/// Decides by single scenes if the truth's noise allows it, otherwise by the mean. More samples
+/// settle what stays open.
 fn decide(mean: &SceneMean, losses: &[SceneLoss], margin: f64) -> (ComparisonKind, DecidedBy) {
     let [low, high] = mean.interval;
     if losses.iter().any(|loss| loss.certainly_exceeds(margin)) {
@@ -228,7 +231,8 @@ mod tests {
 
     #[test]
     fn a_loss_within_the_noise_is_open_and_names_the_samples_that_settle_it() {
-        // The noise is 3 times the distance from the margin: 16 times the samples make a quarter of it.
+        // The noise is 3 times the distance from the margin: 16 times the samples make a quarter of
+        // it.
         for others in [0, 3] {
             let mut losses = vec![(0.0, 0.0); others];
             losses.push((0.3, 0.6));

@@ -14,7 +14,8 @@ pub struct SceneLoss {
     pub scene: SceneId,
     /// Amount by which the score is worse, in the metric's unit; negative is better.
     pub worse: f64,
-    /// Upper limit on the error of that amount by the truth's noise; 0 if the score is the baseline's.
+    /// Upper limit on the error of that amount by the truth's noise; 0 if the score is the
+    /// baseline's.
     pub noise: f64,
 }
 
@@ -70,8 +71,9 @@ pub(super) fn find_loss(
             noise: if round_score(new.value) == *old {
                 0.0
             } else {
-                // One truth's noise is in both scores, and most of it cancels. Both half widths together are an upper limit; the
-                // baseline has none, so its half width is taken to be the same.
+                // One truth's noise is in both scores, and most of it cancels. Both half widths
+                // together are an upper limit; the baseline has none, so its half width is taken to
+                // be the same.
                 let interval = case.interval(metric);
                 interval.map_or(new.floor, |interval| interval.high - interval.low)
             },

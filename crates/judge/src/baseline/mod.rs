@@ -33,7 +33,8 @@ pub struct Baseline {
     pub program: String,
     /// Adapter of that run; none if every filter was a program.
     pub adapter: Option<AdapterDescription>,
-    /// Reasons for accepting the scores: when all were last accepted, and each time some were since.
+    /// Reasons for accepting the scores: when all were last accepted, and each time some were
+    /// since.
     pub reasons: Vec<String>,
     /// Hash of the truth's inputs, per scene and alignment.
     pub truths: BTreeMap<SceneId, BTreeMap<Alignment, String>>,
@@ -60,7 +61,8 @@ impl Baseline {
         }
     }
 
-    /// Returns true if an adapter has the same class (software, integrated, discrete ..) as the baseline's.
+    /// Returns true if an adapter has the same class (software, integrated, discrete ..) as the
+    /// baseline's.
     pub fn is_of_class(&self, adapter: &Option<AdapterDescription>) -> bool {
         let [own, other] = [&self.adapter, adapter].map(Option::as_ref);
         own.map(|own| &own.kind) == other.map(|other| &other.kind)

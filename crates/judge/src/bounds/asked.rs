@@ -16,7 +16,8 @@ fn list_limits<'a>(
     })
 }
 
-/// Returns whether any of the scenes limits equivalent sub-frames of any of the filters, which needs rendered ladders.
+/// Returns whether any of the scenes limits equivalent sub-frames of any of the filters, which
+/// needs rendered ladders.
 pub fn bound_subframes<'a>(
     scenes: impl Iterator<Item = &'a SceneBounds>,
     filters: &'a [FilterChoice],
@@ -24,8 +25,9 @@ pub fn bound_subframes<'a>(
     list_limits(scenes, filters).any(|(metric, _)| matches!(metric, Metric::Equivalent(_)))
 }
 
-/// Returns the size that all limits on these filters are for; `asked` if they are for any size. Refuses limits for another size than
-/// `asked`, and limits for two sizes, since growth, bleed and misplacement are in pixels.
+/// Returns the size that all limits on these filters are for; `asked` if they are for any size.
+/// Refuses limits for another size than `asked`, and limits for two sizes, since growth, bleed and
+/// misplacement are in pixels.
 pub fn size_for_bounds<'a>(
     scenes: impl Iterator<Item = &'a SceneBounds>,
     filters: &'a [FilterChoice],
@@ -60,8 +62,8 @@ pub fn size_for_bounds<'a>(
     Ok(first.map(|(_, size)| size).or(asked))
 }
 
-/// Refuses limits on these filters for another sequence length than requested. For single frames, ignores limits on sequences, which
-/// nothing judges then.
+/// Refuses limits on these filters for another sequence length than requested. For single frames,
+/// ignores limits on sequences, which nothing judges then.
 pub fn check_lengths<'a>(
     scenes: impl Iterator<Item = &'a SceneBounds>,
     filters: &'a [FilterChoice],

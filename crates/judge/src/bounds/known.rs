@@ -7,7 +7,8 @@ use tracer::{Location, SceneId};
 use crate::bounds::sized::read_all_bounds;
 use crate::bounds::{BOUNDS_FILE, BoundsFile, Level, SceneBounds};
 
-/// Refuses bounds of a scene or a filter that does not exist, in any file below `root` and in `scenes`, the bounds of the run's scenes.
+/// Refuses bounds of a scene or a filter that does not exist, in any file below `root` and in
+/// `scenes`, the bounds of the run's scenes.
 pub fn check_names<'a>(
     root: impl Into<Location>,
     scenes: impl Iterator<Item = &'a SceneBounds>,
@@ -22,9 +23,9 @@ pub fn check_names<'a>(
     })
 }
 
-/// Refuses a case without a bound, and bounds without any required one, since such a check cannot fail. `scenes` are the scenes and the
-/// bounds of scenes in the folder `root`; `frames` are the measured frames of each scene: limits on sequences of another length judge
-/// nothing.
+/// Refuses a case without a bound, and bounds without any required one, since such a check cannot
+/// fail. `scenes` are the scenes and the bounds of scenes in the folder `root`; `frames` are the
+/// measured frames of each scene: limits on sequences of another length judge nothing.
 pub fn require_bounds<'a>(
     root: impl Into<Location>,
     scenes: impl Iterator<Item = (&'a SceneId, &'a SceneBounds)>,

@@ -13,7 +13,8 @@ pub struct Length {
 }
 
 impl Length {
-    /// Checks the length that a bound names; none for a metric of single frames. The error says what is allowed.
+    /// Checks the length that a bound names; none for a metric of single frames. The error says
+    /// what is allowed.
     pub(super) fn check(
         metric: Metric,
         frames: Option<u32>,

@@ -19,7 +19,8 @@ pub use known::{check_names, require_bounds};
 pub use length::Length;
 pub use sized::sized_bounds_file;
 
-/// Name of the file of bounds, next to the scenes and next to one scene. [`sized_bounds_file`] names those for one picture size.
+/// Name of the file of bounds, next to the scenes and next to one scene. [`sized_bounds_file`]
+/// names those for one picture size.
 pub const BOUNDS_FILE: &str = "bounds.toml";
 
 /// Bounds by score.
@@ -28,7 +29,8 @@ pub type Bounds = BTreeMap<Metric, Bound>;
 /// Limit on one score.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bound {
-    /// Highest value allowed; lowest if higher is better; largest distance from the ideal if that is a value.
+    /// Highest value allowed; lowest if higher is better; largest distance from the ideal if that
+    /// is a value.
     pub limit: f64,
     /// Columns and rows of the pictures that it is for; none if for all.
     pub size: Option<(u32, u32)>,
@@ -61,8 +63,9 @@ pub struct SceneBounds {
 }
 
 impl SceneBounds {
-    /// Returns the bounds of a filter preset. A later bound overrides an earlier one of the same metric: first all scenes' file, then this
-    /// scene's; in each the default, then the filter's, then its preset's.
+    /// Returns the bounds of a filter preset. A later bound overrides an earlier one of the same
+    /// metric: first all scenes' file, then this scene's; in each the default, then the filter's,
+    /// then its preset's.
     pub fn of(&self, filter: &str, preset: &str) -> Bounds {
         let own = format!("{filter}:{preset}");
         let mut bounds = Bounds::new();
@@ -96,8 +99,8 @@ impl SceneBounds {
     }
 }
 
-/// Reads the bounds of all scenes and of this scene: `bounds.toml` if there is one, then, if a size is given, the file for pictures of that
-/// size, which overrides the preceding `bounds.toml`.
+/// Reads the bounds of all scenes and of this scene: `bounds.toml` if there is one, then, if a size
+/// is given, the file for pictures of that size, which overrides the preceding `bounds.toml`.
 pub fn read_bounds(
     root: impl Into<Location>,
     scene_folder: impl Into<Location>,

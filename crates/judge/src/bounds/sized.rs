@@ -5,12 +5,14 @@ use tracer::Location;
 
 use crate::bounds::{BOUNDS_FILE, BoundsFile, read_bounds_file};
 
-/// Names the file of bounds for pictures of `size`, columns and rows, next to the scenes or to one scene.
+/// Names the file of bounds for pictures of `size`, columns and rows, next to the scenes or to one
+/// scene.
 pub fn sized_bounds_file((width, height): (u32, u32)) -> String {
     format!("bounds_{width}x{height}.toml")
 }
 
-/// Reads a file of bounds for pictures of `size`: a limit need not name it, and may not name another.
+/// Reads a file of bounds for pictures of `size`: a limit need not name it, and may not name
+/// another.
 pub(super) fn read_sized_bounds(file: &Location, size: (u32, u32)) -> Result<BoundsFile, Error> {
     let mut read = read_bounds_file(file)?;
     if let Some(margin) = read.margins.values().next() {
@@ -35,7 +37,8 @@ pub(super) fn read_sized_bounds(file: &Location, size: (u32, u32)) -> Result<Bou
     Ok(read)
 }
 
-/// Reads all files of bounds in a folder, in the order of their names. Refuses a file with a similar name, since nothing would read it.
+/// Reads all files of bounds in a folder, in the order of their names. Refuses a file with a
+/// similar name, since nothing would read it.
 pub(super) fn read_all_bounds(folder: &Location) -> Result<Vec<BoundsFile>, Error> {
     let mut files = Vec::new();
     for file in folder.list().unwrap_or_default() {
@@ -64,7 +67,8 @@ pub(super) fn read_all_bounds(folder: &Location) -> Result<Vec<BoundsFile>, Erro
     Ok(files)
 }
 
-/// Returns the size in the name of a file of bounds; none if [`sized_bounds_file`] would not write that name.
+/// Returns the size in the name of a file of bounds; none if [`sized_bounds_file`] would not write
+/// that name.
 fn size_in_name(name: &str) -> Option<(u32, u32)> {
     let (width, height) = (name.strip_prefix("bounds_")?)
         .strip_suffix(".toml")?

@@ -14,7 +14,8 @@ use crate::groups::group_by;
 pub struct Change {
     /// Scene.
     pub scene: SceneId,
-    /// Filter or reference; in files its text as `filter`, and `bar`, which is true for a reference.
+    /// Filter or reference; in files its text as `filter`, and `bar`, which is true for a
+    /// reference.
     #[serde(flatten, serialize_with = "write_filter")]
     pub filter: FilterId,
     /// Score.
@@ -27,7 +28,8 @@ pub struct Change {
     pub worse: f64,
     /// Both scores as estimated against a truth without noise; as measured without replicates.
     pub estimates: [f64; 2],
-    /// Weight of the scene in a mean over scenes: 1, or for a skill the error that the one-frame oracle removes.
+    /// Weight of the scene in a mean over scenes: 1, or for a skill the error that the one-frame
+    /// oracle removes.
     pub weight: f64,
     /// 95 % confidence interval of `worse` against a truth without noise; none without replicates.
     pub interval: Option<[f64; 2]>,
@@ -43,7 +45,8 @@ pub struct Change {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Basis {
-    /// The truth's replicates, left out in pairs from both scores at once, so that noise in both cancels.
+    /// The truth's replicates, left out in pairs from both scores at once, so that noise in both
+    /// cancels.
     Replicates,
     /// The larger noise floor of the two scores: replicates or pictures are missing.
     Floor,
@@ -173,7 +176,8 @@ pub fn score_change(metric: Metric, worse: f64) -> f64 {
     }
 }
 
-/// Ranks the cases that changed by more than noise by their largest relative change; returns scene and filter.
+/// Ranks the cases that changed by more than noise by their largest relative change; returns scene
+/// and filter.
 pub fn rank_changes(changes: &[Change]) -> Vec<(&SceneId, &FilterId)> {
     let decided = changes.iter().filter(|change| change.kind.is_decided());
     let mut ranked = group_by(decided, |change| (&change.scene, &change.filter));

@@ -12,7 +12,8 @@ use crate::groups::group_by;
 /// Mean of one metric of one filter, over the scenes that it applies to in both runs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MeanChange {
-    /// `jump_flood:paper`, followed by the scenes' frame rate if it is not their files': `jump_flood:paper 24fps`.
+    /// `jump_flood:paper`, followed by the scenes' frame rate if it is not their files':
+    /// `jump_flood:paper 24fps`.
     pub filter: String,
     /// Score.
     pub metric: Metric,
@@ -20,7 +21,8 @@ pub struct MeanChange {
     pub scenes: usize,
     /// Numbers of scenes that are better, and worse, by more than noise.
     pub better_worse: [usize; 2],
-    /// Mean of the first run's estimates, in the metric's unit; for a skill the ratio of means, as in run.json.
+    /// Mean of the first run's estimates, in the metric's unit; for a skill the ratio of means, as
+    /// in run.json.
     pub first: f64,
     /// Mean of the second run's estimates.
     pub second: f64,
@@ -32,7 +34,8 @@ pub struct MeanChange {
     pub kind: ChangeKind,
 }
 
-/// Averages changes per filter, metric and frame rate, in the order of the changes; leaves out references.
+/// Averages changes per filter, metric and frame rate, in the order of the changes; leaves out
+/// references.
 pub fn average_changes(changes: &[Change]) -> Vec<MeanChange> {
     let of_filters = changes.iter().filter(|change| !change.filter.is_reference);
     let groups = group_by(of_filters, |change| {

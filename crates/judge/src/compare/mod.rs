@@ -53,8 +53,9 @@ pub struct RunComparison {
     pub changes: Vec<Change>,
 }
 
-/// Compares two runs. Separates changes from noise by the truths' replicates and the pictures, if their files exist, and counts none
-/// below its margin; writes nothing. Reports every pair of cases to `watch`.
+/// Compares two runs. Separates changes from noise by the truths' replicates and the pictures, if
+/// their files exist, and counts none below its margin; writes nothing. Reports every pair of cases
+/// to `watch`.
 pub fn compare_runs(
     first: &StoredRun,
     second: &StoredRun,

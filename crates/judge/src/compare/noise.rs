@@ -1,4 +1,5 @@
-//! Noise of a change between runs: both pictures against the truth without each pair of its replicates.
+//! Noise of a change between runs: both pictures against the truth without each pair of its
+//! replicates.
 
 use std::path::{Path, PathBuf};
 
@@ -70,7 +71,8 @@ struct TruthParts {
 }
 
 impl TruthParts {
-    /// Reads the parts from the first run that still has all files of the truth; none if neither has.
+    /// Reads the parts from the first run that still has all files of the truth; none if neither
+    /// has.
     fn read(sides: [&StoredRun; 2], pair: &Pair) -> Result<Option<Self>, Error> {
         for side in sides {
             let folder = side.folder().join(pair.first.scene.folder());
@@ -151,8 +153,8 @@ fn read_picture(path: &Path, objects: &[String]) -> Result<Picture, Error> {
     Ok(Picture::take_from(&mut file, "", objects)?)
 }
 
-/// Returns the uncertainty of a score's change, from both pictures' scores against a truth and its parts; none if the score does not
-/// apply to one of them.
+/// Returns the uncertainty of a score's change, from both pictures' scores against a truth and its
+/// parts; none if the score does not apply to one of them.
 fn find_uncertainty(scores: &[[Scores; 2]], metric: Metric) -> Option<Uncertainty> {
     let interval = |value: &dyn Fn(&[Scores; 2]) -> Option<f64>| {
         let values: Vec<f64> = scores.iter().map(value).collect::<Option<_>>()?;

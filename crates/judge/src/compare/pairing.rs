@@ -83,8 +83,8 @@ pub fn check_comparable(
     }
 }
 
-/// Finds the partner in `other` of each case of `run`: the same case, or else the only unpaired one of its preset, with overridden
-/// parameters.
+/// Finds the partner in `other` of each case of `run`: the same case, or else the only unpaired one
+/// of its preset, with overridden parameters.
 fn find_partners<'a>(run: &Run, other: &'a Run) -> Vec<Option<&'a Case>> {
     // Of equal cases, the first one counts.
     let cases = other.cases.iter().rev();

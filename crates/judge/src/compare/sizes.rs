@@ -1,4 +1,5 @@
-//! Comparison of results at several picture sizes: does a small picture rank filters like a large one?
+//! Comparison of results at several picture sizes: does a small picture rank filters like a large
+//! one?
 
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
@@ -42,7 +43,8 @@ pub struct FilterAtSizes {
 /// Agreement of a size with the largest on the order of filters.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Agreement {
-    /// Kendall's tau of the means: 1 for the same order, 0 for no relation, -1 for the opposite order.
+    /// Kendall's tau of the means: 1 for the same order, 0 for no relation, -1 for the opposite
+    /// order.
     pub tau: f64,
     /// 95 % CI of tau, by resampling the scenes; none for a single scene.
     pub interval: Option<[f64; 2]>,
@@ -63,15 +65,17 @@ pub struct Reversal {
     pub better_here: String,
     /// Filter that is better at the largest size.
     pub better_at_largest: String,
-    /// Mean difference, the second filter's score minus the first one's, at the smaller size and at the largest.
+    /// Mean difference, the second filter's score minus the first one's, at the smaller size and at
+    /// the largest.
     pub differences: [f64; 2],
 }
 
 /// Scores of every filter at one size: `[filter][scene]`, smaller is better.
 type Badness = Vec<Vec<f64>>;
 
-/// Compares results of the same filters and scenes by a score, each with the last, which is the largest; one comparison per shutter
-/// alignment. A size orders two filters if the 95 % CI of their mean difference over scenes excludes 0. That needs five scenes.
+/// Compares results of the same filters and scenes by a score, each with the last, which is the
+/// largest; one comparison per shutter alignment. A size orders two filters if the 95 % CI of their
+/// mean difference over scenes excludes 0. That needs five scenes.
 ///
 /// Scenes and filters that one of them lacks are an error.
 pub fn compare_sizes(results: &[&Results], metric: Metric) -> Result<Vec<SizeComparison>, Error> {
@@ -187,8 +191,8 @@ fn compare_order(names: &[&str], here: &Badness, largest: &Badness) -> Agreement
     agreement
 }
 
-/// Computes the 95 % CI of a statistic of scenes by its percentiles over resamples (Efron 1979, "Bootstrap methods: another look at
-/// the jackknife").
+/// Computes the 95 % CI of a statistic of scenes by its percentiles over resamples (Efron 1979,
+/// "Bootstrap methods: another look at the jackknife").
 fn bootstrap(scenes: usize, statistic: &dyn Fn(&[usize]) -> f64) -> [f64; 2] {
     let mut random = Random(1);
     let mut found: Vec<f64> = (0..RESAMPLES)
@@ -208,8 +212,9 @@ fn difference(size: &Badness, first: usize, second: usize) -> SceneMean {
     plain_mean(&differences, TWO_SIDED)
 }
 
-/// Computes Kendall's tau-b of two lists of values for the same things (Kendall 1945, "The treatment of ties in ranking problems").
-/// Returns 1 for constant lists, which do not contradict each other.
+/// Computes Kendall's tau-b of two lists of values for the same things (Kendall 1945, "The
+/// treatment of ties in ranking problems"). Returns 1 for constant lists, which do not contradict
+/// each other.
 fn kendalls_tau(a: &[f64], b: &[f64]) -> f64 {
     let (mut agree, mut pairs_a, mut pairs_b) = (0.0, 0.0, 0.0);
     for first in 0..a.len() {

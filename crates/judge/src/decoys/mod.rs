@@ -1,4 +1,5 @@
-//! Wrong blurs of a scene, made from its frame: the one most like a picture is the first guess at the picture's mistake.
+//! Wrong blurs of a scene, made from its frame: the one most like a picture is the first guess at
+//! the picture's mistake.
 
 mod wrong;
 
@@ -13,7 +14,8 @@ pub use wrong::{FEW_SUBFRAMES, make_wrong_pictures};
 pub struct Resemblance {
     /// Name of the wrong blur.
     pub decoy: String,
-    /// Distance of the scores from the wrong blur's, as a fraction of the wrong blur's distance from perfect: 0 is equal.
+    /// Distance of the scores from the wrong blur's, as a fraction of the wrong blur's distance
+    /// from perfect: 0 is equal.
     pub distance: f64,
 }
 
@@ -52,8 +54,8 @@ pub struct Decoys {
 type Deviations = Vec<Option<f64>>;
 
 impl Decoys {
-    /// Makes wrong blurs from a frame without guard band and scores them. `few_subframes`, the mean of [`FEW_SUBFRAMES`], is one of them if
-    /// given.
+    /// Makes wrong blurs from a frame without guard band and scores them. `few_subframes`, the mean
+    /// of [`FEW_SUBFRAMES`], is one of them if given.
     pub fn new(
         frame: &Frame,
         truth: &Truth,
@@ -88,8 +90,9 @@ impl Decoys {
         distances.min_by(|a, b| a.distance.total_cmp(&b.distance))
     }
 
-    /// Returns the distance over the scores that both have, as a fraction of the decoy's own distance from perfect; none if there are too
-    /// few such scores, or the decoy is perfect in them.
+    /// Returns the distance over the scores that both have, as a fraction of the decoy's own
+    /// distance from perfect; none if there are too few such scores, or the decoy is perfect in
+    /// them.
     fn distance(&self, found: &Deviations, decoy: &Deviations) -> Option<f64> {
         let (mut apart, mut whole, mut count) = (0.0, 0.0, 0);
         for ((found, decoy), scale) in found.iter().zip(decoy).zip(&self.scales) {

@@ -8,8 +8,9 @@ pub const FEW_SUBFRAMES: u32 = 4;
 /// Pixels by which moving objects are widened.
 const WIDENED: u32 = 2;
 
-/// Makes wrong blurs of a frame without guard band, with their names. They smear like the scatter oracle, the best that the frame allows,
-/// so that each has only the mistake in its name. `few_subframes` is the mean of [`FEW_SUBFRAMES`], if there is one.
+/// Makes wrong blurs of a frame without guard band, with their names. They smear like the scatter
+/// oracle, the best that the frame allows, so that each has only the mistake in its name.
+/// `few_subframes` is the mean of [`FEW_SUBFRAMES`], if there is one.
 pub fn make_wrong_pictures(
     frame: &Frame,
     truth: &Truth,

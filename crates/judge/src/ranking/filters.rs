@@ -21,8 +21,8 @@ pub struct RankedFilter {
     pub alignment: Alignment,
     /// Frame rate of the scenes; none for their files' own.
     pub rate: Option<FrameRate>,
-    /// Best and worst rank among the filters of its shutter: 1 plus the number of better filters, and the number of all filters less the
-    /// worse ones. None for no blur, a reference.
+    /// Best and worst rank among the filters of its shutter: 1 plus the number of better filters,
+    /// and the number of all filters less the worse ones. None for no blur, a reference.
     pub ranks: Option<[usize; 2]>,
     /// True if it is clearly better than no blur; none if that is unknown.
     pub beats_no_blur: Option<bool>,
@@ -79,8 +79,9 @@ pub fn list_summarized(cases: &[Case]) -> Vec<&Case> {
     }
 }
 
-/// Ranks filters for a summary: with full input forms, on scenes at their files' frame rate, if the run tried others as well. If there
-/// are too many presets, each filter is represented by its best one.
+/// Ranks filters for a summary: with full input forms, on scenes at their files' frame rate, if the
+/// run tried others as well. If there are too many presets, each filter is represented by its best
+/// one.
 pub fn rank_for_summary(cases: &[Case]) -> Vec<Vec<RankedFilter>> {
     let flips = |is_listed: fn(&Case) -> bool| -> Vec<RankedScore> {
         let cases = list_summarized(cases).into_iter();
@@ -92,7 +93,8 @@ pub fn rank_for_summary(cases: &[Case]) -> Vec<Vec<RankedFilter>> {
     rank_best(&full, &references)
 }
 
-/// Ranks all presets; if they are too many for a summary, only the best of each filter. No blur may be among the references.
+/// Ranks all presets; if they are too many for a summary, only the best of each filter. No blur may
+/// be among the references.
 pub(crate) fn rank_best(
     scores: &[RankedScore],
     references: &[RankedScore],
@@ -119,12 +121,14 @@ impl RankedScore {
     }
 }
 
-/// Ranks filters of one shutter and frame rate, best first: one group per shutter and rate. With `best_presets`, each filter is
-/// represented by its best preset. No blur, among the scores or the references, has a place and no rank.
+/// Ranks filters of one shutter and frame rate, best first: one group per shutter and rate. With
+/// `best_presets`, each filter is represented by its best preset. No blur, among the scores or the
+/// references, has a place and no rank.
 ///
-/// One filter is better than another if its mean is lower and the 95 % CI of the mean difference over their common scenes excludes 0;
-/// on a single scene, if the difference exceeds the noise floor. One that ruins what stands still is worse than all that do not. A filter's ranks allow for all filters that are too close to it. Being
-/// too close is not transitive, so ranges overlap.
+/// One filter is better than another if its mean is lower and the 95 % CI of the mean difference
+/// over their common scenes excludes 0; on a single scene, if the difference exceeds the noise
+/// floor. One that ruins what stands still is worse than all that do not. A filter's ranks allow
+/// for all filters that are too close to it. Being too close is not transitive, so ranges overlap.
 pub(crate) fn rank_by_score(
     scores: &[RankedScore],
     references: &[RankedScore],
@@ -235,7 +239,8 @@ fn keep_best_presets(group: Vec<Entry>) -> Vec<Entry> {
     best.collect()
 }
 
-/// Pairs the scores of two filters on their common scenes: by how much the second is worse, and the larger floor.
+/// Pairs the scores of two filters on their common scenes: by how much the second is worse, and the
+/// larger floor.
 fn pair(a: &[&RankedScore], b: &[&RankedScore]) -> (Vec<f64>, Vec<f64>) {
     let pairs = a.iter().filter_map(|score| {
         let other = b.iter().find(|other| other.scene == score.scene)?;
@@ -256,7 +261,8 @@ fn are_tied(a: &[&RankedScore], b: &[&RankedScore]) -> bool {
     }
 }
 
-/// Returns whether a filter is better than another in the mean, by its 95 % CI, or on every common scene by more than the noise floor.
+/// Returns whether a filter is better than another in the mean, by its 95 % CI, or on every common
+/// scene by more than the noise floor.
 fn is_clearly_better(own: &[&RankedScore], other: &[&RankedScore]) -> bool {
     let (differences, floors) = pair(own, other);
     let mut both = differences.iter().zip(&floors);

@@ -6,8 +6,8 @@ use suite::{Case, IDENTITY};
 
 use crate::ranking::filters::list_summarized;
 
-/// Returns the frame's excess FLIP over a sharp picture of the shutter's middle: the mean over the scenes of `cases`, which share one
-/// shutter and frame rate. None if the frame is that picture.
+/// Returns the frame's excess FLIP over a sharp picture of the shutter's middle: the mean over the
+/// scenes of `cases`, which share one shutter and frame rate. None if the frame is that picture.
 pub fn mean_lag(cases: &[&Case]) -> Option<f64> {
     let lags = cases.iter().filter(|case| case.is_sharp()).map(|sharp| {
         let is_frame = |case: &&&Case| {

@@ -2,7 +2,8 @@
 
 use crate::ranking::filters::RankedFilter;
 
-/// Describes a ranked shutter in which no filter is clearly better than no blur; none if one is, or if no blur was not measured.
+/// Describes a ranked shutter in which no filter is clearly better than no blur; none if one is, or
+/// if no blur was not measured.
 pub fn no_gain_text(group: &[RankedFilter]) -> Option<&'static str> {
     let mut filters = group.iter().filter(|own| own.ranks.is_some()).peekable();
     if filters.peek().is_none() {
@@ -22,7 +23,8 @@ mod tests {
     use crate::ranking::filters::tests::score;
     use crate::ranking::filters::{RankedScore, rank_by_score};
 
-    /// Ranks filters, with their values per scene and a floor of 0.01, next to no blur as a reference.
+    /// Ranks filters, with their values per scene and a floor of 0.01, next to no blur as a
+    /// reference.
     fn rank(filters: &[(&str, &[f64])], no_blur: &[f64]) -> Vec<RankedFilter> {
         let scores = |name: &str, values: &[f64]| -> Vec<RankedScore> {
             let scores = values.iter().enumerate();

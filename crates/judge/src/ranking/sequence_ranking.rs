@@ -9,22 +9,23 @@ use tracer::SceneId;
 use crate::ranking::filters::{RankedFilter, RankedScore, rank_best, rank_by_score};
 use crate::ranking::side_effects::SideEffects;
 
-/// The score that ranks sequences: it counts errors of single frames and of their changes together. Scores of changes alone would favour
-/// a filter that flickers little around a wrong picture.
+/// The score that ranks sequences: it counts errors of single frames and of their changes together.
+/// Scores of changes alone would favour a filter that flickers little around a wrong picture.
 pub const RANKED_BY: SequenceMetric = SequenceMetric::Jod;
 
 /// A filter preset in the ranking of sequences of its shutter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RankedSequence {
-    /// Rank by [`RANKED_BY`], and the mean of that score over the scenes; its worst scene has the lowest score.
+    /// Rank by [`RANKED_BY`], and the mean of that score over the scenes; its worst scene has the
+    /// lowest score.
     pub ranked: RankedFilter,
     /// Mean of every displayed score over the scenes; none if no scene has it.
     pub means: Vec<(SequenceMetric, Option<SceneMean>)>,
 }
 
-/// Ranks the filters of a run's sequences, one group per shutter, with full input forms if the run tried others as well. If there are too
-/// many presets for a summary, each filter is represented by its best one. Leaves out filters without the deciding score, which have no
-/// rank.
+/// Ranks the filters of a run's sequences, one group per shutter, with full input forms if the run
+/// tried others as well. If there are too many presets for a summary, each filter is represented by
+/// its best one. Leaves out filters without the deciding score, which have no rank.
 pub fn rank_sequences(run: &Run) -> Vec<Vec<RankedSequence>> {
     let is_full = |_: &Sequence, case: &Case| case.input == InputFormat::default();
     rank(run, is_full, |losses| {

@@ -3,7 +3,8 @@
 use metrics::Metric;
 use suite::{TWO_SIDED, plain_mean};
 
-/// Limit on the change of the brightness where nothing moves: filters that change more rank behind all others.
+/// Limit on the change of the brightness where nothing moves: filters that change more rank behind
+/// all others.
 pub const STILL_LIMIT: f64 = 0.01;
 /// Limit on grain: tables mark more of it.
 pub const GRAIN_LIMIT: f64 = 0.018;
@@ -11,7 +12,8 @@ pub const GRAIN_LIMIT: f64 = 0.018;
 /// Explanation of the two for readers.
 pub const SIDE_EFFECTS_RULE: &str = "! marks still (change where nothing moves) above 0.010, which ranks last, and grain above 0.018.";
 
-/// Change where nothing moves and grain, of a filter on a scene or in the mean; none if it does not apply.
+/// Change where nothing moves and grain, of a filter on a scene or in the mean; none if it does not
+/// apply.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SideEffects {
     /// Change where nothing moves.

@@ -1,7 +1,7 @@
 //! Absolute errors, which the truth's noise biases by as much as their floor says.
 
-/// Added to the denominator of SMAPE, in display-scaled radiance: a convention that keeps dark pixels from deciding the
-/// score.
+/// Added to the denominator of SMAPE, in display-scaled radiance: a convention that keeps dark
+/// pixels from deciding the score.
 pub const SMAPE_EPSILON: f64 = 1e-2;
 
 /// Computes `|F - T|`, mean over the channels, of radiance times `scale`.

@@ -1,25 +1,31 @@
-//! Grain: noise and patterns of pixel size in a picture's error, relative to the truth's brightness.
+//! Grain: noise and patterns of pixel size in a picture's error, relative to the truth's
+//! brightness.
 //!
-//! Second differences along rows and columns find what changes from pixel to pixel. Misplaced and missing edges do, too, but
-//! most lie along one line, or look the same on a coarser grid. So second differences over two pixels, of smoothed errors, are
-//! subtracted: they hold edges, and hardly any noise.
+//! Second differences along rows and columns find what changes from pixel to pixel. Misplaced and
+//! missing edges do, too, but most lie along one line, or look the same on a coarser grid. So
+//! second differences over two pixels, of smoothed errors, are subtracted: they hold edges, and
+//! hardly any noise.
 
 use frame::{Image, Raster};
 
 use crate::math::convolution::filter_separably;
 use crate::math::raster::{index_pixels, map_pixels};
 
-/// Added to the truth's brightness, in display-scaled radiance: keeps black from deciding the score.
+/// Added to the truth's brightness, in display-scaled radiance: keeps black from deciding the
+/// score.
 pub const BRIGHTNESS_EPSILON: f64 = 1e-2;
 
-/// Coarse error that halves the weight of a pixel: grain is found where the rest of the error is smooth.
+/// Coarse error that halves the weight of a pixel: grain is found where the rest of the error is
+/// smooth.
 const COARSE_EPSILON: f64 = 0.02;
 
-/// Sum of the squared correlations of second differences between pixels: along one axis 1, -2/3 and 1/6.
+/// Sum of the squared correlations of second differences between pixels: along one axis 1, -2/3 and
+/// 1/6.
 const CORRELATION: f64 =
     (1.0 + 2.0 * (4.0 / 9.0 + 1.0 / 36.0)) * (1.0 + 2.0 * (4.0 / 9.0 + 1.0 / 36.0));
 
-/// Part of white noise's power in the fine error that is in the coarse one, too: the squares of both kernels' sums of squares.
+/// Part of white noise's power in the fine error that is in the coarse one, too: the squares of
+/// both kernels' sums of squares.
 const WHITE_IN_COARSE: f64 = (1.75 / 6.0) * (1.75 / 6.0);
 
 /// Side of the square that brightness and coarse errors are averaged over.
@@ -66,8 +72,8 @@ impl GrainTruth {
         Self { gain, noise }
     }
 
-    /// Maps the grain of a picture against two halves of the truth: products of differences, unbiased like the squared error
-    /// `(F - A)(F - B)`.
+    /// Maps the grain of a picture against two halves of the truth: products of differences,
+    /// unbiased like the squared error `(F - A)(F - B)`.
     pub fn map(&self, output: &Image, [a, b]: [&Image; 2]) -> Raster<PixelGrain> {
         let error = |half: &Image, at: usize, c: usize| {
             f64::from(output.pixels[at][c]) - f64::from(half.pixels[at][c])
@@ -83,7 +89,8 @@ impl GrainTruth {
     }
 }
 
-/// Computes the brightness of a colour at the viewing exposure: the root mean square over the channels.
+/// Computes the brightness of a colour at the viewing exposure: the root mean square over the
+/// channels.
 pub fn brightness(color: [f32; 3], scale: f64) -> f64 {
     let squares: f64 = color.iter().map(|value| f64::from(*value).powi(2)).sum();
     scale * (squares / 3.0).sqrt()
@@ -92,7 +99,8 @@ pub fn brightness(color: [f32; 3], scale: f64) -> f64 {
 /// An error of a pixel's channel.
 type ChannelError<'a> = &'a (dyn Fn(usize, usize) -> f64 + Send + Sync);
 
-/// Maps the products of the fine differences of two errors times `gain`, and of the coarse ones; means over the channels.
+/// Maps the products of the fine differences of two errors times `gain`, and of the coarse ones;
+/// means over the channels.
 fn multiply_differences(gain: &Raster<f64>, errors: [ChannelError; 2]) -> [Raster<f64>; 2] {
     let scaled = errors
         .map(|error| [0, 1, 2].map(|c| index_pixels(gain, |at| error(at, c) * gain.pixels[at])));
@@ -123,8 +131,9 @@ pub fn pool_grain<'a>(pixels: impl Iterator<Item = &'a PixelGrain>) -> Option<f6
     (weights > 0.0).then(|| sum / weights)
 }
 
-/// Estimates the standard deviation of [`pool_grain`] for a picture without error; `None` if there are no pixels. As
-/// [`scatter`](super::cross_error::scatter) says, the variance of a pixel's product is the mean of (2 noise)² / 3; neighbours correlate.
+/// Estimates the standard deviation of [`pool_grain`] for a picture without error; `None` if there
+/// are no pixels. As [`scatter`](super::cross_error::scatter) says, the variance of a pixel's
+/// product is the mean of (2 noise)² / 3; neighbours correlate.
 pub fn scatter_grain<'a>(pixels: impl Iterator<Item = &'a PixelGrain>) -> Option<f64> {
     let (mut fourths, mut weights) = (0.0, 0.0);
     for own in pixels {

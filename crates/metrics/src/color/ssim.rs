@@ -7,7 +7,8 @@ use rayon::prelude::*;
 use crate::math::convolution::{LANES, gaussian, mirror_index, mirrored_places};
 use crate::math::lines::{correlate, correlate_down};
 
-/// Width of the border that is not pooled, in pixels: the window's radius, 3.5 standard deviations of 1.5 pixels.
+/// Width of the border that is not pooled, in pixels: the window's radius, 3.5 standard deviations
+/// of 1.5 pixels.
 pub const SSIM_BORDER: u32 = 5;
 
 const C1: f64 = 0.01 * 0.01;
@@ -19,9 +20,9 @@ const BAND: usize = 64;
 /// Planes that are filtered: both pictures, their squares and their product.
 const FILTERED: usize = 5;
 
-/// Maps SSIM of display values, mean over the channels, in [-1, 1]; 1 is equal. Wang et al., "Image Quality
-/// Assessment: From Error Visibility to Structural Similarity" (2004), with a Gaussian window, biased covariance and data
-/// range 1, as scikit-image computes it with `gaussian_weights`.
+/// Maps SSIM of display values, mean over the channels, in [-1, 1]; 1 is equal. Wang et al., "Image
+/// Quality Assessment: From Error Visibility to Structural Similarity" (2004), with a Gaussian
+/// window, biased covariance and data range 1, as scikit-image computes it with `gaussian_weights`.
 pub fn map_ssim(output: &Image, truth: &Image) -> Raster<f64> {
     map_mean(output, truth, |pixel, c| f64::from(pixel[c]))
 }

@@ -1,4 +1,5 @@
-//! Separable filters of pictures, with borders mirrored at the outer edges of the outermost pixels (d c b a | a b c d).
+//! Separable filters of pictures, with borders mirrored at the outer edges of the outermost pixels
+//! (d c b a | a b c d).
 
 use frame::Raster;
 use pulp::{Arch, Simd, WithSimd};
@@ -6,8 +7,8 @@ use rayon::prelude::*;
 
 use super::lines::{correlate, correlate_down};
 
-/// Samples a Gaussian or its derivative at whole pixels up to `truncate` standard deviations, and divides by the sum of the
-/// Gaussian's samples, as `scipy.ndimage.gaussian_filter1d` does.
+/// Samples a Gaussian or its derivative at whole pixels up to `truncate` standard deviations, and
+/// divides by the sum of the Gaussian's samples, as `scipy.ndimage.gaussian_filter1d` does.
 pub fn gaussian(sigma: f64, truncate: f64, derivative: bool) -> Vec<f64> {
     let radius = (truncate * sigma + 0.5).floor() as i32;
     let bell = |x: i32| (-0.5 * (f64::from(x) / sigma).powi(2)).exp();
@@ -119,14 +120,16 @@ impl WithSimd for Down<'_> {
     }
 }
 
-/// Lists the columns of a row that is mirrored at its ends, from `beyond` pixels before it to `beyond` after it.
+/// Lists the columns of a row that is mirrored at its ends, from `beyond` pixels before it to
+/// `beyond` after it.
 pub fn mirrored_places(width: usize, beyond: usize) -> Vec<usize> {
     (0..width + 2 * beyond)
         .map(|at| mirror_index(at, beyond, width))
         .collect()
 }
 
-/// Returns the index into a line of pixels, mirrored at its ends, of a place counted from `beyond` pixels before its start.
+/// Returns the index into a line of pixels, mirrored at its ends, of a place counted from `beyond`
+/// pixels before its start.
 pub fn mirror_index(at: usize, beyond: usize, length: usize) -> usize {
     let period = 2 * length;
     let mirrored = (at + period * beyond.div_ceil(period) - beyond) % period;

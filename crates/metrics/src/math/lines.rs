@@ -1,7 +1,8 @@
 //! Correlations of lines with taps, by blocks of pixels whose sums stay in registers.
 //!
-//! Products are added one by one in the order of the taps: the width of the instructions changes no bit. Everything is inlined into
-//! the caller, which pulp compiles for the instructions of the processor.
+//! Products are added one by one in the order of the taps: the width of the instructions changes no
+//! bit. Everything is inlined into the caller, which pulp compiles for the instructions of the
+//! processor.
 
 use pulp::Simd;
 

@@ -21,7 +21,8 @@ pub(crate) fn mean_over<T: Copy + Into<f64>>(
     mean(regions.indices(region).map(|at| map.pixels[at].into()))
 }
 
-/// Finds the value that at least this part of the sorted values does not exceed (nearest rank); `None` if there are none.
+/// Finds the value that at least this part of the sorted values does not exceed (nearest rank);
+/// `None` if there are none.
 pub(crate) fn percentile(sorted: &[f32], part: f64) -> Option<f64> {
     sorted
         .get(find_rank(sorted.len(), part)?)
@@ -40,8 +41,9 @@ fn find_rank(count: usize, part: f64) -> Option<usize> {
     ((count as f64 * part).ceil() as usize).checked_sub(1)
 }
 
-/// Finds the smallest of the sorted values up to which they add up to half of their sum, as the FLIP tool reports it: pixels
-/// without error do not count. Values are not negative; `None` if there are none.
+/// Finds the smallest of the sorted values up to which they add up to half of their sum, as the
+/// FLIP tool reports it: pixels without error do not count. Values are not negative; `None` if
+/// there are none.
 pub(crate) fn weighted_median(sorted: &[f32]) -> Option<f64> {
     let values = || sorted.iter().map(|value| f64::from(*value));
     let half = 0.5 * values().sum::<f64>();

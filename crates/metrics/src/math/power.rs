@@ -1,7 +1,8 @@
 //! Powers of numbers that are not negative, a line at a time.
 
-/// Raises `x`, not negative and finite, to `y` in [0, 1]. The result is rounded from 9 good digits, so that it nearly always
-/// equals the system library's. There is no branch, so that loops over it compile to wide instructions.
+/// Raises `x`, not negative and finite, to `y` in [0, 1]. The result is rounded from 9 good digits,
+/// so that it nearly always equals the system library's. There is no branch, so that loops over it
+/// compile to wide instructions.
 #[inline(always)]
 pub fn power(x: f32, y: f32) -> f32 {
     let product = f64::from(y) * log2(f64::from(x));

@@ -21,7 +21,8 @@ pub enum Metric {
     Object(ObjectMetric),
     /// Label total variation over the moving region: `label_tv`.
     Label(LabelMetric),
-    /// `occluder_contamination`: label total variation on the worst of the objects that do not move.
+    /// `occluder_contamination`: label total variation on the worst of the objects that do not
+    /// move.
     OccluderContamination,
     /// `static_contamination`: change of the picture where nothing moves.
     StaticContamination,
@@ -37,7 +38,8 @@ pub enum Metric {
     Sequence(SequenceMetric),
     /// `bleed`: the largest of the bleeds to the sides of a mover, ahead of it and behind it.
     Bleed,
-    /// `flip_common`, FLIP* in tables: FLIP against the shutter that all cases of a run are compared with.
+    /// `flip_common`, FLIP* in tables: FLIP against the shutter that all cases of a run are
+    /// compared with.
     CommonFlip,
 }
 
@@ -180,7 +182,8 @@ impl Metric {
         }
     }
 
-    /// Returns the group in which a report shows it. A report shows most errors of colour over one region only.
+    /// Returns the group in which a report shows it. A report shows most errors of colour over one
+    /// region only.
     pub fn group(self) -> Group {
         match self {
             Metric::Image(metric, Region::Moving) => metric.row().group,
@@ -218,7 +221,8 @@ impl Metric {
         }
     }
 
-    /// Writes a score or a mean of scores with as many digits as are useful: lengths with at most three.
+    /// Writes a score or a mean of scores with as many digits as are useful: lengths with at most
+    /// three.
     pub fn number(self, value: f64) -> String {
         let digits = match self {
             Self::PSNR | Self::SUBFRAMES => 1,
@@ -238,9 +242,10 @@ impl Metric {
         format!("{rounded:.*}", digits as usize)
     }
 
-    /// Computes the strictest bound that a truth with this noise floor supports: three floors from perfect. For unbiased
-    /// squared errors these are three standard deviations of a perfect picture's score, and for PSNR and grain three times the floor's
-    /// square. For equivalent sub-frames it is a third of the highest count that the truth can resolve, because error
+    /// Computes the strictest bound that a truth with this noise floor supports: three floors from
+    /// perfect. For unbiased squared errors these are three standard deviations of a perfect
+    /// picture's score, and for PSNR and grain three times the floor's square. For equivalent
+    /// sub-frames it is a third of the highest count that the truth can resolve, because error
     /// falls at least as fast as the count rises.
     pub fn strictest_bound(self, floor: f64) -> f64 {
         match (self, self.ideal()) {

@@ -84,8 +84,8 @@ impl Group {
     }
 }
 
-/// Declares metrics that are measured together: an enum, a struct with a score for each, and their rows. A row that lacks a field is
-/// a compile error, and so is a score that is never measured.
+/// Declares metrics that are measured together: an enum, a struct with a score for each, and their
+/// rows. A row that lacks a field is a compile error, and so is a score that is never measured.
 macro_rules! metrics {
     (
         $(#[$of_metric:meta])*

@@ -1,6 +1,7 @@
 //! Rows of all metrics, group by group, and the structs of their scores.
 //!
-//! To add one, write its row here and measure it where the struct of its group is made; the crate's `README.md` defines it.
+//! To add one, write its row here and measure it where the struct of its group is made; the crate's
+//! `README.md` defines it.
 
 use serde::{Deserialize, Serialize};
 
@@ -126,7 +127,8 @@ metrics! {
         object: String,
         /// True if any of it moves on screen.
         moves: bool,
-        /// Mean displacement over the shutter, in pixels; +x right, +y down. Zero for an object that is not seen.
+        /// Mean displacement over the shutter, in pixels; +x right, +y down. Zero for an object
+        /// that is not seen.
         displacement: [f64; 2],
     }
 
@@ -154,7 +156,8 @@ metrics! {
         meaning: "how far the silhouette grew sideways",
     }
 
-    /// Mass that rows along the motion gained within the silhouette, in pixels of lateral silhouette.
+    /// Mass that rows along the motion gained within the silhouette, in pixels of lateral
+    /// silhouette.
     RowGain => row_gain {
         name: "row_gain", unit: "px", ideal: Ideal::Lowest, group: Group::Silhouette, map: ErrorMap::LabelTotalVariation,
         meaning: "how much more of the mover its own rows hold, as pixels of silhouette",
@@ -184,7 +187,8 @@ metrics! {
         meaning: "length of the smear over the true length; 1 is right",
     }
 
-    /// Total variation along the motion over the true one, minus 1: steps, ripples and noise raise it.
+    /// Total variation along the motion over the true one, minus 1: steps, ripples and noise raise
+    /// it.
     TvExcess => tv_excess {
         name: "tv_excess", unit: "", ideal: Ideal::Target(0.0), group: Group::Silhouette, map: ErrorMap::LabelTotalVariation,
         meaning: "steps, ripples and grain along the smear; 0 is right",
@@ -230,7 +234,8 @@ metrics! {
 metrics! {
     /// An error against the frozen-shading truth, over the moving region.
     enum FrozenMetric;
-    /// Errors over the moving region against the truth with shading frozen at the instant: errors of visibility alone.
+    /// Errors over the moving region against the truth with shading frozen at the instant: errors
+    /// of visibility alone.
     struct FrozenScores of Measured {}
 
     /// Unbiased mean squared error; display white is 1.
@@ -245,7 +250,8 @@ metrics! {
         meaning: "visible difference without shadows, lights and reflections that move",
     }
 
-    /// Unbiased mean squared difference of the two truths: shadows, lights and reflections that move.
+    /// Unbiased mean squared difference of the two truths: shadows, lights and reflections that
+    /// move.
     Shading => shading {
         name: "mse_shading", unit: "white^2", ideal: Ideal::Lowest, group: Group::Instant, map: ErrorMap::Flip,
         meaning: "what shadows, lights and reflections that move cost any filter of one frame",
@@ -274,7 +280,8 @@ metrics! {
         meaning: "how far from the right place the filter gathers",
     }
 
-    /// Mean difference of the standard deviations about these centres, in pixels, over the knowable region.
+    /// Mean difference of the standard deviations about these centres, in pixels, over the knowable
+    /// region.
     GatherSpread => gather_spread {
         name: "gather_spread", unit: "px", ideal: Ideal::Lowest, group: Group::Gathered, map: ErrorMap::GatherSpread,
         meaning: "how much too widely or too narrowly it gathers",
@@ -284,8 +291,9 @@ metrics! {
 metrics! {
     /// Share of the way from no blur to the one-frame oracle, over the moving region.
     enum SkillMetric;
-    /// Share of the way from no blur to the one-frame oracle, by errors over the moving region: 0 is as good as a sharp picture of
-    /// the shutter's middle, 1 as good as the oracle; below 0 is worse than no blur.
+    /// Share of the way from no blur to the one-frame oracle, by errors over the moving region: 0
+    /// is as good as a sharp picture of the shutter's middle, 1 as good as the oracle; below 0 is
+    /// worse than no blur.
     struct SkillScores of Measured {}
 
     /// By unbiased squared error of colour.

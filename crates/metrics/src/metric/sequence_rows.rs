@@ -14,7 +14,8 @@ impl SequenceMetric {
         self == Self::Jod
     }
 
-    /// Converts a score to the number that tables show: thousandths of display white, squared errors as roots; JOD as it is.
+    /// Converts a score to the number that tables show: thousandths of display white, squared
+    /// errors as roots; JOD as it is.
     pub fn shown(self, value: f64) -> f64 {
         match self.row().unit {
             // Only the truth's noise makes it negative.
@@ -44,8 +45,8 @@ impl SequenceMetric {
 metrics! {
     /// A score of a sequence.
     enum SequenceMetric;
-    /// Scores of a sequence of pictures against truths. Squared errors are of display-scaled radiance, without the bias of the
-    /// truth's noise, which may make them negative.
+    /// Scores of a sequence of pictures against truths. Squared errors are of display-scaled
+    /// radiance, without the bias of the truth's noise, which may make them negative.
     struct SequenceScores of Measured {}
 
     /// Mean over the frames of the squared error where anything moves.
@@ -78,7 +79,8 @@ metrics! {
         meaning: "fine error that stays in place on the screen, like dirt on a window",
     }
 
-    /// Quality of the video by ColorVideoVDP, in just-objectionable differences: 10 is no visible difference.
+    /// Quality of the video by ColorVideoVDP, in just-objectionable differences: 10 is no visible
+    /// difference.
     Jod => jod {
         name: "jod", unit: "JOD", ideal: Ideal::Highest, group: Group::Time, map: ErrorMap::Flip,
         meaning: "quality of the video that ColorVideoVDP predicts; 10 is no visible difference",

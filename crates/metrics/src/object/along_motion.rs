@@ -7,8 +7,8 @@ use crate::object::mover::Mover;
 use crate::object::row_mass::{InstantRows, RowMass};
 use crate::object::rows::{Grid, Rows};
 
-/// Largest difference between the rows of instant and shutter, in pixels of silhouette, gains and losses together. Above it,
-/// growth would measure occlusion, not the filter.
+/// Largest difference between the rows of instant and shutter, in pixels of silhouette, gains and
+/// losses together. Above it, growth would measure occlusion, not the filter.
 const LARGEST_ROW_CHANGE: f64 = 0.25;
 
 /// Facts about an object that translates within the picture.
@@ -23,7 +23,8 @@ pub struct AlongMotion {
     pub misplacement_noise: Option<Misplacement>,
     /// Excess of total variation of the truth's first half.
     pub variation_noise: f64,
-    /// Noise plus the difference between the instant's rows and the shutter's; a reason if that is too large.
+    /// Noise plus the difference between the instant's rows and the shutter's; a reason if that is
+    /// too large.
     pub mass_floor: Result<RowMass, String>,
 }
 
@@ -106,7 +107,8 @@ mod tests {
         })
     }
 
-    /// Compares an object of 4 pixels with a truth that has other rows; both lateral sides have 20 pixels.
+    /// Compares an object of 4 pixels with a truth that has other rows; both lateral sides have 20
+    /// pixels.
     fn floor(truth: f32) -> Result<RowMass, String> {
         let silhouette = crate::object::mover::Silhouette {
             lateral: 20.0,

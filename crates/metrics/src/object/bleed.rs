@@ -5,8 +5,9 @@ use frame::{Plane, Raster};
 use crate::object::mover::Silhouette;
 use crate::object::sides::Side;
 
-/// Pools the matte outside the support by side, in pixels of silhouette growth: beside it over the length of both lateral silhouettes,
-/// ahead of it and behind it over the width across the motion. `None` if the object shows no silhouette in the picture.
+/// Pools the matte outside the support by side, in pixels of silhouette growth: beside it over the
+/// length of both lateral silhouettes, ahead of it and behind it over the width across the motion.
+/// `None` if the object shows no silhouette in the picture.
 pub fn measure_bleed(
     output: &Plane,
     sides: &Raster<Side>,

@@ -13,8 +13,8 @@ pub struct Mass {
     pub energy: f64,
 }
 
-/// Compares sums of mattes; `core` is where only the object is seen throughout the shutter. `None` if
-/// the truth never shows the object.
+/// Compares sums of mattes; `core` is where only the object is seen throughout the shutter. `None`
+/// if the truth never shows the object.
 pub fn measure_mass(output: &Plane, truth: &Plane, core: &Raster<bool>) -> Option<Mass> {
     let (mut total, mut deficit, mut energy) = (0.0, 0.0, 0.0);
     let (mut hole, mut inside) = (0.0, 0_u32);

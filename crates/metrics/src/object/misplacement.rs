@@ -5,19 +5,20 @@ use crate::object::rows::Grid;
 /// Mass along the motion, compared with the truth row by row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Misplacement {
-    /// Mean distance along the motion that mass would have to travel to match the truth (Wasserstein-1), in pixels.
+    /// Mean distance along the motion that mass would have to travel to match the truth
+    /// (Wasserstein-1), in pixels.
     pub distance: f64,
     /// Signed shift of the centre of all mass, in pixels; positive = ahead.
     pub centroid: f64,
-    /// Standard deviation along the motion over the truth's: 1 = right length. None if negative mass, which a filter's
-    /// noise makes, leaves no variance.
+    /// Standard deviation along the motion over the truth's: 1 = right length. None if negative
+    /// mass, which a filter's noise makes, leaves no variance.
     pub extent: Option<f64>,
 }
 
-/// Compares rows. For `distance` and `extent` each row is normalised to a mass of 1, so that lateral errors
-/// do not count. Rows are weighted by the truth's mass in them; rows that are empty in either matte are left
-/// out. `centroid` compares the whole mattes. `None` if either matte has no mass, no row is left, or the
-/// truth has no length along the motion.
+/// Compares rows. For `distance` and `extent` each row is normalised to a mass of 1, so that
+/// lateral errors do not count. Rows are weighted by the truth's mass in them; rows that are empty
+/// in either matte are left out. `centroid` compares the whole mattes. `None` if either matte has
+/// no mass, no row is left, or the truth has no length along the motion.
 pub fn measure_misplacement(output: &Grid, truth: &Grid) -> Option<Misplacement> {
     let centroid = output.center()? - truth.center()?;
     let (mut weight, mut distance) = (0.0, 0.0);
@@ -45,7 +46,8 @@ struct Moments {
 }
 
 fn measure_moments(row: &[f64]) -> Option<Moments> {
-    // Less than a thousandth of a pixel in the whole row is rounding or noise: normalised, it would count as a full row.
+    // Less than a thousandth of a pixel in the whole row is rounding or noise: normalised, it would
+    // count as a full row.
     const LEAST_MASS: f64 = 1e-3;
     let mass: f64 = row.iter().sum();
     if mass < LEAST_MASS {
@@ -61,7 +63,8 @@ fn measure_moments(row: &[f64]) -> Option<Moments> {
     Some(Moments { mass, variance })
 }
 
-/// Returns the Wasserstein-1 distance of two rows on a line: the area between their cumulative sums.
+/// Returns the Wasserstein-1 distance of two rows on a line: the area between their cumulative
+/// sums.
 fn distance_between(a: &[f64], a_mass: f64, b: &[f64], b_mass: f64) -> f64 {
     let mut ahead = 0.0;
     let mut area = 0.0;
@@ -108,7 +111,8 @@ mod tests {
         });
         let [truth, output] = mattes.map(|matte| rows.spread(&matte));
         let found = measure_misplacement(&output, &truth).expect("both have mass");
-        // The second row is 4 px ahead, and so is the third, which is left out. Mattes have 32 bits.
+        // The second row is 4 px ahead, and so is the third, which is left out. Mattes have 32
+        // bits.
         assert!((found.distance - 0.04 / 2.01).abs() < 1e-6, "{found:?}");
     }
 

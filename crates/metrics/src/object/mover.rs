@@ -4,11 +4,13 @@ use frame::{Frame, Plane, Raster};
 
 use crate::object::nearest::find_nearest;
 
-/// Least displacement over the shutter, in pixels; less counts as none, because it cannot be measured.
+/// Least displacement over the shutter, in pixels; less counts as none, because it cannot be
+/// measured.
 pub const LEAST_DISPLACEMENT: f64 = 0.1;
 
-/// Largest deviation of a translation: the root mean square by which its pixels' displacements deviate from their mean, over that
-/// mean. A sphere that passes at five radii deviates by a twentieth; a spinning disc by far more than the whole.
+/// Largest deviation of a translation: the root mean square by which its pixels' displacements
+/// deviate from their mean, over that mean. A sphere that passes at five radii deviates by a
+/// twentieth; a spinning disc by far more than the whole.
 pub const LARGEST_DEVIATION: f64 = 0.1;
 
 /// An object that is visible at the instant and moves.
@@ -22,11 +24,13 @@ pub struct Mover {
     pub silhouette: Silhouette,
 }
 
-/// Unit vector along which the nearest visible pixel of an object moves, per pixel; zero if that one does not move.
+/// Unit vector along which the nearest visible pixel of an object moves, per pixel; zero if that
+/// one does not move.
 pub type Directions = Raster<[f64; 2]>;
 
-/// Length of an object's outline, in pixels, each way of crossing it counted: the total variation of its matte across
-/// and along the motion. For a convex object it is the width, twice for both sides.
+/// Length of an object's outline, in pixels, each way of crossing it counted: the total variation
+/// of its matte across and along the motion. For a convex object it is the width, twice for both
+/// sides.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Silhouette {
     /// Length of both lateral sides together, measured along the motion.
@@ -36,9 +40,9 @@ pub struct Silhouette {
 }
 
 impl Mover {
-    /// Measures object `id` of the frame, moving for the frame's exposure. Returns the directions separately:
-    /// they take more memory than the rest of an object, and only its sides depend on them. The error is the
-    /// reason why it has no matte scores.
+    /// Measures object `id` of the frame, moving for the frame's exposure. Returns the directions
+    /// separately: they take more memory than the rest of an object, and only its sides depend on
+    /// them. The error is the reason why it has no matte scores.
     pub fn new(frame: &Frame, id: u32) -> Result<(Self, Directions), &'static str> {
         let seen = frame.object_id.map(|object| *object == id);
         let sources = find_nearest(&seen).ok_or("is not visible at the instant")?;
@@ -88,8 +92,8 @@ impl Mover {
 }
 
 impl Silhouette {
-    /// Measures the total variation of a matte across and along local directions. Gradients are taken between pixels, over squares of
-    /// two by two.
+    /// Measures the total variation of a matte across and along local directions. Gradients are
+    /// taken between pixels, over squares of two by two.
     fn new(matte: &Plane, directions: &Directions) -> Self {
         let (mut lateral, mut lengthwise) = (0.0, 0.0);
         for y in 1..matte.height {

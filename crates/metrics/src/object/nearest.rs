@@ -2,11 +2,12 @@
 
 use frame::Raster;
 
-/// Finds for every pixel the column and row of the nearest pixel of `set`, by Euclidean distance between centres; `None` if `set`
-/// is empty.
+/// Finds for every pixel the column and row of the nearest pixel of `set`, by Euclidean distance
+/// between centres; `None` if `set` is empty.
 ///
-/// Exact, in linear time: Felzenszwalb and Huttenlocher, "Distance Transforms of Sampled Functions" (Theory of Computing
-/// 8, 2012), section 2. All arithmetic is on integers, so that ties do not depend on rounding.
+/// Exact, in linear time: Felzenszwalb and Huttenlocher, "Distance Transforms of Sampled Functions"
+/// (Theory of Computing 8, 2012), section 2. All arithmetic is on integers, so that ties do not
+/// depend on rounding.
 pub fn find_nearest(set: &Raster<bool>) -> Option<Raster<[u32; 2]>> {
     if !set.pixels.contains(&true) {
         return None;
@@ -37,8 +38,8 @@ pub fn distance_squared(a: [u32; 2], b: [u32; 2]) -> u64 {
     x * x + y * y
 }
 
-/// Finds every pixel of `set` on this circle about `at`: all that are equally near, so that a mirrored picture gives mirrored
-/// pixels.
+/// Finds every pixel of `set` on this circle about `at`: all that are equally near, so that a
+/// mirrored picture gives mirrored pixels.
 pub fn find_on_circle<'a>(
     set: &'a Raster<bool>,
     at: [u32; 2],
@@ -105,7 +106,8 @@ fn find_in_columns(set: &Raster<bool>) -> Raster<Option<u32>> {
     rows
 }
 
-/// Finds for every column the parabola `height + (column - x)^2` that is lowest there; the leftmost wins a tie.
+/// Finds for every column the parabola `height + (column - x)^2` that is lowest there; the leftmost
+/// wins a tie.
 fn find_lowest(parabolas: &[(i64, u32)], width: u32) -> Vec<u32> {
     // Each parabola of the envelope with the first column where it is below all before it.
     let mut envelope: Vec<(i64, i64, i64)> = Vec::new();
@@ -113,7 +115,8 @@ fn find_lowest(parabolas: &[(i64, u32)], width: u32) -> Vec<u32> {
         let x = i64::from(x);
         let mut start = 0;
         while let Some(&(last_height, last_x, last_start)) = envelope.last() {
-            // height + (c - x)^2 < last_height + (c - last_x)^2 holds for columns c above this quotient.
+            // height + (c - x)^2 < last_height + (c - last_x)^2 holds for columns c above this
+            // quotient.
             let numerator = height + x * x - last_height - last_x * last_x;
             start = numerator.div_euclid(2 * (x - last_x)) + 1;
             if start > last_start {

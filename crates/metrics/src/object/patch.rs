@@ -14,7 +14,8 @@ pub struct Patch {
 }
 
 impl Patch {
-    /// Cuts the nonzero part out of a matte, with a margin as far as the picture reaches; `None` if all of it is zero.
+    /// Cuts the nonzero part out of a matte, with a margin as far as the picture reaches; `None` if
+    /// all of it is zero.
     pub fn cut(matte: &Plane, margin: u32) -> Option<Self> {
         let width = matte.width as usize;
         let (mut columns, mut rows) = ((width, 0), (u32::MAX, 0));

@@ -28,7 +28,8 @@ pub struct ObjectReference {
     /// Mean errors of the first half's labels and colour on the object.
     label_noise: Option<f64>,
     flip_noise: Option<f64>,
-    /// True if the object is seen at the picture's border, at the instant or while the shutter is open.
+    /// True if the object is seen at the picture's border, at the instant or while the shutter is
+    /// open.
     is_at_border: bool,
 }
 
@@ -145,8 +146,8 @@ impl ObjectReference {
         }
     }
 
-    /// Maps the squared difference of the gradient magnitudes of matte and truth; `None` if it is zero, and for an object that
-    /// does not move.
+    /// Maps the squared difference of the gradient magnitudes of matte and truth; `None` if it is
+    /// zero, and for an object that does not move.
     pub fn map_gradient_errors(&self, matte: &Plane) -> Option<Patch> {
         let moving = self.mover.as_ref().ok()?;
         gradient_error(gradient_magnitude(matte).as_ref(), moving.gradient.as_ref())
@@ -292,7 +293,8 @@ fn average_patch(patch: Option<&Patch>, regions: &Regions) -> Option<f64> {
     (count > 0).then(|| sum / count as f64)
 }
 
-/// Makes a score of a value and its noise, with the metric's floor, or gives the reason for their absence.
+/// Makes a score of a value and its noise, with the metric's floor, or gives the reason for their
+/// absence.
 fn score(metric: ObjectMetric, value: Option<f64>, noise: Option<f64>, reason: &str) -> Measured {
     let floor = noise.map(|noise| metric.row().ideal.floor(noise));
     Measured::of(value, floor, reason)

@@ -2,7 +2,8 @@
 
 use crate::object::rows::Grid;
 
-/// Differences of the mass of rows along the motion from the truth's, in pixels of lateral silhouette.
+/// Differences of the mass of rows along the motion from the truth's, in pixels of lateral
+/// silhouette.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RowMass {
     /// Mass added by a silhouette that grew sideways.
@@ -23,12 +24,12 @@ pub struct InstantRows {
     heaviest: f64,
 }
 
-/// Least mass of the rows that measure the gain of all rows, over the mass of the heaviest. They are so near a round object's
-/// widest place that growing sideways adds nothing there.
+/// Least mass of the rows that measure the gain of all rows, over the mass of the heaviest. They
+/// are so near a round object's widest place that growing sideways adds nothing there.
 const HEAVY: f64 = 0.99;
 
-/// Gain that is granted by half, over the mass of the heaviest row. Larger gains are granted almost whole, smaller ones hardly:
-/// they may be noise.
+/// Gain that is granted by half, over the mass of the heaviest row. Larger gains are granted almost
+/// whole, smaller ones hardly: they may be noise.
 const HALF_GRANTED: f64 = 0.01;
 
 impl InstantRows {
@@ -46,7 +47,8 @@ impl InstantRows {
         }
     }
 
-    /// Computes the gain granted to a row that the silhouette covers in its whole height, from the gain of each row.
+    /// Computes the gain granted to a row that the silhouette covers in its whole height, from the
+    /// gain of each row.
     fn grant(&self, gained: &[f64]) -> f64 {
         let heavy = gained.iter().zip(&self.heavy);
         let heavy: Vec<f64> = heavy
@@ -64,13 +66,13 @@ impl InstantRows {
 }
 
 impl RowMass {
-    /// Compares rows. A translation only shifts mass along its rows, so that rows keep their mass for any
-    /// length or side of the blur; a silhouette of `length` pixels (both sides together) that is dilated by d
-    /// pixels adds `d * length` of mass.
+    /// Compares rows. A translation only shifts mass along its rows, so that rows keep their mass
+    /// for any length or side of the blur; a silhouette of `length` pixels (both sides together)
+    /// that is dilated by d pixels adds `d * length` of mass.
     ///
-    /// A row that is covered in its whole height may gain as much as the heaviest rows did, and others in proportion: that is
-    /// gain. Everything above it is growth: all mass in rows that the silhouette does not touch, and mass that fills rows at its
-    /// rim.
+    /// A row that is covered in its whole height may gain as much as the heaviest rows did, and
+    /// others in proportion: that is gain. Everything above it is growth: all mass in rows that the
+    /// silhouette does not touch, and mass that fills rows at its rim.
     pub fn new(output: &Grid, truth: &Grid, instant: &InstantRows, length: f64) -> Self {
         let (output, truth) = (output.row_masses(), truth.row_masses());
         let gained: Vec<f64> = output
@@ -101,7 +103,8 @@ mod tests {
     use crate::object::rows::Rows;
     use frame::Raster;
 
-    /// Makes a bar of 20 columns that covers rows 10 to 20 of a picture and a third of row 9. Each row is `more` longer.
+    /// Makes a bar of 20 columns that covers rows 10 to 20 of a picture and a third of row 9. Each
+    /// row is `more` longer.
     fn bar(more: f64, top: f64) -> Grid {
         let matte = Raster::from_fn(60, 32, |x, y| {
             let height = (f64::from(y) + 1.0 - top).clamp(0.0, 1.0);
@@ -122,14 +125,16 @@ mod tests {
 
     #[track_caller]
     fn assert_near(found: f64, expected: f64) {
-        // Mattes are single-precision, and a hundredth of a gain of 2 px in 20 is not granted: 0.02 px in 10 rows of 40 px.
+        // Mattes are single-precision, and a hundredth of a gain of 2 px in 20 is not granted: 0.02
+        // px in 10 rows of 40 px.
         assert!((found - expected).abs() < 0.006, "{found} for {expected}");
     }
 
     #[test]
     fn widening_and_gain_are_told_apart_but_for_the_row_at_the_rim() {
         let found = compare(2.0, TRUE_TOP - 2.0);
-        // Two rows of 22 px more on one side; the row at the rim is granted a third of the 2 px that the others gain.
+        // Two rows of 22 px more on one side; the row at the rim is granted a third of the 2 px
+        // that the others gain.
         let rim = 22.0 - 20.0 / 3.0 - 2.0 / 3.0;
         assert_near(found.growth, (rim + 22.0 + 22.0 / 3.0) / 40.0);
         assert_near(found.gain, (10.0 * 2.0 + 2.0 / 3.0) / 40.0);

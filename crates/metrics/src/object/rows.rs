@@ -21,7 +21,8 @@ pub struct Grid {
 }
 
 impl Rows {
-    /// Makes rows along `along` (a unit vector) that cover every pixel of a `width` x `height` picture.
+    /// Makes rows along `along` (a unit vector) that cover every pixel of a `width` x `height`
+    /// picture.
     pub fn new(along: [f64; 2], width: u32, height: u32) -> Self {
         let corners = [[0, 0], [width, 0], [0, height], [width, height]]
             .map(|corner| Self::coordinates(along, corner.map(f64::from)));
@@ -48,14 +49,16 @@ impl Rows {
         ]
     }
 
-    /// Spreads a matte over the rows. Across the motion each pixel is split exactly as its square overlaps the rows; along
-    /// it, linearly between the two nearest cells, which keeps its mass and its centre.
+    /// Spreads a matte over the rows. Across the motion each pixel is split exactly as its square
+    /// overlaps the rows; along it, linearly between the two nearest cells, which keeps its mass
+    /// and its centre.
     pub fn spread(&self, matte: &Plane) -> Grid {
         let mut grid = Grid {
             cells: self.cells,
             masses: vec![0.0; self.rows * self.cells],
         };
-        // The shadow of a unit square across the motion is the convolution of two boxes of these widths.
+        // The shadow of a unit square across the motion is the convolution of two boxes of these
+        // widths.
         let widths = self.along.map(f64::abs);
         let half = (widths[0] + widths[1]) / 2.0;
         for (index, &value) in matte.pixels.iter().enumerate() {
@@ -102,8 +105,9 @@ impl Grid {
         self.rows().map(|row| row.iter().sum()).collect()
     }
 
-    /// Measures the part of each row's height that the matte covers: the largest value in the row over the largest of all rows.
-    /// It is 0 outside a silhouette, 1 within, and in between at its rim.
+    /// Measures the part of each row's height that the matte covers: the largest value in the row
+    /// over the largest of all rows. It is 0 outside a silhouette, 1 within, and in between at its
+    /// rim.
     pub fn heights(&self) -> Vec<f64> {
         let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
         let heights: Vec<f64> = self.rows().map(largest).collect();
@@ -127,7 +131,8 @@ impl Grid {
         (mass > 0.0).then(|| moment / mass)
     }
 
-    /// Iterates over the rows from one side of the motion to the other, as mass per pixel of length along the motion.
+    /// Iterates over the rows from one side of the motion to the other, as mass per pixel of length
+    /// along the motion.
     pub fn rows(&self) -> impl Iterator<Item = &[f64]> {
         self.masses.chunks_exact(self.cells)
     }

@@ -7,7 +7,8 @@ use frame::{Frame, Raster, Support};
 use crate::object::mover::{Directions, Mover};
 use crate::object::nearest::{distance_squared, find_nearest, find_on_circle, list_circle};
 
-/// Side of the swept support that a pixel is on, as seen along the motion of the nearest part of it.
+/// Side of the swept support that a pixel is on, as seen along the motion of the nearest part of
+/// it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
     /// In the support or next to it, where nothing counts as bleed.
@@ -20,12 +21,13 @@ pub enum Side {
     Trailing,
 }
 
-/// Finds the side of the support that every pixel is on; `None` if the object is never seen. The support is where the object
-/// was seen while the shutter was open, and one pixel more for partial pixels of a rounded edge. `directions` has the unit
-/// vector of motion for each pixel of the support.
+/// Finds the side of the support that every pixel is on; `None` if the object is never seen. The
+/// support is where the object was seen while the shutter was open, and one pixel more for partial
+/// pixels of a rounded edge. `directions` has the unit vector of motion for each pixel of the
+/// support.
 ///
-/// Every pixel is lateral to one without direction (the centre of a rotation). Equally near parts of the support decide
-/// together, by the sum of their offsets and the sum of their directions.
+/// Every pixel is lateral to one without direction (the centre of a rotation). Equally near parts
+/// of the support decide together, by the sum of their offsets and the sum of their directions.
 pub fn find_sides(support: &Raster<bool>, directions: &Directions) -> Option<Raster<Side>> {
     let sources = find_nearest(support)?;
     // Straight outlines have whole rows of pixels at one distance.
@@ -56,8 +58,9 @@ pub fn find_sides(support: &Raster<bool>, directions: &Directions) -> Option<Ras
     }))
 }
 
-/// Finds the side of object `id` that each pixel is on, as for its bleed; `None` if the object is not seen at the instant, does
-/// not move, or never shows. `frame` has no guard band, `support` is the truth's.
+/// Finds the side of object `id` that each pixel is on, as for its bleed; `None` if the object is
+/// not seen at the instant, does not move, or never shows. `frame` has no guard band, `support` is
+/// the truth's.
 pub fn object_sides(frame: &Frame, support: &Support, id: u32) -> Option<Raster<Side>> {
     let (_, directions) = Mover::new(frame, id).ok()?;
     find_sides(&support.seen[id as usize], &directions)

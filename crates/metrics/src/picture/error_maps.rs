@@ -42,7 +42,8 @@ pub struct PixelErrors {
 }
 
 impl ErrorMaps {
-    /// Maps the errors of `output`, also given as `displayed`, against the truth's mean; squared errors against `halves`.
+    /// Maps the errors of `output`, also given as `displayed`, against the truth's mean; squared
+    /// errors against `halves`.
     pub fn new(
         (output, displayed): (&Picture, &Displayed),
         halves: [&Image; 2],
@@ -136,7 +137,8 @@ mod tests {
         let errors = map_pixel_errors(&pixel(0.5), [&truth, &truth], &truth, 1.0);
         let own = errors.at(0, 0);
         assert_eq!([own.squared, own.absolute], [0.0625, 0.25]);
-        // 0.0625 / 0.0625, and 2 x 0.25 / (0.5 + 0.25), except for what keeps black from dividing by 0.
+        // 0.0625 / 0.0625, and 2 x 0.25 / (0.5 + 0.25), except for what keeps black from dividing
+        // by 0.
         assert!((own.relative - 1.0).abs() < 0.2, "{}", own.relative);
         assert!(
             (own.symmetric - 2.0 / 3.0).abs() < 0.02,

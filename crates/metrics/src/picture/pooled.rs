@@ -29,7 +29,8 @@ pub struct Pooled {
     pub flip_p99: f64,
     /// Mean of HDR-FLIP.
     pub flip_hdr: f64,
-    /// Mean of SSIM over the pixels with their window in the picture; `None` if the region has no such pixel.
+    /// Mean of SSIM over the pixels with their window in the picture; `None` if the region has no
+    /// such pixel.
     pub ssim: Option<f64>,
     /// Mean squared grain.
     pub grain: f64,
@@ -40,8 +41,8 @@ pub struct Pooled {
 }
 
 impl Pooled {
-    /// Pools maps over every region; `None` for those that are empty. `windows` marks the pixels with their SSIM window in the
-    /// picture.
+    /// Pools maps over every region; `None` for those that are empty. `windows` marks the pixels
+    /// with their SSIM window in the picture.
     pub fn over_all(
         errors: &ErrorMaps,
         regions: &Regions,
@@ -105,8 +106,9 @@ impl Pooled {
         })
     }
 
-    /// Pools noise floors over every region, from the errors of the truth's first half against the mean. Unbiased errors of a perfect
-    /// picture scatter about 0 and are smaller than the noise, see [`scatter`].
+    /// Pools noise floors over every region, from the errors of the truth's first half against the
+    /// mean. Unbiased errors of a perfect picture scatter about 0 and are smaller than the noise,
+    /// see [`scatter`].
     pub fn of_noise(
         noise: &ErrorMaps,
         regions: &Regions,
@@ -133,7 +135,8 @@ mod tests {
     use crate::color::grain::PixelGrain;
     use crate::picture::error_maps::PixelErrors;
 
-    /// Makes maps of 100 pixels, on which each error grows from pixel to pixel at a pace of its own.
+    /// Makes maps of 100 pixels, on which each error grows from pixel to pixel at a pace of its
+    /// own.
     fn maps() -> (ErrorMaps, Regions, Raster<bool>) {
         let raster = |factor: f32| Raster::from_fn(10, 10, |x, y| factor * (10 * y + x + 1) as f32);
         let errors = ErrorMaps {

@@ -5,7 +5,8 @@ use frame::{AtInstant, Raster};
 use super::pictures::Probes;
 use crate::math::raster::index_pixels;
 
-/// Origin of a pixel's light: offset from the pixel's centre, and standard deviation about it, in pixels.
+/// Origin of a pixel's light: offset from the pixel's centre, and standard deviation about it, in
+/// pixels.
 #[derive(Clone, Copy)]
 pub struct Origin {
     /// Offset in pixels, +x right, +y down.
@@ -40,7 +41,8 @@ impl TrueOrigins {
     }
 }
 
-/// Finds the origin that a filter gathers the pixel with this index from; `None` if it gathers nothing.
+/// Finds the origin that a filter gathers the pixel with this index from; `None` if it gathers
+/// nothing.
 pub fn find_gathered_origin(probes: &Probes, index: usize) -> Option<Origin> {
     let (width, height) = (probes.weight.width, probes.weight.height);
     let weight = f64::from(probes.weight.pixels[index]);

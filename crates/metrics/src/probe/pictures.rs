@@ -2,8 +2,8 @@
 
 use frame::{Image, Plane, Raster, Vectors};
 
-/// Sums of a filter's weights per pixel, times 1, coordinates and their products. Coordinates are in pixels from the picture's
-/// middle, +x right, +y down.
+/// Sums of a filter's weights per pixel, times 1, coordinates and their products. Coordinates are
+/// in pixels from the picture's middle, +x right, +y down.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Probes {
     /// Sums of the weights.
@@ -20,7 +20,8 @@ impl Probes {
         Self::images_with_step(width, height, [1.0; 2])
     }
 
-    /// Makes them for a filter that runs on a smaller picture, whose pixels are `step` pixels wide and high.
+    /// Makes them for a filter that runs on a smaller picture, whose pixels are `step` pixels wide
+    /// and high.
     pub fn images_with_step(width: u32, height: u32, step: [f32; 2]) -> [Image; 2] {
         let place = |x: u32, y: u32| {
             [

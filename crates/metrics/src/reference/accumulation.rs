@@ -12,8 +12,9 @@ use crate::{EquivalentMetric, MeasureError, Measured, Measurement};
 const RENDERED: &str = "the picture was rendered by itself, not made from the frame";
 
 impl Reference<'_> {
-    /// Adds the pictures that skill is measured between. `sharp` shows the instant in the middle of the shutter and has a skill
-    /// of 0; `best` is the one-frame oracle's, the best that one frame can give, and has 1. Without them skill does not apply.
+    /// Adds the pictures that skill is measured between. `sharp` shows the instant in the middle of
+    /// the shutter and has a skill of 0; `best` is the one-frame oracle's, the best that one frame
+    /// can give, and has 1. Without them skill does not apply.
     pub fn with_ends(mut self, sharp: &Sharp, best: &Picture) -> Result<Self, MeasureError> {
         let what = "the sharp picture of the shutter's middle";
         check_picture(best, self.truth, "the one-frame oracle")?;
@@ -36,15 +37,17 @@ impl Reference<'_> {
         Ok(self)
     }
 
-    /// Measures the picture of an accumulation of the same shutter. It has the truth's noise, so that only its difference from
-    /// the truth counts as error; its equivalent sub-frames are its own.
+    /// Measures the picture of an accumulation of the same shutter. It has the truth's noise, so
+    /// that only its difference from the truth counts as error; its equivalent sub-frames are its
+    /// own.
     pub fn measure_accumulation(&self, rung: &Accumulation) -> Result<Measurement, MeasureError> {
         let what = format!("the accumulation of {} sub-frames", rung.subframes);
         check_rung(rung, self.truth, &what)?;
         let picture = rung.picture(&self.mean);
         let differences = rung.halves().map(|half| half.color);
         let halves = [0, 1].map(|half| subtract(&picture.color, &differences[half]));
-        // Each half of the picture is compared with its own half of the truth, whose noise it shares.
+        // Each half of the picture is compared with its own half of the truth, whose noise it
+        // shares.
         let colors = self.half_colors();
         let frozen = [0, 1].map(|half| {
             let shading = subtract(colors[half], self.frozen.halves()[half]);

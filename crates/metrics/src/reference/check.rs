@@ -8,8 +8,8 @@ use crate::{MeasureError, Viewing};
 /// Upper limit on pixels: measuring more takes tens of gigabytes.
 const LARGEST_PICTURE: u64 = 28_000_000;
 
-/// Upper limit on radiance at the brightest exposure of a comparison: HDR-FLIP's tone curve squares it, and the square must stay
-/// finite.
+/// Upper limit on radiance at the brightest exposure of a comparison: HDR-FLIP's tone curve squares
+/// it, and the square must stay finite.
 pub const BRIGHTEST: f32 = 1e18;
 
 /// Refuses a picture whose radiance exceeds [`BRIGHTEST`] at an exposure of the comparison.

@@ -46,8 +46,8 @@ impl From<Reference<'_>> for ColorReference {
 }
 
 impl ColorReference {
-    /// Measures the errors of colour, where anything moves, of a picture that its own reference has measured: it is
-    /// finite, and has the truth's size.
+    /// Measures the errors of colour, where anything moves, of a picture that its own reference has
+    /// measured: it is finite, and has the truth's size.
     pub fn measure(&self, output: &Picture) -> Result<ImageScores, MeasureError> {
         check_brightness(output, &self.viewing, "the output")?;
         let displayed = Displayed::new(&output.color, &self.viewing);

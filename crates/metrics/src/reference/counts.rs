@@ -14,7 +14,8 @@ use crate::subframes::{Equivalent, equivalent};
 use crate::{EquivalentMetric, EquivalentScores, MeasureError, Measured, Scores};
 
 impl Reference<'_> {
-    /// Adds rungs of the ladder, each with more sub-frames than those before. Memory then need not hold all of them at once.
+    /// Adds rungs of the ladder, each with more sub-frames than those before. Memory then need not
+    /// hold all of them at once.
     pub fn add_rungs(&mut self, ladder: &Ladder) -> Result<(), MeasureError> {
         check_ladder(ladder, self.truth)?;
         let has_noise = self.truth.provenance.engine.is_none();
@@ -53,9 +54,10 @@ impl Reference<'_> {
         Ok(found.map(|((mse, flip), label)| Errors { mse, flip, label }))
     }
 
-    /// Counts the equivalent sub-frames of a measured picture again, with intervals. `without` holds the reference without each
-    /// group of samples (truth and ladder), and the errors against it of the picture without that group, by
-    /// [`Reference::measure_errors`]. Counts that do not apply stay so.
+    /// Counts the equivalent sub-frames of a measured picture again, with intervals. `without`
+    /// holds the reference without each group of samples (truth and ladder), and the errors against
+    /// it of the picture without that group, by [`Reference::measure_errors`]. Counts that do not
+    /// apply stay so.
     pub fn count_subframes(
         &self,
         scores: &Scores,
@@ -112,8 +114,8 @@ impl Reference<'_> {
     }
 }
 
-/// Returns a picture's errors over the moving region, without those of a label if it has none, and those of the truth's noise; none
-/// if nothing moves.
+/// Returns a picture's errors over the moving region, without those of a label if it has none, and
+/// those of the truth's noise; none if nothing moves.
 fn measured_errors(scores: &Scores) -> Option<(Errors, Errors)> {
     let score = |measured: &Measured| match measured {
         Measured::Score(score) => Some((score.value, score.floor)),

@@ -41,7 +41,8 @@ impl FrozenReference {
         self.halves.each_ref()
     }
 
-    /// Scores a picture, also given as displayed, by its squared error against `halves`; returns that error, too.
+    /// Scores a picture, also given as displayed, by its squared error against `halves`; returns
+    /// that error, too.
     pub fn measure(
         &self,
         (output, displayed): (&Image, &Displayed),

@@ -13,8 +13,8 @@ use crate::math::raster::{index_pixels, map_pixels};
 pub struct Jitter {
     /// Number of frames; only the filter's noise differs between them.
     pub frames: u32,
-    /// Squared error of the mean over all noise, in display-scaled radiance: averaging over frames does not remove it. It is
-    /// unbiased, so the truth's own noise may make it negative.
+    /// Squared error of the mean over all noise, in display-scaled radiance: averaging over frames
+    /// does not remove it. It is unbiased, so the truth's own noise may make it negative.
     pub bias: f64,
     /// Variance between frames, in display-scaled radiance: averaging over frames removes it.
     pub variance: f64,
@@ -28,7 +28,8 @@ impl Jitter {
 }
 
 impl Reference<'_> {
-    /// Measures the noise in the outputs of one filter for several frames; `None` if nothing moves. Panics on fewer than two outputs.
+    /// Measures the noise in the outputs of one filter for several frames; `None` if nothing moves.
+    /// Panics on fewer than two outputs.
     pub fn jitter(&self, outputs: &[Image]) -> Option<Jitter> {
         assert!(
             outputs.len() >= 2,

@@ -48,8 +48,8 @@ pub struct Reference<'a> {
     /// The mean as a display shows it and as FLIP sees it.
     seen: SeenTruth,
     viewing: Viewing,
-    /// Noise floors of every region in the order of [`Region::ALL`], from the errors of the truth's first half against the mean: the two
-    /// differ by as much as the mean's own noise.
+    /// Noise floors of every region in the order of [`Region::ALL`], from the errors of the truth's
+    /// first half against the mean: the two differ by as much as the mean's own noise.
     noise: [Option<Pooled>; Region::ALL.len()],
     /// The instant: the picture of a filter that does nothing.
     instant: Image,
@@ -132,7 +132,8 @@ impl<'a> Reference<'a> {
         self.measure_against(output, halves.each_ref(), self.frozen.halves())
     }
 
-    /// Measures a picture: squared errors against these halves of the truth, and of the one with frozen shading.
+    /// Measures a picture: squared errors against these halves of the truth, and of the one with
+    /// frozen shading.
     fn measure_against(
         &self,
         output: &Picture,
@@ -220,7 +221,8 @@ impl<'a> Reference<'a> {
         }
     }
 
-    /// Scores a filter's output for [`Probes::images`]; its weights must be those of the measured picture.
+    /// Scores a filter's output for [`Probes::images`]; its weights must be those of the measured
+    /// picture.
     pub fn measure_probes(&self, probes: &Probes) -> ProbeMeasurement {
         let mut measured = self.origins.measure(probes, &self.regions);
         if self.truth.provenance.engine.is_some() {
@@ -239,7 +241,8 @@ impl<'a> Reference<'a> {
         self.truth.halves.each_ref().map(|half| &half.color)
     }
 
-    /// Returns the halves of the truth for the squared error of a picture that was made from the frame: see [`halves_for`].
+    /// Returns the halves of the truth for the squared error of a picture that was made from the
+    /// frame: see [`halves_for`].
     fn halves_for(&self, output: &Image) -> [Image; 2] {
         let truth = (self.half_colors(), &self.mean.color);
         halves_for(output, (&self.instant, &self.shared), truth)

@@ -7,8 +7,9 @@ use crate::math::raster::index_pixels;
 /// Largest change of a colour, relative to it, that counts as none: the rounding of 16-bit floats.
 const ROUNDING: f32 = 1e-3;
 
-/// Marks the pixels in which the frame has the truth's noise. Where nothing moves, both were rendered with the same random numbers,
-/// unless the frame came from elsewhere: it has the truth's noise if it differs from the mean by less than half as much as the halves.
+/// Marks the pixels in which the frame has the truth's noise. Where nothing moves, both were
+/// rendered with the same random numbers, unless the frame came from elsewhere: it has the truth's
+/// noise if it differs from the mean by less than half as much as the halves.
 pub fn mark_shared(
     instant: &Image,
     [a, b]: [&Image; 2],
@@ -26,11 +27,13 @@ pub fn mark_shared(
     index_pixels(mean, |at| own < 0.5 * noise && is_still(at))
 }
 
-/// Returns the halves of a truth for the squared error of a picture that a filter made from the frame.
+/// Returns the halves of a truth for the squared error of a picture that a filter made from the
+/// frame.
 ///
-/// The product of the differences from two halves takes out the truth's noise if the picture has none of it. A filter that leaves a
-/// `shared` pixel alone hands on the noise that frame and truth have in common. It cancels in the difference from the mean, and so the
-/// mean stands for both halves there.
+/// The product of the differences from two halves takes out the truth's noise if the picture has
+/// none of it. A filter that leaves a `shared` pixel alone hands on the noise that frame and truth
+/// have in common. It cancels in the difference from the mean, and so the mean stands for both
+/// halves there.
 pub fn halves_for(
     output: &Image,
     (instant, shared): (&Image, &Raster<bool>),

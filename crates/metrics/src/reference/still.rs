@@ -9,7 +9,8 @@ use crate::math::raster::index_pixels;
 use crate::{Measured, Region};
 
 impl Reference<'_> {
-    /// Maps the change of the instant's colour where nothing moves, relative to its brightness; 0 elsewhere.
+    /// Maps the change of the instant's colour where nothing moves, relative to its brightness; 0
+    /// elsewhere.
     pub(super) fn map_static_change(&self, output: &Image) -> Raster<f64> {
         let scale = self.viewing.scale();
         index_pixels(output, |at| {
@@ -22,7 +23,8 @@ impl Reference<'_> {
         })
     }
 
-    /// Scores the map: its root mean square. The instant is exact there, as the filter's own input, so that there is no noise.
+    /// Scores the map: its root mean square. The instant is exact there, as the filter's own input,
+    /// so that there is no noise.
     pub(super) fn score_static_change(&self, change: &Raster<f64>) -> Measured {
         let still = self.regions.indices(Region::Still);
         let square = mean(still.map(|at| change.pixels[at].powi(2)));

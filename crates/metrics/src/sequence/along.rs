@@ -7,14 +7,15 @@ use crate::math::raster::index_pixels;
 
 /// For every pixel, where the point that it shows was in the frame before.
 pub struct Before {
-    /// In pixels, the centre of the first pixel at (0, 0); none if the point was outside the picture or another object was in
-    /// front of it.
+    /// In pixels, the centre of the first pixel at (0, 0); none if the point was outside the
+    /// picture or another object was in front of it.
     places: Raster<Option<[f32; 2]>>,
 }
 
 impl Before {
-    /// Follows every point of `now` back to `before`. A point counts as hidden if the nearest pixel of the frame before
-    /// shows another object; a point that another part of its own object hid is not noticed.
+    /// Follows every point of `now` back to `before`. A point counts as hidden if the nearest pixel
+    /// of the frame before shows another object; a point that another part of its own object hid is
+    /// not noticed.
     pub fn new(before: &Instant, now: &Instant) -> Self {
         let ids = &before.object_id;
         let places = index_pixels(&now.velocity, |at| {
@@ -30,7 +31,8 @@ impl Before {
         self.places.pixels[at].is_some()
     }
 
-    /// Moves a picture of the frame before to where its points are now, bilinearly; zero where they were not seen.
+    /// Moves a picture of the frame before to where its points are now, bilinearly; zero where they
+    /// were not seen.
     pub fn take(&self, before: &Image) -> Image {
         index_pixels(&self.places, |at| {
             self.places.pixels[at].map_or([0.0; 3], |place| bilinear(before, place))

@@ -1,4 +1,5 @@
-//! Screen-fixed pattern: fine error that stays in place on the screen while the picture moves, like dirt on a window.
+//! Screen-fixed pattern: fine error that stays in place on the screen while the picture moves, like
+//! dirt on a window.
 
 use frame::{Image, Raster};
 
@@ -28,9 +29,9 @@ impl FineError {
     }
 }
 
-/// Averages the product of two frames' fine errors at one place of the screen, over all pairs of frames, where both
-/// have motion. The two frames are compared with different halves of the truth, so that its noise does not bias it.
-/// None if no pair has a pixel in common.
+/// Averages the product of two frames' fine errors at one place of the screen, over all pairs of
+/// frames, where both have motion. The two frames are compared with different halves of the truth,
+/// so that its noise does not bias it. None if no pair has a pixel in common.
 pub fn correlate(frames: &[FineError], scale: f64) -> Option<f64> {
     let mut products = Vec::new();
     for (index, now) in frames.iter().enumerate() {

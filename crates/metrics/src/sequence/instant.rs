@@ -2,7 +2,8 @@
 
 use frame::{Image, Plane, Raster, Truth, Vectors};
 
-/// The truth of one frame of a sequence, and the motion since the frame before. All rasters have the truth's size.
+/// The truth of one frame of a sequence, and the motion since the frame before. All rasters have
+/// the truth's size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Instant {
     /// Colours of the truth's halves.
@@ -20,8 +21,8 @@ pub struct Instant {
 }
 
 impl Instant {
-    /// Collects what sequences need from a truth. `velocity` is the motion since the frame before at the pixels' centres,
-    /// whatever kind of velocity the filter got.
+    /// Collects what sequences need from a truth. `velocity` is the motion since the frame before
+    /// at the pixels' centres, whatever kind of velocity the filter got.
     pub fn new(truth: &Truth, velocity: Vectors, depth: Plane, object_id: Raster<u32>) -> Self {
         Self {
             halves: truth.halves.each_ref().map(|half| half.color.clone()),

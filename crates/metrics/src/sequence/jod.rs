@@ -1,14 +1,16 @@
-//! ColorVideoVDP (Mantiuk et al. 2024): the difference that viewers of a display would see between two videos.
+//! ColorVideoVDP (Mantiuk et al. 2024): the difference that viewers of a display would see between
+//! two videos.
 
 use colorvideovdp::{Color, Cvvdp, DisplayModel, Options};
 use frame::{Image, display_srgb};
 
-/// The display on which sequences are assumed to be shown: 24 inches, 1920x1080 pixels, seen from 0.6 m. A pixel of a
-/// picture is a pixel of the display.
+/// The display on which sequences are assumed to be shown: 24 inches, 1920x1080 pixels, seen from
+/// 0.6 m. A pixel of a picture is a pixel of the display.
 pub const JOD_DISPLAY: &str = "standard_fhd";
 
-/// Computes the quality of sRGB-encoded pictures against the truth's, in JOD: 10 if no difference is seen; 1 less if three of
-/// four viewers would prefer the truth. `display` is a name from the reference implementation's list.
+/// Computes the quality of sRGB-encoded pictures against the truth's, in JOD: 10 if no difference
+/// is seen; 1 less if three of four viewers would prefer the truth. `display` is a name from the
+/// reference implementation's list.
 ///
 /// # Errors
 /// The display is unknown, or the pictures are too small, too large or of two sizes.

@@ -42,7 +42,8 @@ impl Pair {
         }
     }
 
-    /// Maps the squared error of the difference between two pictures, without the bias of the truth's noise.
+    /// Maps the squared error of the difference between two pictures, without the bias of the
+    /// truth's noise.
     pub fn map_error(&self, [before, now]: [&Image; 2], scale: f64) -> Raster<f64> {
         let difference = match &self.before {
             None => subtract(now, before),

@@ -7,7 +7,8 @@ use super::pairs::{mean_in, scatter_in};
 /// Least part of the picture that an object covers for its error to count.
 const LEAST_PART: f64 = 1e-3;
 
-/// Root mean squared error of every object in one frame; none for those that cover too little of the picture.
+/// Root mean squared error of every object in one frame; none for those that cover too little of
+/// the picture.
 pub fn object_errors(error: &Raster<f64>, seen: &[Raster<bool>]) -> Vec<Option<f64>> {
     let root = |mask: &Raster<bool>| {
         let mean = mean_in(error, mask).filter(|_| counts(mask));
@@ -17,7 +18,8 @@ pub fn object_errors(error: &Raster<f64>, seen: &[Raster<bool>]) -> Vec<Option<f
     seen.iter().map(root).collect()
 }
 
-/// Finds the largest jump of any object's error from each frame to the next; none if no object counts in both.
+/// Finds the largest jump of any object's error from each frame to the next; none if no object
+/// counts in both.
 pub fn largest_jumps(frames: &[Vec<Option<f64>>]) -> Vec<Option<f64>> {
     let largest = |pair: &[Vec<Option<f64>>]| {
         let objects = pair[0].iter().zip(&pair[1]);

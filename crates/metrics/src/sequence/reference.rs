@@ -41,8 +41,8 @@ pub struct SequenceReference {
 }
 
 impl SequenceReference {
-    /// Prepares the truths of consecutive frames, at least one, which are shown at a number of frames per
-    /// second. Panics if their sizes differ.
+    /// Prepares the truths of consecutive frames, at least one, which are shown at a number of
+    /// frames per second. Panics if their sizes differ.
     pub fn new(instants: Vec<Instant>, viewing: &Viewing, per_second: f64) -> Self {
         let first = instants.first().expect("a sequence has a frame");
         assert!(
@@ -214,7 +214,8 @@ impl SequenceReference {
         Measured::of(largest, floors.reduce(f64::max), NO_OBJECT)
     }
 
-    /// Computes the quality as a display shows it. The truth supports at most the quality of one of its halves.
+    /// Computes the quality as a display shows it. The truth supports at most the quality of one of
+    /// its halves.
     fn jod(&self, pictures: &[Image]) -> Measured {
         let (per_second, stops) = self.shown;
         let own = displayed(pictures, stops);
@@ -268,8 +269,8 @@ fn pool_pairs(pairs: &[Pair], maps: &[Raster<f64>]) -> Vec<Option<f64>> {
     pairs.map(|(pair, map)| pair.pool(map)).collect()
 }
 
-/// Finds the frame of the largest value of each score, the first of equal ones, from the frame of its first value; leaves out scores
-/// without values.
+/// Finds the frame of the largest value of each score, the first of equal ones, from the frame of
+/// its first value; leaves out scores without values.
 fn find_worst_frames(
     shares: [(SequenceMetric, usize, &Vec<Option<f64>>); 6],
 ) -> Vec<(SequenceMetric, usize)> {

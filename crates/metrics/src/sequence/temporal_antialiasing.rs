@@ -11,11 +11,12 @@ pub const NEW_SHARE: f32 = 0.1;
 
 /// Accumulates pictures of consecutive frames; returns the accumulated picture of each.
 ///
-/// Every pixel is the mean of its new colour, by [`NEW_SHARE`], and of its history. The history is the accumulated
-/// picture of the frame before, bilinearly at the place that the velocity leads back to. The velocity comes from
-/// the nearest of the nine pixels around (Karis 2014), so that edges keep their history. The history is clamped,
-/// channel by channel, to the least and the greatest of the nine new colours around. The first frame and points
-/// from outside the picture have no history.
+/// Every pixel is the mean of its new colour, by [`NEW_SHARE`], and of its history. The history is
+/// the accumulated picture of the frame before, bilinearly at the place that the velocity leads
+/// back to. The velocity comes from the nearest of the nine pixels around (Karis 2014), so that
+/// edges keep their history. The history is clamped, channel by channel, to the least and the
+/// greatest of the nine new colours around. The first frame and points from outside the picture
+/// have no history.
 pub fn accumulate(pictures: &[Image], instants: &[Instant]) -> Vec<Image> {
     assert_eq!(pictures.len(), instants.len(), "every frame has a picture");
     let mut accumulated: Vec<Image> = Vec::with_capacity(pictures.len());

@@ -5,16 +5,17 @@ use super::ladder::{Curves, ErrorKind, Errors, Rung};
 use super::{Equivalent, Subframes};
 use crate::jackknife;
 
-/// Counts the accumulated sub-frames with the errors `own`. `without` holds the picture's errors and the rungs' without each
-/// group of samples in turn: of the picture's frame, the truth and the rungs together. `noise` holds the errors that the truth's
-/// noise alone makes.
+/// Counts the accumulated sub-frames with the errors `own`. `without` holds the picture's errors
+/// and the rungs' without each group of samples in turn: of the picture's frame, the truth and the
+/// rungs together. `noise` holds the errors that the truth's noise alone makes.
 ///
-/// A count N is possible if the 95 % interval of the difference between the picture's error and the rung's contains 0. So the
-/// interval of the count comes from [`jackknife`] intervals of the difference at every rung, and the count itself from their
-/// centres. FLIP and label variation are compared in squares, which noise raises by its variance.
+/// A count N is possible if the 95 % interval of the difference between the picture's error and the
+/// rung's contains 0. So the interval of the count comes from [`jackknife`] intervals of the
+/// difference at every rung, and the count itself from their centres. FLIP and label variation are
+/// compared in squares, which noise raises by its variance.
 ///
-/// Without groups (a truth of two replicates, an engine's), nothing is known of the difference's noise. Then counts up to
-/// [`Subframes::floor`] are taken as certain and others as open.
+/// Without groups (a truth of two replicates, an engine's), nothing is known of the difference's
+/// noise. Then counts up to [`Subframes::floor`] are taken as certain and others as open.
 pub fn equivalent(
     kind: ErrorKind,
     (own, curves): (&Errors, &Curves),
@@ -107,7 +108,8 @@ mod tests {
 
     #[test]
     fn noise_of_picture_and_rungs_cancels() {
-        // Without one of four groups, all noise is a third larger. Each group's own noise is nothing.
+        // Without one of four groups, all noise is a third larger. Each group's own noise is
+        // nothing.
         let whole = curves(0.03);
         let others = curves(0.04);
         let without: Vec<(Errors, &Curves)> = [1.0 / 6.0 + 0.04; 4]
@@ -124,7 +126,8 @@ mod tests {
     #[test]
     fn noise_of_the_picture_alone_is_taken_out_and_widens_the_interval() {
         let whole = curves(0.0);
-        // The picture's squared error of 1/6 is raised by 0.03, and by a third more without a group; groups scatter.
+        // The picture's squared error of 1/6 is raised by 0.03, and by a third more without a
+        // group; groups scatter.
         let scatter = [0.01, -0.01, 0.02, -0.02];
         let without: Vec<(Errors, &Curves)> = scatter
             .map(|own| (errors(1.0 / 6.0 + 0.04 + own), &whole))

@@ -18,14 +18,17 @@ pub struct Point {
     pub above: f64,
 }
 
-/// Points in rising order of sub-frames, at least one. Noise can make an error rise from one to the next.
+/// Points in rising order of sub-frames, at least one. Noise can make an error rise from one to the
+/// next.
 ///
-/// Between two points, the logarithm of the error is linear in the logarithm of sub-frames, and so is the uncertainty.
+/// Between two points, the logarithm of the error is linear in the logarithm of sub-frames, and so
+/// is the uncertainty.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve(pub Vec<Point>);
 
 impl Curve {
-    /// Finds the count of sub-frames with this error: the lowest of several; the curve's end if the error is beyond it.
+    /// Finds the count of sub-frames with this error: the lowest of several; the curve's end if the
+    /// error is beyond it.
     pub fn find(&self, error: f64) -> (f64, LadderRange) {
         let [first, last] = self.ends();
         if error > first.error {
@@ -42,7 +45,8 @@ impl Curve {
         (last.subframes, LadderRange::Above)
     }
 
-    /// Finds the lowest count that may have this error; the last if all have more; none if it may be below the first.
+    /// Finds the lowest count that may have this error; the last if all have more; none if it may
+    /// be below the first.
     pub fn lowest(&self, error: f64) -> Option<f64> {
         let end = |point: &Point| point.error - point.below;
         match self.0.iter().position(|point| end(point) <= error) {
@@ -52,7 +56,8 @@ impl Curve {
         }
     }
 
-    /// Finds the highest count that may have this error; the first if all have less; none if it may be above the last.
+    /// Finds the highest count that may have this error; the first if all have less; none if it may
+    /// be above the last.
     pub fn highest(&self, error: f64) -> Option<f64> {
         let end = |point: &Point| point.error + point.above;
         match self.0.iter().rposition(|point| end(point) >= error) {
@@ -68,7 +73,8 @@ impl Curve {
         [self.0[0], self.0[self.0.len() - 1]]
     }
 
-    /// Finds where an end of the error's interval falls to `error`, between a point and the next one.
+    /// Finds where an end of the error's interval falls to `error`, between a point and the next
+    /// one.
     fn cross(&self, at: usize, error: f64, end: impl Fn(&Point) -> f64) -> f64 {
         let [a, b] = [self.0[at], self.0[at + 1]];
         // A rung's own error is its own count; the search would be off by a rounding.
@@ -88,7 +94,8 @@ impl Curve {
 /// Interpolates two points, `part` of the way in the logarithm of sub-frames.
 fn interpolate(a: Point, b: Point, part: f64) -> Point {
     let linear = |a: f64, b: f64| a + part * (b - a);
-    // An error that is lost in noise has no logarithm: both are raised until it is as large as its uncertainty.
+    // An error that is lost in noise has no logarithm: both are raised until it is as large as its
+    // uncertainty.
     let raised = (b.below.max(b.above) - b.error).max(0.0);
     let [from, to] = [a, b].map(|point| point.error + raised);
     let error = if from > 0.0 && to > 0.0 {
@@ -159,7 +166,8 @@ mod tests {
         };
         assert!((ends(0.4 - 1.0 / 3.0)[0] - 2.5).abs() < 1e-9);
         assert!((ends(1.0 / 30.0)[1] - 10.0 / 3.0).abs() < 1e-9);
-        // More uncertainty than the last rung's distance leaves the upper end open, and then the lower one.
+        // More uncertainty than the last rung's distance leaves the upper end open, and then the
+        // lower one.
         let uncertain = halving(0.25);
         assert_eq!(uncertain.highest(1.0 / 3.0), None);
         assert!(uncertain.lowest(1.0 / 3.0).is_some());

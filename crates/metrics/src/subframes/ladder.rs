@@ -31,7 +31,8 @@ pub enum ErrorKind {
 }
 
 impl Errors {
-    /// Returns one of the errors in squares: noise raises them by its variance, which the jackknife takes out.
+    /// Returns one of the errors in squares: noise raises them by its variance, which the jackknife
+    /// takes out.
     pub(super) fn square(&self, kind: ErrorKind) -> f64 {
         match kind {
             ErrorKind::Mse => self.mse,
@@ -46,7 +47,8 @@ impl Errors {
 pub struct Rung {
     /// Number of sub-frames.
     pub subframes: u32,
-    /// Errors with as much of the truth's noise as a picture without noise of its own has: comparable with those.
+    /// Errors with as much of the truth's noise as a picture without noise of its own has:
+    /// comparable with those.
     pub noisy: Errors,
     /// Errors without the truth's noise: those of the rung's picture on the truth's mean.
     pub plain: Errors,
@@ -63,7 +65,8 @@ pub struct Curves {
 pub struct RungTruth<'a> {
     /// Its mean.
     pub mean: &'a Picture,
-    /// Half of it whose difference from the mean is as large as the mean's noise; the mean itself if the truth has no noise.
+    /// Half of it whose difference from the mean is as large as the mean's noise; the mean itself
+    /// if the truth has no noise.
     pub half: &'a Picture,
     /// The mean as FLIP sees it.
     pub seen: &'a SeenExposures,
@@ -72,8 +75,9 @@ pub struct RungTruth<'a> {
 impl Curves {
     /// Scores a rung against the truth.
     ///
-    /// A picture F differs from the truth's mean T by its error and the noise of T. A rung on T differs by its error alone, and
-    /// would win by the noise. So it is also scored on the truth's half A, against T: A - T is as large as the noise of T.
+    /// A picture F differs from the truth's mean T by its error and the noise of T. A rung on T
+    /// differs by its error alone, and would win by the noise. So it is also scored on the truth's
+    /// half A, against T: A - T is as large as the noise of T.
     pub fn add(
         &mut self,
         rung: &Accumulation,
@@ -115,8 +119,9 @@ impl Curves {
     }
 }
 
-/// Estimates the mean square of a difference without the noise of its groups, mean over the channels: the mean of the products
-/// of all pairs of different groups. The noise of one group alone counts.
+/// Estimates the mean square of a difference without the noise of its groups, mean over the
+/// channels: the mean of the products of all pairs of different groups. The noise of one group
+/// alone counts.
 fn mean_square(rung: &Accumulation, mean: &Image, regions: &Regions, scale: f64) -> f64 {
     let square = |image: &Image| {
         let squares = image.map(|pixel| {

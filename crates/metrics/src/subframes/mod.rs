@@ -69,7 +69,8 @@ impl Subframes {
         }
     }
 
-    /// Returns the interval, with the ends of the ladder for open ends. `ends` are its first and last number of sub-frames.
+    /// Returns the interval, with the ends of the ladder for open ends. `ends` are its first and
+    /// last number of sub-frames.
     pub fn interval(&self, ends: [u32; 2]) -> Interval {
         let [first, last] = ends.map(f64::from);
         let (low, high) = (self.low.unwrap_or(first), self.high.unwrap_or(last));

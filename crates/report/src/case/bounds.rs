@@ -72,7 +72,8 @@ fn failure_pattern(page: &CaseView) -> Markup {
     }
 }
 
-/// Shows a score of a sequence that does not meet its limit: the worst frame, and a link to play it.
+/// Shows a score of a sequence that does not meet its limit: the worst frame, and a link to play
+/// it.
 fn sequence_section(finding: &Finding) -> Markup {
     html! {
         div class=(verdict_class(finding)) {

@@ -30,7 +30,8 @@ pub struct CaseView<'a> {
 }
 
 impl<'a> CaseView<'a> {
-    /// Reads the files of a case from its number in the run, its scene's number, and the findings about the scene.
+    /// Reads the files of a case from its number in the run, its scene's number, and the findings
+    /// about the scene.
     pub fn read(
         run: &'a Run,
         index: usize,
@@ -80,8 +81,8 @@ pub struct Evidence {
     pub plane: usize,
 }
 
-/// Finds the place to look at; none for a finding that needs no explanation, or is about a sequence. `check` has already found the place;
-/// after `run` it is found here.
+/// Finds the place to look at; none for a finding that needs no explanation, or is about a
+/// sequence. `check` has already found the place; after `run` it is found here.
 fn find_evidence(
     finding: &Finding,
     case: &Case,

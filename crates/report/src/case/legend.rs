@@ -11,14 +11,16 @@ const MAGMA: Gradient = colorous::MAGMA;
 const CIVIDIS: Gradient = colorous::CIVIDIS;
 /// Colours of signed errors: purple is too dark, orange too bright, white is right.
 const PURPLE_ORANGE: Gradient = colorous::PURPLE_ORANGE;
-/// Beside, ahead, behind: three colours that all kinds of colour vision distinguish (Okabe and Ito).
+/// Beside, ahead, behind: three colours that all kinds of colour vision distinguish (Okabe and
+/// Ito).
 const SIDES: [(&str, &str); 3] = [
     ("e69f00", "beside"),
     ("56b4e9", "ahead"),
     ("cc79a7", "behind"),
 ];
 
-/// Formats the script's colours: 256 hexadecimal colours per gradient, and the colours of the sides.
+/// Formats the script's colours: 256 hexadecimal colours per gradient, and the colours of the
+/// sides.
 pub fn colors() -> String {
     let table = |gradient: Gradient| -> String {
         (0..256)

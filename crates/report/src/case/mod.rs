@@ -73,8 +73,9 @@ impl CaseTables {
     }
 }
 
-/// Writes a case, which is visible while open; the script adds the viewer. If scripts run, its tables are text until then, since a
-/// browser needs seconds for all cases' tables. Without `tables` the script loads them from a file next to the page.
+/// Writes a case, which is visible while open; the script adds the viewer. If scripts run, its
+/// tables are text until then, since a browser needs seconds for all cases' tables. Without
+/// `tables` the script loads them from a file next to the page.
 pub fn case_section(view: &CaseView, live: &Live, tables: Option<&CaseTables>) -> Markup {
     let case = view.case;
     let filter = case.filter_id();
@@ -93,7 +94,8 @@ pub fn case_section(view: &CaseView, live: &Live, tables: Option<&CaseTables>) -
     }
 }
 
-/// Writes the place of the panel that runs the filter, which the script shows, or why there is none.
+/// Writes the place of the panel that runs the filter, which the script shows, or why there is
+/// none.
 fn live_place(live: &Live) -> Markup {
     html! {
         @match live {

@@ -27,11 +27,13 @@ pub struct Curve {
     pub title: String,
     /// Class in the style sheet.
     pub class: &'static str,
-    /// Distances from the place, in pixels along the motion, each with the luminance (Rec.709) of the nearest pixel.
+    /// Distances from the place, in pixels along the motion, each with the luminance (Rec.709) of
+    /// the nearest pixel.
     pub points: Vec<(f64, f64)>,
 }
 
-/// Follows the motion through `place` in a case's pictures, and in its scene's accumulation if the run has one.
+/// Follows the motion through `place` in a case's pictures, and in its scene's accumulation if the
+/// run has one.
 pub fn trace_profile(
     place: [u32; 2],
     case: &Case,
@@ -93,8 +95,8 @@ pub fn worst_pixel(map: &Raster<f32>, [x, y]: [u32; 2], block: u32) -> [u32; 2] 
     worst
 }
 
-/// Measures the motion over the shutter, in pixels: of the surface visible at the place, else of the nearest moving one, else of what the
-/// truth saw there.
+/// Measures the motion over the shutter, in pixels: of the surface visible at the place, else of
+/// the nearest moving one, else of what the truth saw there.
 fn motion_at([x, y]: [u32; 2], frame: &Frame, truth: &TruthFile) -> [f32; 2] {
     let over_shutter = |motion: &[f32; 2]| motion.map(|axis| axis * frame.exposure as f32);
     nearest_moving(&frame.velocity.map(over_shutter), [x, y])

@@ -75,7 +75,8 @@ fn row(page: &CaseView, metric: Metric) -> Markup {
     }
 }
 
-/// Formats a value with its unit, and for a count of sub-frames beyond the ladder the end of the ladder.
+/// Formats a value with its unit, and for a count of sub-frames beyond the ladder the end of the
+/// ladder.
 fn value(case: &Case, metric: Metric, value: f64) -> String {
     match metric {
         Metric::Equivalent(metric) => case.scores.equivalent_subframes.get(metric).to_string(),

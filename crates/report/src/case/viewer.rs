@@ -171,7 +171,8 @@ fn marks(run: &Run) -> Markup {
     }
 }
 
-/// Lists the numbers of a pixel, one row per picture; the script fills it and hides rows that a case lacks.
+/// Lists the numbers of a pixel, one row per picture; the script fills it and hides rows that a
+/// case lacks.
 fn readout() -> Markup {
     html! {
         table.readout {

@@ -16,7 +16,8 @@ use crate::table::{grouped_table, scroll_table};
 /// Number of cases with pictures, the largest changes.
 const SHOWN: usize = 12;
 
-/// Makes the page of a comparison. Reads the pictures of the largest changes and writes no file; the same runs make the same bytes.
+/// Makes the page of a comparison. Reads the pictures of the largest changes and writes no file;
+/// the same runs make the same bytes.
 pub fn compare_page(
     compared: &RunComparison,
     first: &StoredRun,

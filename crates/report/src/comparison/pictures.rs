@@ -53,7 +53,8 @@ fn change(sides: [&StoredRun; 2], pair: &Pair) -> Result<Option<String>, Error> 
     Ok(Some(embed_picture(&worse.map(|worse| color(*worse)))))
 }
 
-/// Colours a change: orange is worse and blue better, as elsewhere on the page; black is no change, full colour a half or more.
+/// Colours a change: orange is worse and blue better, as elsewhere on the page; black is no change,
+/// full colour a half or more.
 fn color(worse: f32) -> [f32; 3] {
     let full = if worse > 0.0 {
         [0.98, 0.55, 0.15]

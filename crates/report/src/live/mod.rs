@@ -1,4 +1,5 @@
-//! Live cases: the data with which a page's script runs a filter in the browser, in files next to the page that it loads on demand.
+//! Live cases: the data with which a page's script runs a filter in the browser, in files next to
+//! the page that it loads on demand.
 
 pub mod scene;
 
@@ -15,7 +16,8 @@ use crate::pixels::report_files::write_script;
 /// Most pixels of a frame that can be tried; the file of such a scene has about 15 MB.
 const MOST_PIXELS: u32 = 1280 * 720;
 
-/// A live case as JSON, or the sentence that says why it is not live; none if nobody expects it to be.
+/// A live case as JSON, or the sentence that says why it is not live; none if nobody expects it to
+/// be.
 pub type Live = Option<Result<String, String>>;
 
 /// Live filters of a run, and the files written for them.
@@ -42,7 +44,8 @@ impl<'a> LiveFiles<'a> {
         }
     }
 
-    /// Describes a case; `frame` is its scene's, with the guard band. Writes the file of a filter that no case had before.
+    /// Describes a case; `frame` is its scene's, with the guard band. Writes the file of a filter
+    /// that no case had before.
     pub fn describe(
         &mut self,
         case: &'a Case,
@@ -70,7 +73,8 @@ impl<'a> LiveFiles<'a> {
         Ok(())
     }
 
-    /// Finds the filter that a case ran, as its run's folder or this program has it, and writes its file.
+    /// Finds the filter that a case ran, as its run's folder or this program has it, and writes its
+    /// file.
     fn find_filter(&mut self, case: &Case) -> Result<Result<(usize, Filter), String>, Error> {
         let own = self.folder.join(MEASURED_FILTERS).join(&case.filter);
         let found = if own.join("filter.toml").is_file() {

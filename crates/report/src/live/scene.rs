@@ -11,7 +11,8 @@ use suite::FilterFrame;
 use crate::pixels::planes::deflate;
 use crate::pixels::scene_files::SceneFiles;
 
-/// Writes a scene as JSON. Adds the regions of its truths to its planes, as numbers that are 1 where scores are pooled.
+/// Writes a scene as JSON. Adds the regions of its truths to its planes, as numbers that are 1
+/// where scores are pooled.
 pub fn scene_json(files: &mut SceneFiles) -> String {
     let ((width, height), (inner_width, inner_height)) = (files.whole.size(), files.frame.size());
     let band = files.whole.guard_band;
@@ -36,7 +37,8 @@ pub fn scene_json(files: &mut SceneFiles) -> String {
     scene.to_string()
 }
 
-/// Packs the inputs as 32-bit floats: halves would change velocities by up to 0.015 pixels and depths by 0.05 %, which moves taps.
+/// Packs the inputs as 32-bit floats: halves would change velocities by up to 0.015 pixels and
+/// depths by 0.05 %, which moves taps.
 fn list_inputs(frame: &FilterFrame) -> BTreeMap<&'static str, String> {
     let next = frame.velocity_next.as_ref();
     let z = frame.velocity_z.as_ref();

@@ -31,8 +31,8 @@ pub fn spread(seconds: &Spread) -> Markup {
     }
 }
 
-/// Finds the cost of a filter; none for references, and for filters that were not timed with exactly these parameters. A bench of another
-/// width has its own values in pixels.
+/// Finds the cost of a filter; none for references, and for filters that were not timed with
+/// exactly these parameters. A bench of another width has its own values in pixels.
 pub fn cost_of<'a>(table: &'a CaseTable, filter: &FilterId) -> Option<&'a CaseCost> {
     let (_, case) = table.cases_of(filter).next()?;
     let bench = table.bench.as_ref()?;
@@ -48,7 +48,8 @@ pub fn cost_of<'a>(table: &'a CaseTable, filter: &FilterId) -> Option<&'a CaseCo
     })
 }
 
-/// Returns whether a value in pixels equals another one for pictures `ratio` times as wide, up to rounding of the smaller one.
+/// Returns whether a value in pixels equals another one for pictures `ratio` times as wide, up to
+/// rounding of the smaller one.
 fn are_equally_long(first: &Value, second: &Value, ratio: f64) -> bool {
     let number = |value: &Value| match value {
         Value::Integer(value) => Some(f64::from(*value)),

@@ -75,7 +75,8 @@ pub fn cell(metric: Metric, colors: &Colors, view: &CaseView) -> Markup {
     }
 }
 
-/// Finds the required bound on a case's score, and the score's status; none if it has no such bound, or does not apply.
+/// Finds the required bound on a case's score, and the score's status; none if it has no such
+/// bound, or does not apply.
 fn find_judged<'a>(metric: Metric, view: &'a CaseView) -> Option<(&'a Finding, Status)> {
     let metric = view.case.scores.behind(metric);
     let mut findings = view.findings.iter();

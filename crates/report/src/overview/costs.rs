@@ -59,7 +59,8 @@ fn list_timed<'a>(table: &'a CaseTable) -> Vec<(&'a FilterId, &'a CaseCost)> {
         .collect()
 }
 
-/// Measures FLIP and time of every timed filter. Filters of all shutters are in one chart, so FLIP is against one shutter for all.
+/// Measures FLIP and time of every timed filter. Filters of all shutters are in one chart, so FLIP
+/// is against one shutter for all.
 fn points(table: &CaseTable, timed: &[(&FilterId, &CaseCost)]) -> Vec<Point> {
     let point = |(filter, cost): &(&FilterId, &CaseCost)| {
         Some(Point {

@@ -38,7 +38,8 @@ const TABLE_SCORES: [(Metric, &str); 11] = [
     (Metric::PSNR, "PSNR"),
 ];
 
-/// Shows the scores of all cases, costs, and what the run depended on. `thumbnails` are addresses of the scenes' truths.
+/// Shows the scores of all cases, costs, and what the run depended on. `thumbnails` are addresses
+/// of the scenes' truths.
 pub fn overview(
     table: &CaseTable,
     views: &[CaseView],
@@ -152,7 +153,8 @@ fn panel(
     };
     html! {
         div.panel data-metric=(metric.name()) {
-            // If scripts run, the other tables are text until somebody looks at them, so that the page opens sooner.
+            // If scripts run, the other tables are text until somebody looks at them, so that the
+            // page opens sooner.
             @if is_first { (content) } @else { noscript { (content) } }
         }
     }

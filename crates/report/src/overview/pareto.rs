@@ -153,8 +153,8 @@ fn text_width(text: &str) -> f64 {
     LETTER * text.chars().count() as f64
 }
 
-/// Finds the upper left corner of every label: next to its disc, where it covers no disc, no other label and nothing in `taken`; none if
-/// there is no room.
+/// Finds the upper left corner of every label: next to its disc, where it covers no disc, no other
+/// label and nothing in `taken`; none if there is no room.
 fn place_labels(
     discs: &[(&str, [f64; 4])],
     mut taken: Vec<[f64; 4]>,
@@ -183,7 +183,8 @@ fn place_labels(
     discs.iter().map(place).collect()
 }
 
-/// Sorts references, lowest first. Of lines closer than `near` only the top one has a name, which combines all of them.
+/// Sorts references, lowest first. Of lines closer than `near` only the top one has a name, which
+/// combines all of them.
 fn named_levels(references: &[(String, f64)], near: f64) -> Vec<(String, f64)> {
     let mut sorted = references.to_vec();
     sorted.sort_by(|a, b| a.1.total_cmp(&b.1));

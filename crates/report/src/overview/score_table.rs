@@ -16,7 +16,8 @@ use crate::charts::strip::Strip;
 use crate::finding_text::Tally;
 use crate::numbers::mean;
 
-/// Extent of the scale beyond the middle half of the means, relative to it; means farther out are arrows.
+/// Extent of the scale beyond the middle half of the means, relative to it; means farther out are
+/// arrows.
 const WHISKERS: f64 = 1.5;
 
 /// Number of scenes at which their columns become narrow.
@@ -32,9 +33,11 @@ struct Row<'a> {
     mean: Option<f64>,
 }
 
-/// Groups the filters of a run by shutter, unless the score compares across shutters; best mean first.
+/// Groups the filters of a run by shutter, unless the score compares across shutters; best mean
+/// first.
 fn rank_rows<'a>(table: &CaseTable<'a>, metric: Metric) -> Vec<Vec<Row<'a>>> {
-    // Shutters have the order of their filters, as in every ranking, with references after the filters.
+    // Shutters have the order of their filters, as in every ranking, with references after the
+    // filters.
     let mut filters = table.filters.clone();
     filters.sort_by_key(|filter| filter.is_reference);
     let rate = summarized_rate(&table.run.cases);
@@ -166,7 +169,8 @@ fn caption(metric: Metric, has_means: bool, scenes: usize) -> &'static str {
     }
 }
 
-/// Finds the frame rate of the displayed means: the scene files' own, or the only one; none if there are several others.
+/// Finds the frame rate of the displayed means: the scene files' own, or the only one; none if
+/// there are several others.
 fn summarized_rate(cases: &[Case]) -> Option<Option<FrameRate>> {
     let cases = list_summarized(cases);
     let first = cases.first().map(|case| case.rate);

@@ -9,7 +9,8 @@ use crate::address::{case_anchor, section_anchor};
 use crate::case_table::CaseTable;
 use crate::sequence::SEQUENCES_PAGE;
 
-/// Names the best filters of every shutter, the first one's weakest scene, and the last filter of the ranking.
+/// Names the best filters of every shutter, the first one's weakest scene, and the last filter of
+/// the ranking.
 pub fn winners(table: &CaseTable) -> Markup {
     let number = |value: f64| Metric::FLIP.number(value);
     let id = |ranked: &RankedFilter| FilterId {
@@ -42,7 +43,8 @@ pub fn winners(table: &CaseTable) -> Markup {
     }
 }
 
-/// Names the filters that rank behind all others because they change what stands still; nothing if none does.
+/// Names the filters that rank behind all others because they change what stands still; nothing if
+/// none does.
 fn behind_all(group: &[RankedFilter]) -> Markup {
     let ruining = group.iter().filter(|own| own.side_effects.ruins_still());
     let names: Vec<String> = ruining
@@ -76,7 +78,8 @@ pub fn sequence_winners(run: &Run) -> Markup {
     }
 }
 
-/// Names the filters that share the first rank, and the first one's weakest scene; before them that none is better than no blur, if so.
+/// Names the filters that share the first rank, and the first one's weakest scene; before them that
+/// none is better than no blur, if so.
 fn first_rank(
     group: &[RankedFilter],
     title: &str,

@@ -7,11 +7,13 @@ named! {
     pub enum Layer {
         /// what the open shutter saw, path traced
         Truth = "truth",
-        /// what our tracer saw of the same scene, through the same shutter; no score here is against it
+        /// what our tracer saw of the same scene, through the same shutter; no score here is
+        /// against it
         TracedTruth = "traced_truth",
         /// what the filter made of the instant
         Output = "output",
-        /// what the filter makes of the instant on this computer, with the values and the shader of the panel
+        /// what the filter makes of the instant on this computer, with the values and the shader of
+        /// the panel
         Live = "live",
         /// the frame that the filter got: sharp, at one instant
         Instant = "instant",

@@ -14,7 +14,8 @@ use rayon::prelude::*;
 
 /// Most differences that a browser adds up for one plane.
 const LONGEST_CHAIN: usize = 4;
-/// Step between the numbers that planes are compared by: enough to choose by, at a small part of the work.
+/// Step between the numbers that planes are compared by: enough to choose by, at a small part of
+/// the work.
 const STRIDE: usize = 61;
 
 /// Planes as bits of halves, in the order of their addition. Equal planes are stored once.
@@ -45,8 +46,8 @@ impl Planes {
         [0, 1, 2].map(|index| self.add(&component(index))).to_vec()
     }
 
-    /// Writes every plane as JSON: a list of texts, each with the number of the plane that it is the difference from, or none, a space, and
-    /// the base64 of a zlib stream.
+    /// Writes every plane as JSON: a list of texts, each with the number of the plane that it is
+    /// the difference from, or none, a space, and the base64 of a zlib stream.
     pub fn json(&self) -> String {
         let references = self.choose_references();
         let texts: Vec<String> = (self.planes.par_iter().zip(references))
@@ -64,7 +65,8 @@ impl Planes {
         format!("[{}]", texts.join(",\n"))
     }
 
-    /// Chooses for every plane the earlier one with the most equal numbers: filters leave most of a picture unchanged.
+    /// Chooses for every plane the earlier one with the most equal numbers: filters leave most of a
+    /// picture unchanged.
     fn choose_references(&self) -> Vec<Option<usize>> {
         let samples: Vec<Vec<u16>> = (self.planes.iter())
             .map(|bits| bits.iter().copied().step_by(STRIDE).collect())
@@ -87,7 +89,8 @@ impl Planes {
     }
 }
 
-/// Compresses the difference of every number from another: first all lower bytes, then all higher ones.
+/// Compresses the difference of every number from another: first all lower bytes, then all higher
+/// ones.
 fn compress(bits: &[u16], others: &[u16]) -> Vec<u8> {
     let mut bytes = vec![0; 2 * bits.len()];
     let (low, high) = bytes.split_at_mut(bits.len());

@@ -4,16 +4,16 @@ use std::path::{Path, PathBuf};
 
 use frame::{FileError, write_atomically};
 
-/// Largest page, in bytes, that contains its own numbers: it opens within seconds, and mail still accepts it. A larger report's numbers are
-/// in files next to the page, and a browser opens one scene at a time; so are the tables of its cases, if they alone are
-/// larger.
+/// Largest page, in bytes, that contains its own numbers: it opens within seconds, and mail still
+/// accepts it. A larger report's numbers are in files next to the page, and a browser opens one
+/// scene at a time; so are the tables of its cases, if they alone are larger.
 pub const LARGEST_PAGE: usize = 25_000_000;
 
 /// Upper limit on the bytes of styles, scripts and the frame of the page.
 const REST: usize = 130_000;
 
-/// Texts of all scenes in order: in the page, or in files in a folder named like the page. Texts are kept until they are too large for
-/// the page; from then on, each is written as it comes.
+/// Texts of all scenes in order: in the page, or in files in a folder named like the page. Texts
+/// are kept until they are too large for the page; from then on, each is written as it comes.
 pub struct SceneTexts {
     /// Words before the number of a scene in the name of its file: `scene`.
     name: &'static str,

@@ -45,11 +45,13 @@ pub struct SceneFiles {
 pub struct TruthFile {
     /// Mean of all replicates.
     pub mean: Picture,
-    /// Offset from each pixel to its surface's position at the instant, in pixels: mean over the shutter.
+    /// Offset from each pixel to its surface's position at the instant, in pixels: mean over the
+    /// shutter.
     pub offset: frame::Vectors,
     /// Regions that scores are pooled over.
     pub regions: Regions,
-    /// Part of the mean squared error against `mean` where anything moves that is the truth's own noise, in units of radiance.
+    /// Part of the mean squared error against `mean` where anything moves that is the truth's own
+    /// noise, in units of radiance.
     pub noise: f64,
     /// Sides of each moving object's bleed, with the object's index.
     sides: Vec<(usize, frame::Raster<Side>)>,
@@ -72,7 +74,8 @@ pub struct CaseFiles<'a> {
 }
 
 impl SceneFiles {
-    /// Reads the frame of a scene and the accumulations of its profiles; `cases` are all of the scene, `folder` is the run's.
+    /// Reads the frame of a scene and the accumulations of its profiles; `cases` are all of the
+    /// scene, `folder` is the run's.
     pub fn read(run: &Run, cases: &[&Case], folder: &Path) -> Result<Self, Error> {
         let path = cases[0].render_path(folder, RenderFile::Frame);
         let mut whole = Frame::read(&path)?;
@@ -226,8 +229,9 @@ impl SceneFiles {
     }
 }
 
-/// Averages the squared noise of a truth where anything moves. Scores of a report are products of the errors against both halves, which is
-/// the squared error against their mean less the square of half their difference.
+/// Averages the squared noise of a truth where anything moves. Scores of a report are products of
+/// the errors against both halves, which is the squared error against their mean less the square of
+/// half their difference.
 fn noise_where_moving(truth: &Truth, regions: &Regions) -> f64 {
     let [first, second] = truth.halves.each_ref().map(|half| &half.color.pixels);
     let square = |at: usize| -> f64 {
@@ -262,7 +266,8 @@ fn is_in_profiles(case: &Case) -> bool {
     case.is_reference && case.filter == ACCUMULATE && case.preset == "16"
 }
 
-/// Reads beside, ahead and behind: the sum over moving objects of their matte where the truth never shows them.
+/// Reads beside, ahead and behind: the sum over moving objects of their matte where the truth never
+/// shows them.
 fn read_bleeds(file: &ExrFile, objects: &[String], truth: &TruthFile) -> Result<[Plane; 3], Error> {
     let mut bleeds = [(); 3].map(|()| truth.regions.moving.map(|_| 0.0));
     let wanted = [Side::Lateral, Side::Leading, Side::Trailing];

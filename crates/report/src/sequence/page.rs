@@ -25,8 +25,8 @@ const PICTURES: [(&str, &str); 5] = [
     ("change", "error of the change"),
 ];
 
-/// Makes the page that plays the sequences of a run; none if it has none. `findings` are about the run. The page must be in the run's
-/// folder, since it loads the pictures there.
+/// Makes the page that plays the sequences of a run; none if it has none. `findings` are about the
+/// run. The page must be in the run's folder, since it loads the pictures there.
 pub fn sequences_page(run: &Run, findings: &[Finding]) -> Option<String> {
     if run.sequences.is_empty() {
         return None;
@@ -118,7 +118,8 @@ fn name(own: &Sequence) -> String {
     format!("{} / {} ({})", own.scene, own.name, own.alignment)
 }
 
-/// Lists the player's data of a sequence. Paths are relative to the page; errors are roots of squares in thousandths of white.
+/// Lists the player's data of a sequence. Paths are relative to the page; errors are roots of
+/// squares in thousandths of white.
 fn play(own: &Sequence) -> Value {
     let truth = RenderFile::Truth(own.alignment).picture();
     let path = |folder: &Path, name: &str| {

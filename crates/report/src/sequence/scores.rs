@@ -10,7 +10,8 @@ use tracer::SceneId;
 use super::ranking::metric_table;
 use crate::finding_text::{Status, limit_text};
 
-/// Makes a table per scene and shutter: references, then filters by their ranks, then those without a rank.
+/// Makes a table per scene and shutter: references, then filters by their ranks, then those without
+/// a rank.
 pub fn score_tables(run: &Run, findings: &[Finding]) -> Markup {
     let mut groups: Vec<(&SceneId, Alignment)> = Vec::new();
     for own in &run.sequences {
@@ -34,7 +35,8 @@ pub fn score_tables(run: &Run, findings: &[Finding]) -> Markup {
     }
 }
 
-/// Orders the sequences of one scene and shutter, each with its number in the run and its formatted rank.
+/// Orders the sequences of one scene and shutter, each with its number in the run and its formatted
+/// rank.
 fn order_rows<'a>(
     run: &'a Run,
     scene: &SceneId,

@@ -23,7 +23,8 @@ pub struct TuneFolder {
 }
 
 impl TuneFolder {
-    /// Reads a folder that `tune --out` wrote; refuses files of another version, and a folder without any.
+    /// Reads a folder that `tune --out` wrote; refuses files of another version, and a folder
+    /// without any.
     pub fn read(path: &Path) -> Result<Self, Error> {
         let (header, trials) = match read_journal(&path.join("journal.jsonl"))? {
             Some((header, trials)) => (Some(header), trials),

@@ -71,7 +71,8 @@ fn table(caption: &str, pairs: &BTreeMap<String, [SceneScore; 2]>) -> Markup {
     }
 }
 
-/// Cross-validation: lists the choices made without a family of scenes, scored on that family; nothing unless there are two.
+/// Cross-validation: lists the choices made without a family of scenes, scored on that family;
+/// nothing unless there are two.
 pub fn folds(folds: &[Fold]) -> Markup {
     if folds.is_empty() {
         return html! {};

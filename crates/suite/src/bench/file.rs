@@ -11,11 +11,13 @@ use crate::SIDES;
 
 /// Longest duration in a bench, in seconds: a day.
 const LONGEST: f64 = 86_400.0;
-/// Shortest duration of a whole filter, in seconds: the unit of a GPU's clock. A pass of it may take no time.
+/// Shortest duration of a whole filter, in seconds: the unit of a GPU's clock. A pass of it may
+/// take no time.
 const SHORTEST: f64 = 1e-9;
 
 impl Bench {
-    /// Reads a file. Refuses another version, impossible times and sizes, and reaches that were not timed: charts take logarithms.
+    /// Reads a file. Refuses another version, impossible times and sizes, and reaches that were not
+    /// timed: charts take logarithms.
     pub fn read(path: &Path) -> Result<Self, Error> {
         Self::parse(&read_text(path)?).map_err(|reason| {
             Error::Usage(format!(
@@ -93,7 +95,8 @@ impl Bench {
         speed.or(scene).unwrap_or("an unknown frame".to_owned())
     }
 
-    /// Puts the bench into its card's file in a folder, where it replaces older times of the same presets. Returns the file's path.
+    /// Puts the bench into its card's file in a folder, where it replaces older times of the same
+    /// presets. Returns the file's path.
     ///
     /// # Errors
     /// The adapter is a processor, or the file's times were measured in another way.

@@ -23,7 +23,8 @@ pub const BASELINE: &str = "jump_flood:paper";
 /// Exposure of the frames, in frames: trails are as long as the motion.
 pub const EXPOSURE: f64 = 1.0;
 
-/// Motion of the main table, in pixels per frame: where the published jump flood begins to cut trails.
+/// Motion of the main table, in pixels per frame: where the published jump flood begins to cut
+/// trails.
 pub const SPEED: u32 = 32;
 
 /// Reaches whose cost is measured, in pixels.
@@ -85,8 +86,8 @@ pub struct CaseCost {
     pub preset: String,
     /// Every parameter's value.
     pub parameters: BTreeMap<String, Value>,
-    /// Picture width that the preset was made for, from which values in pixels were scaled; none if the preset names none, or values were
-    /// left as written.
+    /// Picture width that the preset was made for, from which values in pixels were scaled; none if
+    /// the preset names none, or values were left as written.
     #[serde(default)]
     pub reference_width: Option<u32>,
     /// Time of all passes.
@@ -127,7 +128,8 @@ pub struct ReachCost {
     pub parameter: Option<String>,
     /// Costs at each of [`REACHES`].
     pub points: Vec<ReachPoint>,
-    /// Time at the longest reach, relative to [`GROWTH_FROM`] in the same round; none if either cannot be set.
+    /// Time at the longest reach, relative to [`GROWTH_FROM`] in the same round; none if either
+    /// cannot be set.
     pub growth: Option<Spread>,
 }
 

@@ -16,11 +16,12 @@ pub struct Panels {
     pub camera: Camera,
 }
 
-/// A panel of the frame: its centre, in parts of the image's width and height; half its sides, in parts of the height; the direction of
-/// its motion, of length 1; and its depth in metres.
+/// A panel of the frame: its centre, in parts of the image's width and height; half its sides, in
+/// parts of the height; the direction of its motion, of length 1; and its depth in metres.
 type Panel = ([f32; 2], [f32; 2], [f32; 2], f32);
 
-/// Panels from front to back. They cover about a quarter of the image, overlap, and leave it at no border.
+/// Panels from front to back. They cover about a quarter of the image, overlap, and leave it at no
+/// border.
 const PANELS: [Panel; 5] = [
     ([0.30, 0.35], [0.20, 0.15], [1.0, 0.0], 2.0),
     ([0.40, 0.50], [0.12, 0.22], [0.0, -1.0], 4.0),
@@ -29,11 +30,13 @@ const PANELS: [Panel; 5] = [
     ([0.20, 0.80], [0.03, 0.12], [0.96, -0.28], 12.0),
 ];
 
-/// Change of a panel's speed at the ends of its long side, as in a turning panel: no two of its pixels move alike.
+/// Change of a panel's speed at the ends of its long side, as in a turning panel: no two of its
+/// pixels move alike.
 const SPREAD: f32 = 0.1;
 
 impl Panels {
-    /// Makes five textured panels that move `speed` pixels per frame, each in its own direction, over a still textured ground.
+    /// Makes five textured panels that move `speed` pixels per frame, each in its own direction,
+    /// over a still textured ground.
     pub fn new(width: u32, height: u32, speed: f32) -> Self {
         let at = |x, y| panel_at(width, height, x, y);
         Self {
@@ -81,7 +84,8 @@ fn panel_at(width: u32, height: u32, x: u32, y: u32) -> Option<(Panel, f32)> {
     })
 }
 
-/// Computes a texture with contrast at every scale down to the pixel, so that a skipped fetch is visible.
+/// Computes a texture with contrast at every scale down to the pixel, so that a skipped fetch is
+/// visible.
 fn texture(x: u32, y: u32) -> f32 {
     let checker = if (x / 16 + y / 16).is_multiple_of(2) {
         0.6

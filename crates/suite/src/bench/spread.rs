@@ -3,7 +3,8 @@
 use serde::{Deserialize, Serialize};
 use statrs::statistics::{Data, OrderStatistics};
 
-/// Median and quartiles: a quarter of the rounds is below the lower one, and a quarter above the upper one.
+/// Median and quartiles: a quarter of the rounds is below the lower one, and a quarter above the
+/// upper one.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Spread {
     /// Half of the rounds took longer, half took less.

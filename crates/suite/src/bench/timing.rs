@@ -30,13 +30,15 @@ pub struct BenchPlan {
 }
 
 impl BenchPlan {
-    /// Counts the runs of filters: in every round, one of each filter among the others, and one at each reach.
+    /// Counts the runs of filters: in every round, one of each filter among the others, and one at
+    /// each reach.
     pub fn count_runs(&self) -> u64 {
         u64::from(self.rounds + 1) * self.filters.len() as u64 * (1 + REACHES.len() as u64)
     }
 }
 
-/// Times every filter. Filters of one table take turns, one run each per round, so that other load on the machine affects them alike.
+/// Times every filter. Filters of one table take turns, one run each per round, so that other load
+/// on the machine affects them alike.
 pub fn bench(mut plan: BenchPlan, gpu: &Gpu, watch: Watch) -> Result<Bench, Error> {
     if !plan.filters.iter().any(|choice| choice.name() == BASELINE) {
         let (filter, preset) = (BASELINE.split_once(':')).expect("the baseline has a preset");
@@ -147,7 +149,8 @@ impl Timer<'_> {
         })
     }
 
-    /// Runs each filter once, then `beside`, in every round; returns the runs of each filter. Discards a first round.
+    /// Runs each filter once, then `beside`, in every round; returns the runs of each filter.
+    /// Discards a first round.
     fn time<T>(
         &self,
         filters: &[Timed],

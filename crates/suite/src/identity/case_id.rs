@@ -14,16 +14,19 @@ use super::filter_id::FilterId;
 use crate::InputFormat;
 use crate::filter_choice::overrides_text;
 
-/// Identity of a case: a filter or a reference on a scene, with all choices. As a text: `fan / jump_flood:paper`.
+/// Identity of a case: a filter or a reference on a scene, with all choices. As a text: `fan /
+/// jump_flood:paper`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CaseId {
     /// Scene.
     pub scene: SceneId,
-    /// Filter name; [`IDENTITY`](crate::IDENTITY), [`SCATTER_ORACLE`](crate::SCATTER_ORACLE) or `accumulate` for a reference picture.
+    /// Filter name; [`IDENTITY`](crate::IDENTITY), [`SCATTER_ORACLE`](crate::SCATTER_ORACLE) or
+    /// `accumulate` for a reference picture.
     pub filter: String,
     /// Preset that the parameters started from; for `accumulate` the number of sub-frames.
     pub preset: String,
-    /// True for a reference picture to compare filters with: no filter made it, and no bound limits it.
+    /// True for a reference picture to compare filters with: no filter made it, and no bound limits
+    /// it.
     #[serde(rename = "bar")]
     pub is_reference: bool,
     /// Form of the frame that the filter got.
@@ -36,7 +39,8 @@ pub struct CaseId {
 }
 
 impl CaseId {
-    /// Names the case without its scene, as in tables: `jump_flood:paper`, followed by everything unusual.
+    /// Names the case without its scene, as in tables: `jump_flood:paper`, followed by everything
+    /// unusual.
     pub fn name(&self) -> String {
         let mut name = match self.preset.as_str() {
             "" => self.filter.clone(),
@@ -64,7 +68,8 @@ impl CaseId {
         }
     }
 
-    /// Returns the folder of its pictures, relative to `run.json`. References have one per alignment.
+    /// Returns the folder of its pictures, relative to `run.json`. References have one per
+    /// alignment.
     pub fn folder(&self) -> PathBuf {
         let mut parts = vec![self.filter.clone(), self.preset.clone()];
         parts.extend(self.is_reference.then(|| self.alignment.to_string()));

@@ -5,8 +5,8 @@ use std::fmt;
 use frame::Alignment;
 use serde::{Deserialize, Serialize};
 
-/// A filter preset with one form of its input, or a reference with one shutter. As a text: `jump_flood:paper`, or for a reference, which
-/// exists once per alignment, `identity (trailing)`.
+/// A filter preset with one form of its input, or a reference with one shutter. As a text:
+/// `jump_flood:paper`, or for a reference, which exists once per alignment, `identity (trailing)`.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct FilterId {
     /// `jump_flood:paper`, followed by everything unusual.

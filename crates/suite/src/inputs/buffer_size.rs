@@ -9,7 +9,8 @@ named! {
     pub enum BufferSize {
         /// A texel for every pixel.
         Full = "full",
-        /// A texel for every pixel: velocity and depth of the nearest surface among the nine pixels around.
+        /// A texel for every pixel: velocity and depth of the nearest surface among the nine pixels
+        /// around.
         FullDilated = "full_dilated",
         /// A texel for every block of 2x2 pixels: its first pixel, top left.
         Half = "half",
@@ -23,8 +24,9 @@ named! {
 }
 
 impl BufferSize {
-    /// Returns the frame with velocity and depth as a filter reads them from such buffers: every pixel gets the texel that contains it.
-    /// Blocks count from the buffers' top left corner, including the guard band; the last blocks at the right and the bottom may be cut.
+    /// Returns the frame with velocity and depth as a filter reads them from such buffers: every
+    /// pixel gets the texel that contains it. Blocks count from the buffers' top left corner,
+    /// including the guard band; the last blocks at the right and the bottom may be cut.
     pub(crate) fn apply(self, frame: Frame) -> Frame {
         let (side, is_dilated) = match self {
             Self::Full | Self::FullDilated => (1, false),
@@ -61,8 +63,8 @@ impl BufferSize {
     }
 }
 
-/// Finds the nearest surface of a block of pixels, row by row, up to `end`. Only a nearer one replaces `own`, and the first of equals
-/// stays.
+/// Finds the nearest surface of a block of pixels, row by row, up to `end`. Only a nearer one
+/// replaces `own`, and the first of equals stays.
 fn nearest(depth: &Plane, own: [u32; 2], begin: [u32; 2], end: [u32; 2]) -> [u32; 2] {
     let mut best = own;
     for y in begin[1]..end[1].min(depth.height) {
@@ -80,7 +82,8 @@ mod tests {
     use super::*;
     use crate::inputs::test_frame::test_frame;
 
-    /// Lists the pixels that a row of five reads, and their depths, in a frame of three rows with one near pixel.
+    /// Lists the pixels that a row of five reads, and their depths, in a frame of three rows with
+    /// one near pixel.
     fn taken(size: BufferSize, near: (u32, u32), row: u32) -> [[f32; 3]; 5] {
         let mut frame = test_frame(5, 3);
         frame.velocity = Raster::from_fn(5, 3, |x, y| [x as f32, y as f32]);
@@ -94,7 +97,8 @@ mod tests {
 
     #[test]
     fn blocks_store_their_first_pixel() {
-        // The near pixel is not the first of its block, and gets lost; the last row is a block of its own.
+        // The near pixel is not the first of its block, and gets lost; the last row is a block of
+        // its own.
         for (row, first) in [(1, 0.0), (2, 2.0)] {
             let expected = [0.0, 0.0, 2.0, 2.0, 4.0].map(|x| [x, first, 8.0]);
             assert_eq!(taken(BufferSize::Half, (1, 1), row), expected);

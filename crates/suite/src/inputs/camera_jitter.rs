@@ -1,4 +1,5 @@
-//! Jitter of the camera, as for temporal anti-aliasing. Velocity and depth belong to the shifted pixels.
+//! Jitter of the camera, as for temporal anti-aliasing. Velocity and depth belong to the shifted
+//! pixels.
 
 use frame::{Frame, Vectors};
 use tracer::{PixelGrid, PointMotion, trace_motion_on};
@@ -19,7 +20,8 @@ named! {
         Removed = "removed",
         /// A jittered frame; the jitter is left in the vectors.
         LeftIn = "left_in",
-        /// The colour without jitter, as after anti-aliasing; depth and vectors of the jittered frame, without jitter in the vectors.
+        /// The colour without jitter, as after anti-aliasing; depth and vectors of the jittered
+        /// frame, without jitter in the vectors.
         Resolved = "resolved",
     }
 }
@@ -66,7 +68,8 @@ impl CameraJitter {
     }
 }
 
-/// Adds a motion of the whole picture to all vectors, except those of a background without velocity.
+/// Adds a motion of the whole picture to all vectors, except those of a background without
+/// velocity.
 fn add_motion(frame: &Frame, velocity: &Vectors, motion: [f32; 2]) -> Vectors {
     velocity.zip(&frame.object_id, |velocity, object| {
         if *object == 0 && !frame.options.sky_velocity {
@@ -84,13 +87,15 @@ pub(super) fn jitter_motion(frame: u32) -> [f32; 2] {
     [0, 1].map(|axis| (now[axis] - before[axis]) as f32)
 }
 
-/// Returns how far jitter moves a frame's picture, in pixels; +x right, +y down. Frame 0 has the second jitter.
+/// Returns how far jitter moves a frame's picture, in pixels; +x right, +y down. Frame 0 has the
+/// second jitter.
 fn jitter(frame: u32) -> [f64; 2] {
     let point = (frame + 1) % PHASES + 1;
     [2, 3].map(|base| halton(point, base) - 0.5)
 }
 
-/// Returns a number of the Halton sequence, counted from 1: the digits of its index in a base, mirrored at the point.
+/// Returns a number of the Halton sequence, counted from 1: the digits of its index in a base,
+/// mirrored at the point.
 fn halton(mut index: u32, base: u32) -> f64 {
     let mut part = 1.0;
     let mut number = 0.0;

@@ -12,9 +12,11 @@ use crate::{Error, Monitor, named};
 named! {
     /// Place of depth of field among the passes, in scenes whose camera has a lens.
     pub enum DepthOfField {
-        /// Before motion blur: a filter gets colour out of focus, as the lens shows the instant; velocity and depth are a pinhole's.
+        /// Before motion blur: a filter gets colour out of focus, as the lens shows the instant;
+        /// velocity and depth are a pinhole's.
         Before = "before",
-        /// After motion blur: a filter gets the frame of a pinhole, and its output is defocused as the lens shows the instant.
+        /// After motion blur: a filter gets the frame of a pinhole, and its output is defocused as
+        /// the lens shows the instant.
         After = "after",
     }
 }
@@ -53,7 +55,8 @@ impl DepthOfField {
         }
     }
 
-    /// Prepares the pass after a filter; none if the filter comes last. [`DepthOfField::check`] has accepted the scene.
+    /// Prepares the pass after a filter; none if the filter comes last. [`DepthOfField::check`] has
+    /// accepted the scene.
     pub(crate) fn prepare_pass(
         self,
         frame: &Frame,

@@ -40,7 +40,8 @@ pub struct InputForm {
     pub format: InputFormat,
 }
 
-/// Defines [`InputFormat`] from the kinds of input; files omit those after the semicolon if they are full.
+/// Defines [`InputFormat`] from the kinds of input; files omit those after the semicolon if they
+/// are full.
 macro_rules! input_format {
     ($($kind:ident: $form:ident),+; $($later:ident: $later_form:ident),+) => {
         /// Form of the frame that a filter gets.
@@ -73,7 +74,8 @@ macro_rules! input_format {
                 }),+]
             }
 
-            /// Names the differences from the full form, as on the command line: `velocity=float16`; none for the full form.
+            /// Names the differences from the full form, as on the command line:
+            /// `velocity=float16`; none for the full form.
             pub fn change(&self) -> Option<String> {
                 let full = Self::default();
                 let mut changes = Vec::new();
@@ -104,7 +106,8 @@ fn is_default<T: Default + PartialEq>(part: &T) -> bool {
 }
 
 impl InputFormat {
-    /// Refuses a form that needs a missing scene, or motion that a buffer of camera motion alone does not have.
+    /// Refuses a form that needs a missing scene, or motion that a buffer of camera motion alone
+    /// does not have.
     pub(crate) fn check(&self, kind: VelocityKind, has_scene: bool) -> Result<(), Error> {
         let without_scene = Self {
             velocity: self.velocity,
@@ -122,8 +125,8 @@ impl InputFormat {
         }
     }
 
-    /// Returns the frame as a filter gets it, and colour and coverage of its replicates in the same form. Some forms need the scene to
-    /// render it again.
+    /// Returns the frame as a filter gets it, and colour and coverage of its replicates in the same
+    /// form. Some forms need the scene to render it again.
     ///
     /// # Errors
     /// The form needs a scene, and there is none; or the scene cannot be rendered in this form.

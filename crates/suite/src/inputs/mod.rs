@@ -1,4 +1,5 @@
-//! Forms of the frames that filters get: formats, sizes and defects of the buffers, and sampling of the frame.
+//! Forms of the frames that filters get: formats, sizes and defects of the buffers, and sampling of
+//! the frame.
 
 pub mod border;
 pub mod buffer_size;

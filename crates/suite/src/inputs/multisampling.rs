@@ -1,4 +1,5 @@
-//! Frames with several samples per pixel (MSAA): colour is their mean, velocity and depth come from one of them.
+//! Frames with several samples per pixel (MSAA): colour is their mean, velocity and depth come from
+//! one of them.
 
 use frame::{ColorSampling, Frame, Raster};
 use tracer::{PixelGrid, RenderSettings};
@@ -7,7 +8,8 @@ use super::renderer::Renderer;
 use crate::render::settings::settings_of;
 use crate::{Error, named};
 
-/// Offsets of the four samples from the pixel's top left corner, in pixels: the standard pattern of Direct3D and Vulkan.
+/// Offsets of the four samples from the pixel's top left corner, in pixels: the standard pattern of
+/// Direct3D and Vulkan.
 const SAMPLES: [[f64; 2]; 4] = [
     [0.375, 0.125],
     [0.875, 0.375],
@@ -98,7 +100,8 @@ fn take_further<T: Copy>(
     Some(Raster::from_fn(taken.width, taken.height, at))
 }
 
-/// Lists the settings of the four samples: each has a quarter of the frame's rays, at one offset, and its own random numbers.
+/// Lists the settings of the four samples: each has a quarter of the frame's rays, at one offset,
+/// and its own random numbers.
 fn sample_settings(frame: &Frame) -> [RenderSettings; 4] {
     let mut settings = settings_of(frame);
     settings.options.color = ColorSampling::Point;

@@ -29,7 +29,8 @@ named! {
 }
 
 impl RenderScale {
-    /// Returns the percentage of the picture's width and height, and true if a filter gets the small frame and its output is upscaled.
+    /// Returns the percentage of the picture's width and height, and true if a filter gets the
+    /// small frame and its output is upscaled.
     fn parts(self) -> (u32, bool) {
         match self {
             Self::Full => (100, false),
@@ -56,7 +57,8 @@ impl RenderScale {
         }
     }
 
-    /// Returns the frame as a filter gets it: small, or upscaled with bilinear colour and the nearest small pixel's velocity and depth.
+    /// Returns the frame as a filter gets it: small, or upscaled with bilinear colour and the
+    /// nearest small pixel's velocity and depth.
     pub(crate) fn apply(self, frame: Frame, renderer: &Renderer) -> Result<Frame, Error> {
         if self == Self::Full {
             return Ok(frame);

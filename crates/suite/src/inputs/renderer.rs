@@ -61,7 +61,8 @@ impl<'a> Renderer<'a> {
         self.complete(frame, settings, grid)
     }
 
-    /// Gives a frame on a grid of pixels the velocities that few filters read, if the frame before it has them.
+    /// Gives a frame on a grid of pixels the velocities that few filters read, if the frame before
+    /// it has them.
     pub fn complete(
         &self,
         frame: Frame,

@@ -22,7 +22,8 @@ impl Extent {
         self.picture.map(|side| side + 2 * self.band)
     }
 
-    /// Finds the position of another raster's pixel centre along an axis, in pixels from this raster's corner.
+    /// Finds the position of another raster's pixel centre along an axis, in pixels from this
+    /// raster's corner.
     fn place(&self, axis: usize, other: &Extent, pixel: u32) -> f64 {
         let step = f64::from(self.picture[axis]) / f64::from(other.picture[axis]);
         (f64::from(pixel) + 0.5 - f64::from(other.band)) * step + f64::from(self.band)
@@ -42,8 +43,8 @@ pub(crate) fn read_nearest<T: Clone>(raster: &Raster<T>, from: Extent, to: Exten
     })
 }
 
-/// Interpolates between the four pixels around each centre of another size; the outermost pixels continue beyond the border. `mix`
-/// interpolates between two values.
+/// Interpolates between the four pixels around each centre of another size; the outermost pixels
+/// continue beyond the border. `mix` interpolates between two values.
 pub(crate) fn read_bilinear<T: Copy>(
     raster: &Raster<T>,
     from: Extent,

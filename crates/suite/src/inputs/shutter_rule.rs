@@ -6,7 +6,8 @@ use tracer::Scene;
 use crate::named;
 
 named! {
-    /// Rule by which the filter sets its exposure at another frame rate than that of the scene's file.
+    /// Rule by which the filter sets its exposure at another frame rate than that of the scene's
+    /// file.
     pub enum ShutterRule {
         /// The exposure of the truth.
         Right = "right",

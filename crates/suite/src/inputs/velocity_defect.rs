@@ -34,19 +34,22 @@ named! {
         NoObject = "no_object",
         /// The objects' motion alone.
         NoCamera = "no_camera",
-        /// With the jitter of temporal anti-aliasing left in: a quarter of a pixel to the left, a third down.
+        /// With the jitter of temporal anti-aliasing left in: a quarter of a pixel to the left, a
+        /// third down.
         Jittered = "jittered",
         /// With movers in front of what hides them, as if drawn without a depth test.
         ThroughWalls = "through_walls",
         /// With one object's motion missing: the camera's alone on the mover that shows most.
         OneMissing = "one_missing",
-        /// One picture up and left wherever nothing moves, and half as long at the edges of movers, as users report it of FSR 2 in Godot.
+        /// One picture up and left wherever nothing moves, and half as long at the edges of movers,
+        /// as users report it of FSR 2 in Godot.
         Unresolved = "unresolved",
     }
 }
 
 impl VelocityDefect {
-    /// Returns a frame's velocity with this defect. [`VelocityDefect::check`] has accepted the frame and the scene.
+    /// Returns a frame's velocity with this defect. [`VelocityDefect::check`] has accepted the
+    /// frame and the scene.
     pub(crate) fn apply(self, frame: &Frame, scene: Option<&Scene>) -> Result<Vectors, Error> {
         let each = |change: fn([f32; 2]) -> [f32; 2]| Ok(frame.velocity.map(|it| change(*it)));
         if let (Some(motion), Some(scene)) = (self.motion(), scene) {
@@ -70,7 +73,8 @@ impl VelocityDefect {
         }
     }
 
-    /// Returns the motion between points that replaces the frame's own; none if the defect can be made from the frame's.
+    /// Returns the motion between points that replaces the frame's own; none if the defect can be
+    /// made from the frame's.
     fn motion(self) -> Option<PointMotion> {
         match self {
             Self::Lag => Some(PointMotion::FRAME_LATE),
@@ -84,7 +88,8 @@ impl VelocityDefect {
         }
     }
 
-    /// Refuses a defect if its motion is unknown: in a capture, or object motion with a buffer of camera motion.
+    /// Refuses a defect if its motion is unknown: in a capture, or object motion with a buffer of
+    /// camera motion.
     pub(crate) fn check(self, kind: VelocityKind, has_scene: bool) -> Result<(), Error> {
         let reason = match (self.motion(), has_scene, kind) {
             (Some(_), false, _) => {
@@ -124,7 +129,8 @@ fn lose_largest_mover(frame: &Frame, camera: &Vectors) -> Vectors {
     })
 }
 
-/// Marks still pixels with the motion of one picture up and left. Pixels next to them keep half of their own motion.
+/// Marks still pixels with the motion of one picture up and left. Pixels next to them keep half of
+/// their own motion.
 fn mark_still(frame: &Frame) -> Vectors {
     let velocity = &frame.velocity;
     let (width, height) = frame.size();

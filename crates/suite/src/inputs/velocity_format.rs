@@ -18,15 +18,17 @@ named! {
         Float32 = "float32",
         /// 16-bit floats of pixels.
         Float16 = "float16",
-        /// Twice 8 bits, linear: 0.5 + 0.5 x, where 1 is the whole way from the centre to the border. Standing still is none of the
-        /// values.
+        /// Twice 8 bits, linear: 0.5 + 0.5 x, where 1 is the whole way from the centre to the
+        /// border. Standing still is none of the values.
         Linear8 = "linear8",
-        /// Three times 8 bits: the unit direction, linear, and the square root of the length, where 1 is the way from the
-        /// centre to the border.
+        /// Three times 8 bits: the unit direction, linear, and the square root of the length, where
+        /// 1 is the way from the centre to the border.
         PolarSqrt8 = "polar_sqrt8",
-        /// Twice 10 bits of half the smear, linear up to a twentieth of the picture's height, as KinoMotion packs it.
+        /// Twice 10 bits of half the smear, linear up to a twentieth of the picture's height, as
+        /// KinoMotion packs it.
         Kino10 = "kino10",
-        /// Half the smear, no longer than a tile of 20 pixels and no shorter than half a pixel (McGuire et al. 2012).
+        /// Half the smear, no longer than a tile of 20 pixels and no shorter than half a pixel
+        /// (McGuire et al. 2012).
         TileClamped = "tile_clamped",
     }
 }

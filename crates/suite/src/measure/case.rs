@@ -27,8 +27,8 @@ use crate::run::case::{Case, Intervals};
 use crate::runner::Runner;
 use crate::stats::intervals::intervals;
 
-/// Upper limit on the difference between the blur of a mixture and the mixture of the blurs, relative to the blur's change; far above
-/// rounding.
+/// Upper limit on the difference between the blur of a mixture and the mixture of the blurs,
+/// relative to the blur's change; far above rounding.
 const MAX_NONLINEARITY: f64 = 1e-3;
 
 const NO_MATTES: &str =
@@ -89,7 +89,8 @@ impl MeasuredPicture {
 }
 
 impl CaseContext<'_> {
-    /// Makes the picture, measures it, and writes it with its error maps; also returns the files' names.
+    /// Makes the picture, measures it, and writes it with its error maps; also returns the files'
+    /// names.
     pub fn measure(&self, planned: &PlannedCase) -> Result<(Case, Vec<String>), Error> {
         let measured = match &planned.source {
             PictureSource::Identity => self.measure_reference(self.frame.cropped().picture())?,
@@ -116,7 +117,8 @@ impl CaseContext<'_> {
         Ok(MeasuredPicture::new(picture, measurement))
     }
 
-    /// Measures the engine's own picture. Its scores have no intervals: an engine's sub-frames are no random samples.
+    /// Measures the engine's own picture. Its scores have no intervals: an engine's sub-frames are
+    /// no random samples.
     fn measure_engine(&self, scene: &EngineScene) -> Result<MeasuredPicture, Error> {
         let picture = scene.read_picture(self.frame)?;
         let mut measurement = self.references.reference.measure(&picture)?;
@@ -193,7 +195,8 @@ impl CaseContext<'_> {
         Ok((output, parts))
     }
 
-    /// Returns the pass between a filter's output and its measurement; none if the filter comes last.
+    /// Returns the pass between a filter's output and its measurement; none if the filter comes
+    /// last.
     fn pass_behind(&self, input: InputFormat) -> Option<&Defocus> {
         (self.depth_of_field).filter(|_| input.depth_of_field == DepthOfField::After)
     }
@@ -203,8 +206,9 @@ impl CaseContext<'_> {
         self.references.truth.size().into()
     }
 
-    /// Measures a picture, with score intervals from the pictures of `parts` of the frame's replicates if requested. The counts of
-    /// equivalent sub-frames have theirs wherever there are parts.
+    /// Measures a picture, with score intervals from the pictures of `parts` of the frame's
+    /// replicates if requested. The counts of equivalent sub-frames have theirs wherever there are
+    /// parts.
     fn measure_with_intervals(
         &self,
         parts: &[Picture],
@@ -237,7 +241,8 @@ impl CaseContext<'_> {
         Ok((measurement, found))
     }
 
-    /// Separates the filter's noise from its other errors; none without noise, or for too few frames.
+    /// Separates the filter's noise from its other errors; none without noise, or for too few
+    /// frames.
     fn measure_jitter(
         &self,
         runner: &mut Runner,
@@ -323,7 +328,8 @@ impl CaseContext<'_> {
     }
 }
 
-/// Measures a filter's picture of a frame or of a part of its replicates, and its probes, which have no noise.
+/// Measures a filter's picture of a frame or of a part of its replicates, and its probes, which
+/// have no noise.
 fn measure_output(
     reference: &Reference,
     picture: &Picture,
@@ -334,7 +340,8 @@ fn measure_output(
     Ok(measurement)
 }
 
-/// Adds the scores of probes, or removes those that need a filter with weights independent of colour.
+/// Adds the scores of probes, or removes those that need a filter with weights independent of
+/// colour.
 fn add_probes(reference: &Reference, output: &FilterOutput, measurement: &mut Measurement) {
     let scores = &mut measurement.scores;
     if output.nonlinearity > MAX_NONLINEARITY {

@@ -11,7 +11,8 @@ use crate::run::sequence::{Frames, MAX_FRAMES};
 use crate::stats::parts::MIN_REPLICATES;
 
 impl RunPlan {
-    /// Refuses settings that a scene cannot be rendered with, and names that no folder can have, before anything is rendered.
+    /// Refuses settings that a scene cannot be rendered with, and names that no folder can have,
+    /// before anything is rendered.
     pub fn check(&self) -> Result<(), Error> {
         self.check_frames()?;
         let replicates = self.render.replicates;
@@ -51,8 +52,8 @@ impl RunPlan {
         Ok(())
     }
 
-    /// Lists the alignments of traced shutters. Trailing and centred truths share their numbers of samples, since a pilot looks at both.
-    /// The first frame is defined at all times.
+    /// Lists the alignments of traced shutters. Trailing and centred truths share their numbers of
+    /// samples, since a pilot looks at both. The first frame is defined at all times.
     fn traced_alignments(&self, frame: u32) -> Vec<Alignment> {
         let mut alignments = self.alignments();
         let shares = alignments.contains(&Alignment::Trailing);

@@ -5,8 +5,8 @@ use frame::{Frame, Raster, Vectors};
 
 use crate::runner::Runner;
 
-/// Reads the velocity that the runner's last run gave to each pixel, without the guard band; none for filters that do not record where
-/// pixels take their velocity.
+/// Reads the velocity that the runner's last run gave to each pixel, without the guard band; none
+/// for filters that do not record where pixels take their velocity.
 pub(crate) fn read_dilated_velocity(
     filter: &Filter,
     runner: &Runner,

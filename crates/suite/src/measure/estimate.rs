@@ -1,5 +1,5 @@
-//! Rough estimates of the time, disk space and memory of a run. Times are off by a factor of two or three: scenes
-//! differ by a factor of six.
+//! Rough estimates of the time, disk space and memory of a run. Times are off by a factor of two or
+//! three: scenes differ by a factor of six.
 
 use std::convert::Infallible;
 
@@ -13,18 +13,22 @@ use super::plan::RunPlan;
 use super::planned_case::PlannedCase;
 use crate::render::ladders::needed_rungs;
 
-/// CPU time in seconds to prepare a scene for rays, and of a sample: means over the shipped scenes, on two cores of a server with llvmpipe.
+/// CPU time in seconds to prepare a scene for rays, and of a sample: means over the shipped scenes,
+/// on two cores of a server with llvmpipe.
 const SCENE: f64 = 0.2;
 const SAMPLE: f64 = 0.9e-6;
 /// Samples of a whole ladder, relative to its truth: only pixels near motion need it.
 const WHOLE_LADDER: f64 = 0.8;
-/// Time in seconds to run a filter and measure its picture: at any size, and per pixel; and per pixel to write its part of the report.
+/// Time in seconds to run a filter and measure its picture: at any size, and per pixel; and per
+/// pixel to write its part of the report.
 const CASE: f64 = 0.035;
 const CASE_PIXEL: f64 = 6e-6;
 const REPORT_PIXEL: f64 = 0.45e-6;
-/// Time of a case with intervals, relative to one without; with a ladder, counts of sub-frames have intervals.
+/// Time of a case with intervals, relative to one without; with a ladder, counts of sub-frames have
+/// intervals.
 const INTERVALS: f64 = 2.0;
-/// Bytes on disk per pixel of a picture: a frame, a replicate, or a case with its part of the report.
+/// Bytes on disk per pixel of a picture: a frame, a replicate, or a case with its part of the
+/// report.
 const PICTURE_BYTES: u64 = 22;
 /// Pictures with the disk space of a truth and its ladder, without replicates.
 const PICTURES_OF_TRUTH: u64 = 5;
@@ -44,7 +48,8 @@ pub struct RunEstimate {
     pub read_back: usize,
 }
 
-/// Estimates a run: cases and truths in the folder need no time. Does not read their pictures, and measures nothing.
+/// Estimates a run: cases and truths in the folder need no time. Does not read their pictures, and
+/// measures nothing.
 pub fn estimate_run(plan: &RunPlan, gpu: Option<&Gpu>) -> RunEstimate {
     let pixels = count_pixels(&plan.render);
     let mut estimate = RunEstimate::default();
@@ -102,7 +107,8 @@ fn count_ladders(plan: &RunPlan, truths: &[Alignment]) -> f64 {
     rungs.sum::<usize>() as f64 / LADDER.len() as f64
 }
 
-/// Estimates the CPU time to render some truths and ladders of a scene, and its frame if `frame` is set.
+/// Estimates the CPU time to render some truths and ladders of a scene, and its frame if `frame` is
+/// set.
 fn render_cpu_seconds(render: &RenderSettings, frame: bool, truths: usize, ladders: f64) -> f64 {
     // A frame has as many samples as a truth.
     let pictures = f64::from(u32::from(frame)) + truths as f64 + WHOLE_LADDER * ladders;

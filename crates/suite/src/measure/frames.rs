@@ -7,7 +7,8 @@ use super::plan::RunPlan;
 use super::run_scene::RunScene;
 use super::scene::SceneContext;
 
-/// Visits every scene of a plan and, after each, its later frames, with one frame at a time in memory.
+/// Visits every scene of a plan and, after each, its later frames, with one frame at a time in
+/// memory.
 pub(super) fn visit_frames<E>(
     plan: &RunPlan,
     gpu: Option<&Gpu>,

@@ -10,8 +10,9 @@ use crate::Error;
 /// Folder of the copies in the folder of a run; each is a filter folder.
 pub const MEASURED_FILTERS: &str = "measured_filters";
 
-/// Writes each filter of a plan that is neither built in nor a program, in WGSL: without a compiler, and without what its shaders include.
-/// Removes the copy of another filter of the same name.
+/// Writes each filter of a plan that is neither built in nor a program, in WGSL: without a
+/// compiler, and without what its shaders include. Removes the copy of another filter of the same
+/// name.
 pub(crate) fn copy_filters(plan: &RunPlan) -> Result<(), Error> {
     for choice in &plan.filters {
         let filter = &choice.filter;

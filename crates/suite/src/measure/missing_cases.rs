@@ -84,7 +84,8 @@ impl SceneContext<'_> {
         Ok(cases.into_values().collect())
     }
 
-    /// Returns the alignments of the scene's truths; the common one comes first, since its colours stay in memory.
+    /// Returns the alignments of the scene's truths; the common one comes first, since its colours
+    /// stay in memory.
     fn common_first(&self) -> Vec<Alignment> {
         let mut alignments = self.scene.alignments(self.plan.alignments());
         alignments.sort_by_key(|alignment| *alignment != self.plan.common_alignment());
@@ -119,7 +120,8 @@ impl SceneContext<'_> {
         }
     }
 
-    /// Measures a case and writes its record; returns a failure if the error concerns this case alone.
+    /// Measures a case and writes its record; returns a failure if the error concerns this case
+    /// alone.
     fn measure_case(
         &self,
         context: &CaseContext,
@@ -159,7 +161,8 @@ impl SceneContext<'_> {
         }
     }
 
-    /// Renders the missing rungs of a truth's ladder that the plan needs; an engine's are copied with its truth.
+    /// Renders the missing rungs of a truth's ladder that the plan needs; an engine's are copied
+    /// with its truth.
     pub(super) fn ensure_ladder(&self, truth: &Truth) -> Result<(), Error> {
         match self.scene {
             RunScene::Traced(scene) => {
@@ -181,9 +184,10 @@ impl SceneContext<'_> {
         }
     }
 
-    /// Makes the parts of the frame, given by its replicates, and of an alignment's truth, if filters get intervals or, with a ladder,
-    /// counts of equivalent sub-frames. Makes none for an engine's scene: sub-frames are no random samples, and a truth without some
-    /// of them has holes.
+    /// Makes the parts of the frame, given by its replicates, and of an alignment's truth, if
+    /// filters get intervals or, with a ladder, counts of equivalent sub-frames. Makes none for an
+    /// engine's scene: sub-frames are no random samples, and a truth without some of them has
+    /// holes.
     fn truth_parts(
         &self,
         alignment: Alignment,

@@ -1,4 +1,5 @@
-//! The main job: renders every scene, runs every filter on it, and measures each picture's distance from the truth.
+//! The main job: renders every scene, runs every filter on it, and measures each picture's distance
+//! from the truth.
 
 pub mod case;
 mod check_plan;

@@ -25,7 +25,8 @@ pub(crate) const CASE_FILES: [&str; 6] = [
     "errors.exr",
 ];
 
-/// File with a filter's colours for parts of the frame's replicates, in the folder of a case of a sequence with intervals.
+/// File with a filter's colours for parts of the frame's replicates, in the folder of a case of a
+/// sequence with intervals.
 pub(crate) const PARTS_FILE: &str = "output_parts.exr";
 
 /// Names the layer of a part in [`PARTS_FILE`].
@@ -74,7 +75,8 @@ pub fn write_truth(
     Ok(files)
 }
 
-/// Writes a case: the output, the dilated velocity if the filter has one, and the error maps; returns the files' names.
+/// Writes a case: the output, the dilated velocity if the filter has one, and the error maps;
+/// returns the files' names.
 pub fn write_case(
     folder: &Path,
     frame: &Frame,

@@ -36,25 +36,30 @@ pub struct RunPlan {
     pub render: RenderSettings,
     /// Folder for all files.
     pub out: PathBuf,
-    /// True if filters' scores get intervals, which bounds are judged by. Needs a few more measurements of every picture.
+    /// True if filters' scores get intervals, which bounds are judged by. Needs a few more
+    /// measurements of every picture.
     pub intervals: bool,
-    /// True if the ladder of every truth is rendered, for equivalent sub-frames and for the accumulations among the references. Costs up
-    /// to the time of the truth. Without it, an engine's scene has its ladder, and every trailing or leading truth has the one rung that
-    /// is the sharp picture of its shutter's middle.
+    /// True if the ladder of every truth is rendered, for equivalent sub-frames and for the
+    /// accumulations among the references. Costs up to the time of the truth. Without it, an
+    /// engine's scene has its ladder, and every trailing or leading truth has the one rung that is
+    /// the sharp picture of its shutter's middle.
     pub ladders: bool,
     /// True if frames, truths and cases in `out` are removed and made anew.
     pub no_cache: bool,
-    /// Shutter alignment that every case is compared with; none for [`Run::common_alignment`](crate::Run::common_alignment).
+    /// Shutter alignment that every case is compared with; none for
+    /// [`Run::common_alignment`](crate::Run::common_alignment).
     pub common: Option<Alignment>,
     /// Cases to measure; alignments and truths are those of the whole run.
     pub part: Part,
-    /// Folder with frames, truths and ladders of earlier renders, laid out like `out`; those with the same inputs are reused.
+    /// Folder with frames, truths and ladders of earlier renders, laid out like `out`; those with
+    /// the same inputs are reused.
     pub truths: Option<PathBuf>,
     /// Listener to progress, which may end the work.
     pub monitor: Monitor,
 }
 
-/// Nothing to measure: single frames in their full form, with ladders, without intervals and without progress.
+/// Nothing to measure: single frames in their full form, with ladders, without intervals and
+/// without progress.
 impl Default for RunPlan {
     fn default() -> Self {
         Self {
@@ -106,7 +111,8 @@ impl RunPlan {
         }
     }
 
-    /// Tells whether filters are measured on parts of the frame's replicates, for intervals of scores or of counts of sub-frames.
+    /// Tells whether filters are measured on parts of the frame's replicates, for intervals of
+    /// scores or of counts of sub-frames.
     pub(crate) fn measures_parts(&self) -> bool {
         let is_needed = self.intervals || self.ladders;
         is_needed && self.render.replicates >= MIN_REPLICATES
@@ -155,8 +161,8 @@ impl RunPlan {
         Alignment::ALL.into_iter().filter(takes_part).collect()
     }
 
-    /// Chooses the alignment that all cases are compared with: the plan's own, or one that filters declare, so that no truth is rendered
-    /// just for it.
+    /// Chooses the alignment that all cases are compared with: the plan's own, or one that filters
+    /// declare, so that no truth is rendered just for it.
     pub fn common_alignment(&self) -> Alignment {
         if let Some(common) = self.common {
             return common;

@@ -38,8 +38,9 @@ pub(crate) enum PictureSource<'a> {
 }
 
 impl<'a> PlannedCase<'a> {
-    /// Lists each alignment's reference pictures, the picture of the scene's engine, then one case per filter preset and input form. Leaves
-    /// out filters of an alignment that no truth of the scene has.
+    /// Lists each alignment's reference pictures, the picture of the scene's engine, then one case
+    /// per filter preset and input form. Leaves out filters of an alignment that no truth of the
+    /// scene has.
     pub fn all(plan: &RunPlan, scene: RunScene<'a>) -> Vec<Self> {
         debug_assert!(SUBFRAMES.iter().all(|count| LADDER.contains(count)));
         let alignments = scene.alignments(plan.alignments());
@@ -103,8 +104,8 @@ impl<'a> PlannedCase<'a> {
         Self { id, source }
     }
 
-    /// Writes out all that determines the scores, apart from the program, the scene, its frame and its truths; none for a filter that is a
-    /// program, since nothing records what it does.
+    /// Writes out all that determines the scores, apart from the program, the scene, its frame and
+    /// its truths; none for a filter that is a program, since nothing records what it does.
     pub fn inputs(&self, plan: &RunPlan, adapter: Option<&AdapterDescription>) -> Option<String> {
         // The hash of an engine's frame covers the engine's picture.
         let PictureSource::Filter(choice, input) = &self.source else {

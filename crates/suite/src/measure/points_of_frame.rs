@@ -4,7 +4,8 @@ use frame::{FrameOptions, Truth, VelocityKind};
 use metrics::Instant;
 use tracer::{PointLayers, PointMotion, RenderSettings, Scene, TraceError, trace_motion};
 
-/// Samples depth and objects of a scene at one of its frames, with the motion since the previous frame, whatever velocity filters get.
+/// Samples depth and objects of a scene at one of its frames, with the motion since the previous
+/// frame, whatever velocity filters get.
 pub(crate) fn trace_points(
     scene: &Scene,
     render: &RenderSettings,

@@ -1,4 +1,5 @@
-//! Runs of a filter on a frame: on its colour and, with the same weights, on probes with exact truths.
+//! Runs of a filter on a frame: on its colour and, with the same weights, on probes with exact
+//! truths.
 
 use filters::{FilterError, Input};
 use frame::{Image, Picture, Plane, Raster};
@@ -14,17 +15,18 @@ pub(crate) struct FilterOutput {
     pub picture: Picture,
     /// Blurs of ones and of coordinates.
     pub probes: Probes,
-    /// Difference between the blur of a mixture and the mixture of the blurs, relative to the blur's change (root mean square): 0 for a
-    /// filter with weights independent of colour.
+    /// Difference between the blur of a mixture and the mixture of the blurs, relative to the
+    /// blur's change (root mean square): 0 for a filter with weights independent of colour.
     pub nonlinearity: f64,
     /// True if the probes came out as 16-bit floats.
     pub is_rounded: bool,
 }
 
-/// Runs the filter on the frame's colour and, each in the colour's place, on the instant's coverage of each object, on the probes, and on a
-/// mixture of colour and probe, with the noise of one frame. All but the picture comes from `wide`, the filter with 32-bit colours, if
-/// there is one. `before` is the previous frame, for filters with history; its pictures are replaced like the frame's. The output is
-/// upscaled to `picture` if the frame shows it smaller.
+/// Runs the filter on the frame's colour and, each in the colour's place, on the instant's coverage
+/// of each object, on the probes, and on a mixture of colour and probe, with the noise of one
+/// frame. All but the picture comes from `wide`, the filter with 32-bit colours, if there is one.
+/// `before` is the previous frame, for filters with history; its pictures are replaced like the
+/// frame's. The output is upscaled to `picture` if the frame shows it smaller.
 pub(crate) fn blur_with_probes(
     runner: &mut Runner,
     wide: Option<&mut Runner>,
@@ -80,8 +82,9 @@ pub(crate) fn blur_with_probes(
     })
 }
 
-/// Runs the filter on other colours and coverages of the frame, such as those of a part of its replicates, and of the previous one.
-/// Outputs are upscaled to `picture` as in [`blur_with_probes`].
+/// Runs the filter on other colours and coverages of the frame, such as those of a part of its
+/// replicates, and of the previous one. Outputs are upscaled to `picture` as in
+/// [`blur_with_probes`].
 pub(crate) fn blur_picture(
     runner: &mut Runner,
     wide: Option<&mut Runner>,
@@ -127,8 +130,8 @@ fn mix(color: &Image, probe: &Image) -> Image {
     })
 }
 
-/// Compares the blur of a mixture with the mixture of the blurs. The blur's change counts as at least a thousandth of the picture, so that
-/// rounding does not count as a dependence on colour.
+/// Compares the blur of a mixture with the mixture of the blurs. The blur's change counts as at
+/// least a thousandth of the picture, so that rounding does not count as a dependence on colour.
 fn nonlinearity(mixture: &Image, blurred: &Image, expected: &Image) -> f64 {
     const LEAST_CHANGE: f64 = 1e-3;
     let length = |a: &Image, b: &Image| {
@@ -142,8 +145,8 @@ fn nonlinearity(mixture: &Image, blurred: &Image, expected: &Image) -> f64 {
     length(blurred, expected) / change.max(f64::MIN_POSITIVE)
 }
 
-/// Runs the filter on the frame's colour with a number of frames of its noise; none if it has no noise. Outputs are upscaled to `picture`
-/// as in [`blur_with_probes`].
+/// Runs the filter on the frame's colour with a number of frames of its noise; none if it has no
+/// noise. Outputs are upscaled to `picture` as in [`blur_with_probes`].
 pub(crate) fn blur_noise_frames(
     runner: &mut Runner,
     frame: &FilterFrame,

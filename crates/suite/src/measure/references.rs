@@ -14,9 +14,11 @@ pub(crate) struct TruthReferences<'a> {
     pub oracle: Picture,
     /// All that pictures are compared with.
     pub reference: Reference<'a>,
-    /// References without one group of replicates of frame, truth and ladder each; empty if nothing gets intervals.
+    /// References without one group of replicates of frame, truth and ladder each; empty if nothing
+    /// gets intervals.
     pub parts: Vec<Reference<'a>>,
-    /// Scores of the frame itself where nothing moves, if there are parts: see [`intervals`](crate::intervals).
+    /// Scores of the frame itself where nothing moves, if there are parts: see
+    /// [`intervals`](crate::intervals).
     pub still: Option<ImageScores>,
 }
 
@@ -29,8 +31,9 @@ pub(crate) struct TruthPart {
 }
 
 impl<'a> TruthReferences<'a> {
-    /// Prepares the truth, and the same for each of `parts`. The ladder's rungs are read one at a time, since together they need more
-    /// memory than all else; `read_sharp` reads the rung that is the sharp picture of the shutter's middle.
+    /// Prepares the truth, and the same for each of `parts`. The ladder's rungs are read one at a
+    /// time, since together they need more memory than all else; `read_sharp` reads the rung that
+    /// is the sharp picture of the shutter's middle.
     pub fn new(
         frame: &Frame,
         truth: &'a Truth,

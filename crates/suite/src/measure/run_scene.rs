@@ -65,7 +65,8 @@ impl<'a> RunScene<'a> {
         }
     }
 
-    /// Lists the numbers of sub-frames in its ladder; a rendered ladder is complete only if the plan asks for it.
+    /// Lists the numbers of sub-frames in its ladder; a rendered ladder is complete only if the
+    /// plan asks for it.
     pub fn rungs(self, ladders: bool) -> &'a [u32] {
         match self {
             Self::Traced(_) if ladders => &LADDER,
@@ -74,8 +75,9 @@ impl<'a> RunScene<'a> {
         }
     }
 
-    /// Lists the accumulations that a truth of an alignment can be compared with: the sharp picture of the shutter's middle, unless that is
-    /// the frame itself, then those of the plan, which may ask for rendered ladders.
+    /// Lists the accumulations that a truth of an alignment can be compared with: the sharp picture
+    /// of the shutter's middle, unless that is the frame itself, then those of the plan, which may
+    /// ask for rendered ladders.
     pub fn accumulations(self, planned: &[u32], alignment: Alignment, ladders: bool) -> Vec<u32> {
         let rungs = self.rungs(ladders);
         let sharp = needed_rungs(alignment, false).iter();

@@ -23,12 +23,14 @@ pub(crate) struct SceneContext<'a> {
     pub plan: &'a RunPlan,
     pub gpu: Option<&'a Gpu>,
     pub scene: RunScene<'a>,
-    /// Hashes that identify records; none if the program cannot be hashed, and then nothing is read back.
+    /// Hashes that identify records; none if the program cannot be hashed, and then nothing is read
+    /// back.
     pub keys: Option<SceneKeys>,
 }
 
 impl<'a> SceneContext<'a> {
-    /// Prepares a scene of a plan for measuring. `program` is the hash of this program; none if it cannot be hashed.
+    /// Prepares a scene of a plan for measuring. `program` is the hash of this program; none if it
+    /// cannot be hashed.
     pub fn new(
         plan: &'a RunPlan,
         gpu: Option<&'a Gpu>,
@@ -46,8 +48,9 @@ impl<'a> SceneContext<'a> {
 }
 
 impl SceneContext<'_> {
-    /// Returns each alignment's reference pictures, then one case per filter preset and input form; a failure if a filter made no
-    /// measurable picture. Also counts the cases that were read back. `advance` gets the number of finished steps.
+    /// Returns each alignment's reference pictures, then one case per filter preset and input form;
+    /// a failure if a filter made no measurable picture. Also counts the cases that were read back.
+    /// `advance` gets the number of finished steps.
     pub fn measure_cases(
         &self,
         advance: &dyn Fn(u64),
@@ -83,8 +86,8 @@ impl SceneContext<'_> {
         Ok((cases, read_back))
     }
 
-    /// Renders the scene's frame and one truth per alignment that a filter of the plan declares, or copies an engine's, and writes their
-    /// pictures.
+    /// Renders the scene's frame and one truth per alignment that a filter of the plan declares, or
+    /// copies an engine's, and writes their pictures.
     fn render(&self, advance: &dyn Fn(u64)) -> Result<Frame, Error> {
         for (record, key) in self.render_records() {
             remove_altered_files(&record, &key);
@@ -151,8 +154,9 @@ impl SceneContext<'_> {
         u64::from(self.plan.render.replicates) + 1
     }
 
-    /// Reads a case that was measured before, without its intervals if the plan asks for none. A plan that asks for intervals or ladders
-    /// accepts no case without them. `look_up` may check its pictures as well.
+    /// Reads a case that was measured before, without its intervals if the plan asks for none. A
+    /// plan that asks for intervals or ladders accepts no case without them. `look_up` may check
+    /// its pictures as well.
     pub fn read_case(
         &self,
         planned: &PlannedCase,
@@ -169,13 +173,15 @@ impl SceneContext<'_> {
         (has_none || self.has_intervals(&case)).then_some(case)
     }
 
-    /// Returns whether a case has intervals, and the pictures that a sequence's intervals are measured from.
+    /// Returns whether a case has intervals, and the pictures that a sequence's intervals are
+    /// measured from.
     fn has_intervals(&self, case: &Case) -> bool {
         let parts = self.plan.out.join(&case.folder).join(PARTS_FILE);
         !case.intervals.is_empty() && (self.plan.frames.is_one() || parts.is_file())
     }
 
-    /// Lists the frame and the truths that must be rendered, by the headers of files. Copying an engine's counts as no time.
+    /// Lists the frame and the truths that must be rendered, by the headers of files. Copying an
+    /// engine's counts as no time.
     pub fn find_missing(&self) -> Vec<RenderFile> {
         let plan = self.plan;
         let folders = plan
@@ -190,8 +196,8 @@ impl SceneContext<'_> {
         })
     }
 
-    /// Lists the keys of cases that the plan accepts, first the one for its own records: a plan without ladders also accepts cases with
-    /// them. None if nothing is read back.
+    /// Lists the keys of cases that the plan accepts, first the one for its own records: a plan
+    /// without ladders also accepts cases with them. None if nothing is read back.
     pub(super) fn case_keys(&self, planned: &PlannedCase) -> Vec<String> {
         let adapter = self.gpu.map(|gpu| &gpu.adapter);
         let (Some(own), Some(keys)) = (planned.inputs(self.plan, adapter), &self.keys) else {
@@ -218,7 +224,8 @@ impl SceneContext<'_> {
         self.keys.is_some() && records.all(|(record, key)| look_up::<()>(&record, &key).is_some())
     }
 
-    /// Lists the records of the frame and of every truth, in this order, with their keys; none if nothing is read back.
+    /// Lists the records of the frame and of every truth, in this order, with their keys; none if
+    /// nothing is read back.
     fn render_records(&self) -> Vec<(PathBuf, String)> {
         let Some(keys) = &self.keys else {
             return Vec::new();

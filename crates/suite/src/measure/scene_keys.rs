@@ -61,7 +61,8 @@ impl SceneKeys {
         hash_inputs(&(&self.scene, &self.truths[&alignment]))
     }
 
-    /// Returns the hash for a case with its own inputs, measured against its own truth and the common one, with their ladders or without.
+    /// Returns the hash for a case with its own inputs, measured against its own truth and the
+    /// common one, with their ladders or without.
     pub fn case(&self, own: &str, alignments: [Alignment; 2], has_ladder: bool) -> String {
         let truths = alignments.map(|alignment| &self.truths[&alignment]);
         hash_inputs(&(&self.scene, &self.frame, truths, has_ladder, own))

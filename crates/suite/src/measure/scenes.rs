@@ -12,8 +12,9 @@ use crate::run::Run;
 use crate::run::case::Case;
 use crate::stats::overall::overall;
 
-/// Renders, filters, measures and writes every case below `plan.out`, but not `run.json` itself. Reads back an earlier run's measurements
-/// of the same inputs there. `gpu` is what [`open_gpu`](crate::open_gpu) opened for the plan's filters.
+/// Renders, filters, measures and writes every case below `plan.out`, but not `run.json` itself.
+/// Reads back an earlier run's measurements of the same inputs there. `gpu` is what
+/// [`open_gpu`](crate::open_gpu) opened for the plan's filters.
 pub fn measure_scenes(
     plan: &RunPlan,
     gpu: Option<&Gpu>,

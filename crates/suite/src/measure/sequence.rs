@@ -22,7 +22,8 @@ pub const CHANGE_PICTURE: &str = "change.png";
 /// Animation of a sequence, next to the pictures of its first frame.
 pub const SEQUENCE_PICTURE: &str = "sequence.png";
 
-/// Measures a scene's sequences, one per case that every frame has. `frames` lists the cases of each frame.
+/// Measures a scene's sequences, one per case that every frame has. `frames` lists the cases of
+/// each frame.
 pub(super) fn measure_sequences(
     plan: &RunPlan,
     frames: &[Vec<Case>],
@@ -85,7 +86,8 @@ impl SequenceTruths<'_> {
         Ok(sequences)
     }
 
-    /// Computes the intervals of filters' scores; empty for references, and if not requested. One truth at a time is in memory.
+    /// Computes the intervals of filters' scores; empty for references, and if not requested. One
+    /// truth at a time is in memory.
     fn intervals(
         &self,
         sequences: &[Sequence],
@@ -155,7 +157,8 @@ impl RunPlan {
         paths.map(|path| Ok(read_exr(&path)?.color("")?)).collect()
     }
 
-    /// Reads the colours of a sequence's pictures of the frames without one group of their replicates.
+    /// Reads the colours of a sequence's pictures of the frames without one group of their
+    /// replicates.
     fn read_part_outputs(&self, cases: &[&Case], group: usize) -> Result<Vec<Image>, Error> {
         let paths = (cases.iter()).map(|case| self.out.join(&case.folder).join(PARTS_FILE));
         (paths.map(|path| Ok(read_exr(&path)?.color(&part_layer(group))?))).collect()

@@ -23,7 +23,8 @@ pub(crate) struct StoredFrame {
     pub parts_before: Vec<Picture>,
 }
 
-/// Stores a scene's frame and its replicates in every form, and the previous frame for filters with history.
+/// Stores a scene's frame and its replicates in every form, and the previous frame for filters with
+/// history.
 pub(super) fn store_frames(
     plan: &RunPlan,
     scene: RunScene,
@@ -85,7 +86,8 @@ pub(super) fn store_frames(
     Ok(stored)
 }
 
-/// Reads the replicates of a scene's frame if filters are measured on parts of them; none of an engine's.
+/// Reads the replicates of a scene's frame if filters are measured on parts of them; none of an
+/// engine's.
 pub(super) fn read_replicates(plan: &RunPlan, scene: RunScene) -> Result<Vec<Picture>, Error> {
     let scene = scene.traced().filter(|_| plan.measures_parts());
     scene.map_or(Ok(Vec::new()), |scene| {
@@ -93,7 +95,8 @@ pub(super) fn read_replicates(plan: &RunPlan, scene: RunScene) -> Result<Vec<Pic
     })
 }
 
-/// Reads the frame with the velocities that few filters read; none if no filter of the plan does, and of an engine's scene.
+/// Reads the frame with the velocities that few filters read; none if no filter of the plan does,
+/// and of an engine's scene.
 fn read_further_velocities(plan: &RunPlan, scene: RunScene) -> Result<Option<Frame>, Error> {
     let scene = (scene.traced()).filter(|_| plan.reads_further_velocities());
     let read = |scene| plan.rendering(scene).frame_with_further_velocities();

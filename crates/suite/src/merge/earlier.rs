@@ -24,11 +24,13 @@ pub struct EarlierCases {
 }
 
 impl EarlierCases {
-    /// Finds the cases of `run.json` in the plan's folder that the plan leaves out, and lets the plan use the same common shutter. None if
-    /// there is nothing to keep: no run, or one whose cases are all measured again.
+    /// Finds the cases of `run.json` in the plan's folder that the plan leaves out, and lets the
+    /// plan use the same common shutter. None if there is nothing to keep: no run, or one whose
+    /// cases are all measured again.
     ///
     /// # Errors
-    /// The earlier run cannot be read, or has other settings, so that its cases cannot be kept with the plan's.
+    /// The earlier run cannot be read, or has other settings, so that its cases cannot be kept with
+    /// the plan's.
     pub fn find(
         plan: &mut RunPlan,
         adapter: Option<&AdapterDescription>,
@@ -116,8 +118,8 @@ impl Planned {
     }
 }
 
-/// Names the folder for a run of one picture size: `out` itself, or `160x90` below it if `out` holds a run of another size, whose pictures
-/// have the same names.
+/// Names the folder for a run of one picture size: `out` itself, or `160x90` below it if `out`
+/// holds a run of another size, whose pictures have the same names.
 ///
 /// # Errors
 /// The run in `out` cannot be read.
@@ -131,7 +133,8 @@ pub fn folder_for_size(out: &Path, (width, height): (u32, u32)) -> Result<PathBu
     })
 }
 
-/// Finds the runs of other picture sizes below `out` that are newer than the run in `out` itself, and returns their folders.
+/// Finds the runs of other picture sizes below `out` that are newer than the run in `out` itself,
+/// and returns their folders.
 pub fn find_newer_sizes(out: &Path) -> Vec<PathBuf> {
     let written = |folder: &Path| fs::metadata(folder.join("run.json"))?.modified();
     let (Ok(own), Ok(entries)) = (written(out), fs::read_dir(out)) else {

@@ -21,8 +21,8 @@ struct Pictures<'a> {
     truth_hash: &'a str,
 }
 
-/// Gathers the files of all cases and their scenes. A file in two parts must be the same in both, and every picture must be in some part.
-/// Follows no links.
+/// Gathers the files of all cases and their scenes. A file in two parts must be the same in both,
+/// and every picture must be in some part. Follows no links.
 pub(super) fn gather_files(parts: &[StoredRun]) -> Result<Files, Error> {
     let lists = parts.iter().map(|part| {
         let own = list_pictures(&part.run).flat_map(|own| [own.scene, own.case.to_owned()]);
@@ -61,7 +61,8 @@ fn list_pictures(run: &Run) -> impl Iterator<Item = Pictures<'_>> {
     cases.chain(frames)
 }
 
-/// Refuses a case if no part has its pictures or its scene's, or if it was measured against another truth.
+/// Refuses a case if no part has its pictures or its scene's, or if it was measured against another
+/// truth.
 fn check_pictures(part: &StoredRun, own: &Pictures, files: &Files) -> Result<(), Error> {
     let of_case = CASE_FILES.iter().map(|name| own.case.join(name));
     let of_frame = FRAME_FILES.iter().map(|name| own.scene.join(name));

@@ -24,13 +24,14 @@ pub fn holds_run(path: &Path) -> bool {
     path.is_file() || path.join("run.json").is_file()
 }
 
-/// Joins the runs of all `parts`, each a `run.json` or its folder, and copies their pictures into `out`. The result equals a single
-/// process's run: its cases in the same order, the same means, and `command` as the words of its command line. Scenes and filters keep
-/// the order in which the parts first name them. Its `run.json` is not written yet, and the folder is locked until it is.
+/// Joins the runs of all `parts`, each a `run.json` or its folder, and copies their pictures into
+/// `out`. The result equals a single process's run: its cases in the same order, the same means,
+/// and `command` as the words of its command line. Scenes and filters keep the order in which the
+/// parts first name them. Its `run.json` is not written yet, and the folder is locked until it is.
 ///
 /// # Errors
-/// Nothing is written if the parts differ in their settings, adapters or truths, if two have different scores for one case, or if
-/// cases are missing.
+/// Nothing is written if the parts differ in their settings, adapters or truths, if two have
+/// different scores for one case, or if cases are missing.
 pub fn merge_runs(
     parts: &[PathBuf],
     command: Vec<String>,
@@ -50,7 +51,8 @@ pub fn merge_runs(
     Ok((run, lock))
 }
 
-/// Refuses cases that no process could have measured together: scenes with different filters, and shutters without references.
+/// Refuses cases that no process could have measured together: scenes with different filters, and
+/// shutters without references.
 fn check_complete(run: &Run) -> Result<(), Error> {
     // An engine's scene has one shutter, and leaves out filters of others.
     let rendered = || run.cases.iter().filter(|case| case.drawn.is_none());

@@ -50,8 +50,8 @@ impl Order {
     }
 }
 
-/// Merges lists of names. Names of one list keep their order: a new name comes after its predecessor, or before its successor; one with
-/// neither comes last.
+/// Merges lists of names. Names of one list keep their order: a new name comes after its
+/// predecessor, or before its successor; one with neither comes last.
 fn merge_order<T: PartialEq + Clone>(lists: impl IntoIterator<Item = Vec<T>>) -> Vec<T> {
     let mut order: Vec<T> = Vec::new();
     for list in lists {

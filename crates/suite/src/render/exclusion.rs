@@ -26,7 +26,8 @@ impl Deref for FilterFrame {
     }
 }
 
-/// Draws the mask of a frame of a scene: its objects that are attached to the camera, such as a weapon or a dashboard.
+/// Draws the mask of a frame of a scene: its objects that are attached to the camera, such as a
+/// weapon or a dashboard.
 pub(crate) fn draw_exclusion(frame: &Frame, scene: &Scene) -> Plane {
     (frame.object_id).map(|id| f32::from(*id > 0 && follows_camera(scene, *id as usize - 1)))
 }

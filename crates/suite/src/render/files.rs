@@ -8,7 +8,8 @@ use store::{RenderFile, RenderPath, Wanted};
 use super::ladders::{ladder_hash, needed_rungs};
 use super::rendering::Rendering;
 
-/// Lists a truth, its replicates, and the rungs of its ladder that measuring needs: all if ladders are requested.
+/// Lists a truth, its replicates, and the rungs of its ladder that measuring needs: all if ladders
+/// are requested.
 pub(crate) fn truth_files(
     alignment: Alignment,
     replicates: u32,
@@ -23,7 +24,8 @@ pub(crate) fn truth_files(
 }
 
 impl Rendering<'_> {
-    /// Lists the scene's frame, and each alignment's [`truth_files`], with the hashes of their inputs.
+    /// Lists the scene's frame, and each alignment's [`truth_files`], with the hashes of their
+    /// inputs.
     pub(crate) fn list_wanted(&self, alignments: &[Alignment], ladders: bool) -> Vec<Wanted> {
         let (scene, settings) = (self.scene, &self.settings);
         let wanted = |file, hash: &str| Wanted {
@@ -49,8 +51,8 @@ impl Rendering<'_> {
         files
     }
 
-    /// Lists the frame and the truths that all given folders lack, by the headers of files: for each truth its own and its last replicate's
-    /// and rung's.
+    /// Lists the frame and the truths that all given folders lack, by the headers of files: for
+    /// each truth its own and its last replicate's and rung's.
     pub(crate) fn find_missing(
         &self,
         alignments: &[Alignment],

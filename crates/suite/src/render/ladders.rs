@@ -14,8 +14,9 @@ use crate::Error;
 /// Rung that is the sharp picture of a shutter's middle.
 pub const SHARP: u32 = LADDER[0];
 
-/// Lists the rungs that measuring against a truth needs: all if ladders are requested. Otherwise only the sharp picture of the shutter's
-/// middle, the zero of skill, unless that is the frame itself.
+/// Lists the rungs that measuring against a truth needs: all if ladders are requested. Otherwise
+/// only the sharp picture of the shutter's middle, the zero of skill, unless that is the frame
+/// itself.
 pub(crate) fn needed_rungs(alignment: Alignment, ladders: bool) -> &'static [u32] {
     match (ladders, alignment) {
         (true, _) => &LADDER,
@@ -24,8 +25,8 @@ pub(crate) fn needed_rungs(alignment: Alignment, ladders: bool) -> &'static [u32
     }
 }
 
-/// Returns the sharp picture of the middle of a truth's shutter: the frame if that is its instant, or else the rung [`SHARP`] from `read`.
-/// `frame` has no guard band.
+/// Returns the sharp picture of the middle of a truth's shutter: the frame if that is its instant,
+/// or else the rung [`SHARP`] from `read`. `frame` has no guard band.
 pub fn sharp_picture<E>(
     frame: &Frame,
     truth: &Truth,
@@ -37,7 +38,8 @@ pub fn sharp_picture<E>(
     }
 }
 
-/// The ladder of one truth, with a file for each rung: together the rungs would need more memory than all else in measuring.
+/// The ladder of one truth, with a file for each rung: together the rungs would need more memory
+/// than all else in measuring.
 pub struct LadderFiles<'a> {
     rendering: Rendering<'a>,
     truth: &'a Truth,

@@ -8,25 +8,29 @@ use crate::Error;
 
 /// Memory of the program without any picture, in bytes.
 const PROGRAM: u64 = 136 << 20;
-/// Bytes per pixel of a picture without its coverages: fourteen floats for its colour, its samples, and what is known of the instant.
+/// Bytes per pixel of a picture without its coverages: fourteen floats for its colour, its samples,
+/// and what is known of the instant.
 const PER_PIXEL: u64 = 56 + 2;
 /// Bytes per pixel of a coverage: a float, and the mask of its support.
 const PER_COVERAGE: u64 = 4 + 1;
 /// Bytes per triangle of a scene while its trees are built.
 const PER_TRIANGLE: u64 = 600;
 
-/// Pictures of a truth in addition to its replicates: its mean, its halves, and the contents of its file. This number and the next ones
-/// bound the largest resident sizes of `render` and `run`, measured from 512x512 to 1024x1024 pixels and from 6 to 11 coverages.
+/// Pictures of a truth in addition to its replicates: its mean, its halves, and the contents of its
+/// file. This number and the next ones bound the largest resident sizes of `render` and `run`,
+/// measured from 512x512 to 1024x1024 pixels and from 6 to 11 coverages.
 const PICTURES_OF_TRUTH: u64 = 7;
-/// Pictures of a frame, of the truth that filters are measured by, and of the measured case, for any number of replicates.
+/// Pictures of a frame, of the truth that filters are measured by, and of the measured case, for
+/// any number of replicates.
 const PICTURES_MEASURED: u64 = 14;
-/// Pictures of each part of frame and truth that intervals leave out replicates of: its own, and all that is prepared to measure by it.
+/// Pictures of each part of frame and truth that intervals leave out replicates of: its own, and
+/// all that is prepared to measure by it.
 const PICTURES_OF_PART: u64 = 10;
 /// Pictures of each further truth.
 const PICTURES_OF_FURTHER_TRUTH: u64 = 6;
 
-/// Refuses to render a frame and a truth of a number of replicates if that needs more bytes than are free. Refuses nothing if the system
-/// does not report free memory.
+/// Refuses to render a frame and a truth of a number of replicates if that needs more bytes than
+/// are free. Refuses nothing if the system does not report free memory.
 pub(crate) fn check_memory(
     scene: &Scene,
     settings: &RenderSettings,
@@ -101,7 +105,8 @@ fn gibibytes(bytes: u64) -> String {
     format!("{:.1} GiB", bytes as f64 / f64::from(1 << 30))
 }
 
-/// Returns the bytes that this process may still use: the least that the system, its control group and its own limit allow.
+/// Returns the bytes that this process may still use: the least that the system, its control group
+/// and its own limit allow.
 fn free() -> Option<u64> {
     if !cfg!(target_os = "linux") {
         return None;
@@ -118,7 +123,8 @@ fn free_in_system() -> Option<u64> {
     Some(entry(&text, "MemAvailable:")? << 10)
 }
 
-/// Reads the free memory of the process's control group (cgroup v2), or of the topmost visible group if a container hides the path to it.
+/// Reads the free memory of the process's control group (cgroup v2), or of the topmost visible
+/// group if a container hides the path to it.
 fn free_in_group() -> Option<u64> {
     let groups = fs::read_to_string("/proc/self/cgroup").unwrap_or_default();
     let own = groups.lines().find_map(|line| line.strip_prefix("0::/"));

@@ -19,8 +19,8 @@ pub struct Merged {
     pub replicates: usize,
 }
 
-/// Copies frames and replicates of all `parts` into `out` and makes their truths. Several parts may contain the same file if its bytes
-/// are equal. Nothing is written unless every truth is complete.
+/// Copies frames and replicates of all `parts` into `out` and makes their truths. Several parts may
+/// contain the same file if its bytes are equal. Nothing is written unless every truth is complete.
 pub fn merge(parts: &[PathBuf], out: &Path) -> Result<Vec<Merged>, Error> {
     let files = gather_renders(parts)?;
     let truths = replicates_by_truth(&files);

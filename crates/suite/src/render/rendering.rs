@@ -40,7 +40,8 @@ impl Rendering<'_> {
         Ok(self.trace_frame()?.frame)
     }
 
-    /// Reads the replicates of the frame; renders it if its file lacks them, is broken or was made from other inputs.
+    /// Reads the replicates of the frame; renders it if its file lacks them, is broken or was made
+    /// from other inputs.
     pub fn frame_replicates(&self) -> Result<Vec<Picture>, Error> {
         let path = self.path(RenderFile::Frame);
         let hash = tracer::frame_hash(self.scene, &self.settings);
@@ -72,7 +73,8 @@ impl Rendering<'_> {
         Ok(traced)
     }
 
-    /// Renders the frame as [`Rendering::frame`] does, with the velocities that few filters read, which its file need not have.
+    /// Renders the frame as [`Rendering::frame`] does, with the velocities that few filters read,
+    /// which its file need not have.
     pub fn frame_with_further_velocities(&self) -> Result<Frame, Error> {
         let settings = self.settings;
         let grid = PixelGrid::of_picture(settings.width, settings.height);

@@ -10,10 +10,12 @@ use tracer::TruthTracer;
 use super::rendering::Rendering;
 use crate::Error;
 
-/// Replicates that are read at once. Each needs the memory of one more picture meanwhile, which the bound of memory counts.
+/// Replicates that are read at once. Each needs the memory of one more picture meanwhile, which the
+/// bound of memory counts.
 const READ_TOGETHER: usize = 4;
 
-/// The tracers of a scene's truths, by their alignments. Each is made for its first replicate, and keeps its pilot and its supports.
+/// The tracers of a scene's truths, by their alignments. Each is made for its first replicate, and
+/// keeps its pilot and its supports.
 #[derive(Default)]
 pub(super) struct Tracers<'a>(Vec<(Vec<Alignment>, TruthTracer<'a>)>);
 
@@ -35,10 +37,11 @@ impl<'a> Rendering<'a> {
         }
     }
 
-    /// Renders and writes the replicates that a trailing and a centred truth both lack; does nothing unless `alignments` contains both.
+    /// Renders and writes the replicates that a trailing and a centred truth both lack; does
+    /// nothing unless `alignments` contains both.
     ///
-    /// Samples are traced once where the two shutters overlap. Both truths together need three quarters of the time of rendering one after
-    /// the other, and have the same bytes.
+    /// Samples are traced once where the two shutters overlap. Both truths together need three
+    /// quarters of the time of rendering one after the other, and have the same bytes.
     pub fn shared(&self, alignments: &[Alignment], indices: Range<u32>) -> Result<(), Error> {
         self.share(alignments, indices, &mut Tracers::default())
     }
@@ -94,8 +97,8 @@ impl<'a> TruthFiles<'a> {
         Ok(truth.write(&self.rendering.path(RenderFile::Truth(self.alignment)))?)
     }
 
-    /// Returns replicates by their indices. Reads existing ones; renders the others and writes each as soon as it is complete. Replaces a
-    /// file that is broken or was made from other inputs.
+    /// Returns replicates by their indices. Reads existing ones; renders the others and writes each
+    /// as soon as it is complete. Replaces a file that is broken or was made from other inputs.
     pub fn replicates(&self, indices: Range<u32>) -> Result<Vec<Replicate>, Error> {
         self.replicates_by(indices, &mut Tracers::default())
     }
@@ -148,7 +151,8 @@ impl<'a> TruthFiles<'a> {
 }
 
 impl<'a> Tracers<'a> {
-    /// Returns the tracer of some truths of the rendering's scene, size, seed and samples per replicate.
+    /// Returns the tracer of some truths of the rendering's scene, size, seed and samples per
+    /// replicate.
     fn of(
         &mut self,
         rendering: &Rendering<'a>,

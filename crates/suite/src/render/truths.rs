@@ -10,8 +10,8 @@ use super::replicates::Tracers;
 use crate::Error;
 
 impl<'a> Rendering<'a> {
-    /// Renders and writes the truth over the shutter of an alignment. Reads the truth, or some of its replicates, if their inputs are the
-    /// same.
+    /// Renders and writes the truth over the shutter of an alignment. Reads the truth, or some of
+    /// its replicates, if their inputs are the same.
     pub fn truth(&self, alignment: Alignment) -> Result<Truth, Error> {
         let files = self.files(alignment);
         if let Some(found) = files.read_truth() {
@@ -22,12 +22,13 @@ impl<'a> Rendering<'a> {
         Ok(truth)
     }
 
-    /// Renders replicates of each truth until its noise floor reaches `target` where anything moves (everywhere if nothing does), or there
-    /// are `most`. Writes each truth when it ends, and hands it to `ended`, with true if it reached the target: truths of large pictures
-    /// are too large to hold together.
+    /// Renders replicates of each truth until its noise floor reaches `target` where anything moves
+    /// (everywhere if nothing does), or there are `most`. Writes each truth when it ends, and hands
+    /// it to `ended`, with true if it reached the target: truths of large pictures are too large to
+    /// hold together.
     ///
-    /// The floor that ends the render is measured on the same halves that the truth keeps: if the render ends early because they happened
-    /// to agree, the floor reads a little low.
+    /// The floor that ends the render is measured on the same halves that the truth keeps: if the
+    /// render ends early because they happened to agree, the floor reads a little low.
     pub fn truths_until(
         mut self,
         alignments: &[Alignment],
@@ -69,14 +70,16 @@ impl<'a> Rendering<'a> {
     }
 }
 
-/// Predicts the even number of replicates that lowers the noise by `factor`: noise falls with the root of their number.
+/// Predicts the even number of replicates that lowers the noise by `factor`: noise falls with the
+/// root of their number.
 fn predict_replicates(replicates: u32, factor: f64) -> u32 {
     let pairs = 0.5 * f64::from(replicates) * factor.powi(2);
     // No more than are ever allowed.
     2 * pairs.ceil().min(f64::from(MAX_REPLICATES / 2)) as u32
 }
 
-/// Returns the noise floor to compare with a target: the moving region's, or the whole picture's if nothing moves.
+/// Returns the noise floor to compare with a target: the moving region's, or the whole picture's if
+/// nothing moves.
 pub fn deciding_floor(truth: &Truth) -> (Region, f64) {
     let floors = truth.noise_floors();
     *floors

@@ -7,8 +7,8 @@ use tracer::{PixelGrid, RenderSettings, Scene, trace_further_velocities};
 
 use crate::Error;
 
-/// Adds the motion to the next frame and the change of depth to a frame of a scene that lacks one of them: two rays per pixel.
-/// `settings` and `grid` are those that the frame was rendered with.
+/// Adds the motion to the next frame and the change of depth to a frame of a scene that lacks one
+/// of them: two rays per pixel. `settings` and `grid` are those that the frame was rendered with.
 pub(crate) fn add_further_velocities(
     frame: Frame,
     scene: &Scene,
@@ -29,8 +29,8 @@ pub(crate) fn add_further_velocities(
 /// File of the velocities, in the folder of the scene.
 const FILE: &str = "further_velocities.exr";
 
-/// Writes the velocities of a frame that has them, so that a page can show what filters got. The frame's own file stays without them, since
-/// runs of other filters share it.
+/// Writes the velocities of a frame that has them, so that a page can show what filters got. The
+/// frame's own file stays without them, since runs of other filters share it.
 pub(crate) fn write_further_velocities(frame: &Frame, folder: &Path) -> Result<(), FileError> {
     let (width, height) = frame.size();
     let mut file = ExrFile::new(width, height);
@@ -43,7 +43,8 @@ pub(crate) fn write_further_velocities(frame: &Frame, folder: &Path) -> Result<(
     write_exr(&folder.join(FILE), &file)
 }
 
-/// Reads velocities that a run wrote for the same frame. Changes nothing if the scene's folder has none.
+/// Reads velocities that a run wrote for the same frame. Changes nothing if the scene's folder has
+/// none.
 pub fn read_further_velocities(frame: &mut Frame, folder: &Path) -> Result<(), FileError> {
     let path = folder.join(FILE);
     if !path.is_file() {

@@ -39,18 +39,20 @@ pub struct Case {
     pub exposure: f64,
     /// Every parameter's value.
     pub parameters: BTreeMap<String, Value>,
-    /// Picture width that the preset was made for, from which values in pixels were scaled to this run's; none if the preset names none, or
-    /// values were left as written.
+    /// Picture width that the preset was made for, from which values in pixels were scaled to this
+    /// run's; none if the preset names none, or values were left as written.
     #[serde(default)]
     pub reference_width: Option<u32>,
-    /// Program and arguments of a filter that is a command, as in filter.toml. Nothing records what the program does.
+    /// Program and arguments of a filter that is a command, as in filter.toml. Nothing records what
+    /// the program does.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub command: Option<Vec<String>>,
-    /// Form of velocity, depth and colour, and texture formats, that the filter's shaders got; none if the frame's own.
+    /// Form of velocity, depth and colour, and texture formats, that the filter's shaders got; none
+    /// if the frame's own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub convention: Option<Convention>,
-    /// Dependence of the filter's weights on colour: the difference between the blur of a mixture and the mixture of the blurs, relative to
-    /// the blur's change; none for reference pictures.
+    /// Dependence of the filter's weights on colour: the difference between the blur of a mixture
+    /// and the mixture of the blurs, relative to the blur's change; none for reference pictures.
     pub nonlinearity: Option<f64>,
     /// Hash of the truth's inputs: equal hashes mean equal truths.
     pub truth_hash: String,
@@ -61,7 +63,8 @@ pub struct Case {
     pub intervals: Intervals,
     /// Errors over what moves, against the truth of the run's common shutter.
     pub common: ImageScores,
-    /// The filter's noise as a part of the error; none for filters without noise, or if not requested.
+    /// The filter's noise as a part of the error; none for filters without noise, or if not
+    /// requested.
     pub jitter: Option<Jitter>,
     /// Folder of the case's pictures, relative to `run.json`.
     pub folder: PathBuf,
@@ -92,7 +95,8 @@ impl Drawn {
 }
 
 impl Case {
-    /// Returns whether this is the reference that shows the shutter's middle sharply, if the frame does not.
+    /// Returns whether this is the reference that shows the shutter's middle sharply, if the frame
+    /// does not.
     pub fn is_sharp(&self) -> bool {
         self.is_reference && self.filter == ACCUMULATE && self.preset == SHARP.to_string()
     }

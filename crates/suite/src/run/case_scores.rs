@@ -26,8 +26,8 @@ impl Case {
         self.intervals.get(&self.scores.behind(metric))
     }
 
-    /// Estimates a score against a truth without noise, which needs an interval; without one, returns the measured score. None if the score
-    /// does not apply.
+    /// Estimates a score against a truth without noise, which needs an interval; without one,
+    /// returns the measured score. None if the score does not apply.
     pub fn estimate(&self, metric: Metric) -> Option<f64> {
         let measured = self.measured(metric).value()?;
         let interval = self.interval(metric);
@@ -39,8 +39,9 @@ impl Case {
         self.scores.text(metric, self.estimate(metric))
     }
 
-    /// Returns the weight of the case's scene in a mean over scenes: for a skill, how much the one-frame oracle reduces the error of no
-    /// blur; for any other score, 1. None if `cases`, all cases of its run, lack the reference pictures.
+    /// Returns the weight of the case's scene in a mean over scenes: for a skill, how much the
+    /// one-frame oracle reduces the error of no blur; for any other score, 1. None if `cases`, all
+    /// cases of its run, lack the reference pictures.
     pub fn weight(&self, metric: Metric, cases: &[Case]) -> Option<f64> {
         let Metric::Skill(skill) = metric else {
             return Some(1.0);

@@ -10,7 +10,8 @@ use metrics::{ErrorMap, Measurement, Reference, flip_ldr};
 use super::case::Case;
 use crate::Error;
 
-/// Maps in errors.exr: those of mattes, and the probes' maps, which only the filter itself could make again.
+/// Maps in errors.exr: those of mattes, and the probes' maps, which only the filter itself could
+/// make again.
 pub const KEPT_MAPS: [ErrorMap; 5] = [
     ErrorMap::LabelTotalVariation,
     ErrorMap::Bleed,
@@ -56,7 +57,8 @@ impl<'a> ErrorMaps<'a> {
         self.flip.get_or_init(make);
     }
 
-    /// Returns a map by its name. A map that errors.exr lacks is measured again, from output.exr, the frame and the truth.
+    /// Returns a map by its name. A map that errors.exr lacks is measured again, from output.exr,
+    /// the frame and the truth.
     pub fn map(&self, name: &str) -> Result<Plane, Error> {
         let map = ErrorMap::ALL.into_iter().find(|map| map.name() == name);
         let is_held = (self.file.channels.iter()).any(|channel| channel.name == name);

@@ -18,8 +18,8 @@ const MAPS: [ErrorMap; 3] = [
     ErrorMap::Bleed,
 ];
 
-/// Writes one file per case below `out`, named like the case's folder below `folder`, which is run.json's; returns their paths. Reports
-/// every case to `watch`.
+/// Writes one file per case below `out`, named like the case's folder below `folder`, which is
+/// run.json's; returns their paths. Reports every case to `watch`.
 pub fn write_layers(
     run: &Run,
     folder: &Path,

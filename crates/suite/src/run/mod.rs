@@ -22,7 +22,8 @@ use self::overall::Overall;
 use self::sequence::{Frames, Sequence};
 use crate::render::settings::list_settings;
 
-/// Version of the layout of `run.json`; it rises if a reader of the old one would misread the new one.
+/// Version of the layout of `run.json`; it rises if a reader of the old one would misread the new
+/// one.
 pub const FORMAT: u32 = 7;
 
 /// A finished run: `run.json`.
@@ -39,14 +40,15 @@ pub struct Run {
     /// Settings of frames and truths.
     #[serde(flatten)]
     pub render: RenderSettings,
-    /// Shutter alignment that every case is compared with in addition to its own, so that filters of several alignments have one score in
-    /// common: centred if a filter declares that, or else trailing, or else leading.
+    /// Shutter alignment that every case is compared with in addition to its own, so that filters
+    /// of several alignments have one score in common: centred if a filter declares that, or else
+    /// trailing, or else leading.
     pub common_alignment: Alignment,
     /// Frames of each scene; left out if there is one.
     #[serde(default, skip_serializing_if = "Frames::is_one")]
     pub frames: Frames,
-    /// Per scene the reference pictures, then one case per filter preset and input form, in the order of their runs. For a sequence, cases
-    /// of the first frame.
+    /// Per scene the reference pictures, then one case per filter preset and input form, in the
+    /// order of their runs. For a sequence, cases of the first frame.
     pub cases: Vec<Case>,
     /// Scores over all frames, one entry per case that every frame has.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -63,7 +65,8 @@ pub struct Run {
 }
 
 impl Run {
-    /// Finds the first shared setting of a run's cases that differs between two runs, with both values.
+    /// Finds the first shared setting of a run's cases that differs between two runs, with both
+    /// values.
     pub(crate) fn find_difference(&self, other: &Self) -> Option<(&'static str, String, String)> {
         let both = std::iter::zip(self.list_settings(), other.list_settings());
         let settings = both.map(|((setting, own), (_, its))| (setting, own, its));

@@ -6,7 +6,8 @@ use super::Run;
 use super::case::Case;
 
 impl Run {
-    /// Names the filters that are scaled to the pictures' width, and the user's own that are not; none for a run that does not mix both.
+    /// Names the filters that are scaled to the pictures' width, and the user's own that are not;
+    /// none for a run that does not mix both.
     pub fn scaling_note(&self) -> Option<String> {
         let builtin = Filter::builtin_names();
         let filters = || self.cases.iter().filter(|case| !case.is_reference);

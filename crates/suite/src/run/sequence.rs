@@ -69,7 +69,8 @@ pub struct SequenceFrame {
     pub truth_hash: String,
     /// Squared error over what moves; none if nothing does.
     pub error: Option<f64>,
-    /// Squared error of the change since the previous frame, along the motion; none for the first frame.
+    /// Squared error of the change since the previous frame, along the motion; none for the first
+    /// frame.
     pub flicker: Option<f64>,
 }
 
@@ -78,8 +79,9 @@ pub struct SequenceFrame {
 pub struct Frames {
     /// Number of consecutive frames of each scene.
     pub count: u32,
-    /// Frames per second at which scenes are shown if at their files' rate. It changes no picture, and no score but JOD, since times are in
-    /// frames. Scenes at another frame rate are shown at that rate.
+    /// Frames per second at which scenes are shown if at their files' rate. It changes no picture,
+    /// and no score but JOD, since times are in frames. Scenes at another frame rate are shown at
+    /// that rate.
     pub per_second: f64,
 }
 
@@ -93,7 +95,8 @@ impl Default for Frames {
 }
 
 impl Frames {
-    /// Returns the frames per second at which a scene is shown: its own frame rate, or the run's for a scene at its file's rate.
+    /// Returns the frames per second at which a scene is shown: its own frame rate, or the run's
+    /// for a scene at its file's rate.
     pub fn shown(&self, scene: &SceneId) -> f64 {
         let rate = scene.rate.unwrap_or_default();
         if rate.per_second == tracer::FrameRate::WRITTEN.per_second {

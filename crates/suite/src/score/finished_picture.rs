@@ -13,16 +13,19 @@ pub struct FinishedPicture {
     pub color: Image,
     /// Mattes: each object's share of every pixel of the picture; none if the file has none.
     pub mattes: Option<Vec<Plane>>,
-    /// True for a picture of displayed colours, such as a PNG: nothing in it is brighter than display white.
+    /// True for a picture of displayed colours, such as a PNG: nothing in it is brighter than
+    /// display white.
     pub display_referred: bool,
     /// Changes that were made to the picture, each a sentence.
     pub notes: Vec<String>,
 }
 
-/// Reads a picture that was made from `frame`, to score it against `truth`: OpenEXR or PNG, by its name's ending.
+/// Reads a picture that was made from `frame`, to score it against `truth`: OpenEXR or PNG, by its
+/// name's ending.
 ///
-/// Reads an OpenEXR's colours by the convention. Decodes a PNG from sRGB and undoes the frame's display exposure. Crops a picture with the
-/// frame's guard band. Refuses a file that says it was made for another shutter.
+/// Reads an OpenEXR's colours by the convention. Decodes a PNG from sRGB and undoes the frame's
+/// display exposure. Crops a picture with the frame's guard band. Refuses a file that says it was
+/// made for another shutter.
 pub fn read_finished_picture(
     path: &Path,
     convention: &Convention,
@@ -112,8 +115,8 @@ fn read_display_referred(path: &Path, stops: f32, truth: &Truth) -> Result<Finis
     })
 }
 
-/// Refuses a file of `shuttertruth engine blur` that names another shutter than the truth's. In other programs' files these attributes may
-/// mean something else.
+/// Refuses a file of `shuttertruth engine blur` that names another shutter than the truth's. In
+/// other programs' files these attributes may mean something else.
 fn check_shutter(file: &ExrFile, truth: &Truth) -> Result<(), Error> {
     if !file.attributes.contains_key("kind") {
         return Ok(());

@@ -14,7 +14,8 @@ pub fn numbered_file(folder: &Path, frame: u32) -> PathBuf {
     folder.join(format!("{frame:04}.exr"))
 }
 
-/// Finds the picture of each frame in a folder of numbered pictures, from `0000.exr` or `0000.png` on.
+/// Finds the picture of each frame in a folder of numbered pictures, from `0000.exr` or `0000.png`
+/// on.
 ///
 /// # Errors
 /// A picture is missing, or one frame has two.

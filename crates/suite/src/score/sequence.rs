@@ -19,8 +19,8 @@ pub struct SequenceTruth {
     pub path: PathBuf,
 }
 
-/// Names a later frame's file from the first one's, as `run` and `render` lay them out: `out/fan/frame.exr` is followed by
-/// `out/fan/0001/frame.exr`.
+/// Names a later frame's file from the first one's, as `run` and `render` lay them out:
+/// `out/fan/frame.exr` is followed by `out/fan/0001/frame.exr`.
 pub fn file_at_frame(first: &Path, frame: u32) -> PathBuf {
     match (frame, first.file_name()) {
         (1.., Some(name)) => first.with_file_name(format!("{frame:04}")).join(name),
@@ -28,7 +28,8 @@ pub fn file_at_frame(first: &Path, frame: u32) -> PathBuf {
     }
 }
 
-/// Scores one picture per frame, from the first on, against the truths of a scene's frames, as `run` scores filters' sequences.
+/// Scores one picture per frame, from the first on, against the truths of a scene's frames, as
+/// `run` scores filters' sequences.
 ///
 /// # Errors
 /// A truth belongs to another scene or frame, or a picture has another size.

@@ -12,9 +12,10 @@ use crate::run::case::Intervals;
 /// First and last number of sub-frames of the ladder.
 const LADDER_ENDS: [u32; 2] = [LADDER[0], LADDER[LADDER.len() - 1]];
 
-/// Computes the interval of each of `metrics` that has a score of the whole and of all `parts`, each without one of the
-/// [`Groups`](crate::Groups) of replicates. `still` are the scores of the frame itself where nothing moves: its errors there may all
-/// be noise. Counts of equivalent sub-frames have an interval of their own, with the ladder's ends for open ends.
+/// Computes the interval of each of `metrics` that has a score of the whole and of all `parts`,
+/// each without one of the [`Groups`](crate::Groups) of replicates. `still` are the scores of the
+/// frame itself where nothing moves: its errors there may all be noise. Counts of equivalent
+/// sub-frames have an interval of their own, with the ladder's ends for open ends.
 pub fn intervals(
     whole: &Scores,
     parts: &[Scores],
@@ -68,8 +69,9 @@ pub(crate) fn sequence_intervals(whole: &SequenceScores, parts: &[SequenceScores
         .collect()
 }
 
-/// Slowest power of the number of replicates by which noise in a mean of absolute errors falls, and the same for errors over the whole
-/// picture, most of which is still: its noise is of few samples, and FLIP raises small differences to the power of 0.7.
+/// Slowest power of the number of replicates by which noise in a mean of absolute errors falls, and
+/// the same for errors over the whole picture, most of which is still: its noise is of few samples,
+/// and FLIP raises small differences to the power of 0.7.
 const ROOT: f64 = 0.5;
 const SLOW: f64 = 0.3;
 
@@ -104,8 +106,9 @@ fn interval(
     jackknife_of(whole.value()?, &without, find_rise(metric))
 }
 
-/// Extends the interval of a score over still pixels downwards by the score of the frame there, all of which may be noise. Where only few
-/// samples see what light changes, parts of the samples do not tell how much of it is.
+/// Extends the interval of a score over still pixels downwards by the score of the frame there, all
+/// of which may be noise. Where only few samples see what light changes, parts of the samples do
+/// not tell how much of it is.
 fn reach_below(own: Interval, frame: &Measured, metric: Metric) -> Interval {
     let is_raised = find_rise(metric) != Rise::Inverse;
     let noise = frame.value().filter(|_| is_raised).unwrap_or(0.0);
@@ -116,8 +119,8 @@ fn reach_below(own: Interval, frame: &Measured, metric: Metric) -> Interval {
     }
 }
 
-/// Computes the interval of grain from its squares, which noise raises by the inverse of the replicates. A square below the floor's
-/// cannot be told from none.
+/// Computes the interval of grain from its squares, which noise raises by the inverse of the
+/// replicates. A square below the floor's cannot be told from none.
 fn grain_interval(
     whole: &Measured,
     without: impl Iterator<Item = Option<f64>>,
@@ -137,7 +140,8 @@ fn grain_interval(
     })
 }
 
-/// Converts the interval of a squared error to that of PSNR. An error that may be none leaves the end open at the limit of PSNR.
+/// Converts the interval of a squared error to that of PSNR. An error that may be none leaves the
+/// end open at the limit of PSNR.
 fn psnr_interval(
     squared_error: &Measured,
     without: impl Iterator<Item = Option<f64>>,
@@ -167,8 +171,9 @@ fn psnr_interval(
     })
 }
 
-/// Computes the interval of the worst object's score. The worst object of noisy pictures need not be the worst without noise: any whose
-/// interval reaches the least that the worst must have may be it.
+/// Computes the interval of the worst object's score. The worst object of noisy pictures need not
+/// be the worst without noise: any whose interval reaches the least that the worst must have may be
+/// it.
 fn worst_interval(
     whole: &Scores,
     parts: &[Scores],
@@ -315,7 +320,8 @@ mod tests {
 
     #[test]
     fn the_worst_score_is_at_least_what_is_certain_of_any_object() {
-        // The second object is worse than the first one at its best; the third one may be the worst.
+        // The second object is worse than the first one at its best; the third one may be the
+        // worst.
         let found = ends(Ideal::Lowest, &[[0.1, 0.2], [0.3, 0.5], [0.2, 0.6]]);
         assert_eq!(found, [0.3, 0.6]);
         assert_eq!(

@@ -6,7 +6,8 @@ use super::scene_mean::{TWO_SIDED, Weighted, scene_mean};
 use crate::run::case::Case;
 use crate::run::overall::Overall;
 
-/// Computes means of estimated scores over at least two scenes, in the order of the cases, with Student's intervals over scenes.
+/// Computes means of estimated scores over at least two scenes, in the order of the cases, with
+/// Student's intervals over scenes.
 pub fn overall(cases: &[Case]) -> Vec<Overall> {
     let mut subjects: Vec<&Case> = Vec::new();
     for case in cases {
@@ -24,8 +25,9 @@ pub fn overall(cases: &[Case]) -> Vec<Overall> {
     subjects.into_iter().flat_map(of_subject).collect()
 }
 
-/// Sorts the means of one score, best first, in one group per frame rate and shutter alignment, with reference pictures among the filters.
-/// A score that compares across alignments has one group per rate.
+/// Sorts the means of one score, best first, in one group per frame rate and shutter alignment,
+/// with reference pictures among the filters. A score that compares across alignments has one group
+/// per rate.
 pub fn rank_filters(overall: &[Overall], metric: Metric) -> Vec<Vec<&Overall>> {
     let mut groups: Vec<Vec<&Overall>> = Vec::new();
     for mean in overall.iter().filter(|mean| mean.metric == metric) {
@@ -46,7 +48,8 @@ pub fn rank_filters(overall: &[Overall], metric: Metric) -> Vec<Vec<&Overall>> {
     groups
 }
 
-/// Returns whether both belong to the same filter preset or reference picture, at the same frame rate.
+/// Returns whether both belong to the same filter preset or reference picture, at the same frame
+/// rate.
 fn are_of_one(a: &Case, b: &Case) -> bool {
     a.filter_id() == b.filter_id() && a.rate == b.rate
 }

@@ -7,8 +7,9 @@ use frame::{MOST_GROUPS, Picture, Replicate, Truth, TruthError};
 /// Smallest number of replicates for an interval: two groups.
 pub const MIN_REPLICATES: u32 = 4;
 
-/// The replicates of a truth and of its frame, in at most four groups as equal as possible. A replicate of one half stays with one of the
-/// other, so that the halves of any part are equally large.
+/// The replicates of a truth and of its frame, in at most four groups as equal as possible. A
+/// replicate of one half stays with one of the other, so that the halves of any part are equally
+/// large.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Groups {
     count: usize,
@@ -30,7 +31,8 @@ impl Groups {
         }
     }
 
-    /// Makes the truth of all replicates but one group's. Replicates share one support, so that scores keep pooling over the same pixels.
+    /// Makes the truth of all replicates but one group's. Replicates share one support, so that
+    /// scores keep pooling over the same pixels.
     pub fn truth_without(
         self,
         group: usize,

@@ -4,11 +4,13 @@ use std::cmp::Ordering;
 
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-/// Probability that the mean over all such scenes is below a two-sided 95 % interval, and that it is above it.
+/// Probability that the mean over all such scenes is below a two-sided 95 % interval, and that it
+/// is above it.
 pub const TWO_SIDED: f64 = 0.025;
 /// Probability that the mean over all such scenes is beyond either one-sided 95 % limit.
 pub const ONE_SIDED: f64 = 0.05;
-/// Smallest number of scenes that decides anything: four differences all have one sign by chance once in eight times.
+/// Smallest number of scenes that decides anything: four differences all have one sign by chance
+/// once in eight times.
 pub const MIN_SCENES: usize = 5;
 
 /// A score on one scene.
@@ -39,7 +41,8 @@ pub struct SceneMean {
 }
 
 impl SceneMean {
-    /// Returns the side of 0 that contains the whole interval; none if the interval contains 0, or the scenes are too few to decide.
+    /// Returns the side of 0 that contains the whole interval; none if the interval contains 0, or
+    /// the scenes are too few to decide.
     pub fn side_of_zero(&self) -> Option<Ordering> {
         match self.interval {
             _ if self.scenes < MIN_SCENES => None,
@@ -50,12 +53,14 @@ impl SceneMean {
     }
 }
 
-/// Averages at least one scene. The mean over all such scenes is beyond either end of the interval with a probability of `tail`, by
-/// Student's t of the scenes' weighted deviations. For equal weights this is the textbook interval of a mean; otherwise it is the
-/// linearised interval of a ratio of means (Cochran, "Sampling Techniques", 1977, section 6.4). The interval of one scene has no width.
+/// Averages at least one scene. The mean over all such scenes is beyond either end of the interval
+/// with a probability of `tail`, by Student's t of the scenes' weighted deviations. For equal
+/// weights this is the textbook interval of a mean; otherwise it is the linearised interval of a
+/// ratio of means (Cochran, "Sampling Techniques", 1977, section 6.4). The interval of one scene
+/// has no width.
 ///
-/// The interval includes the truths' noise, which makes scores deviate just as scenes do. Adding each score's standard error would count
-/// the noise twice.
+/// The interval includes the truths' noise, which makes scores deviate just as scenes do. Adding
+/// each score's standard error would count the noise twice.
 pub fn scene_mean(scores: &[Weighted], tail: f64) -> SceneMean {
     assert!(!scores.is_empty(), "a mean is of at least one value");
     let count = scores.len() as f64;
@@ -100,7 +105,8 @@ mod tests {
 
     #[test]
     fn intervals_are_the_textbooks() {
-        // s = sqrt(7) over the root of 4, and the table's t for 3 degrees of freedom: 3.182, or 2.353 on one side; to its digits.
+        // s = sqrt(7) over the root of 4, and the table's t for 3 degrees of freedom: 3.182, or
+        // 2.353 on one side; to its digits.
         let error = 7f64.sqrt() / 2.0;
         for (tail, quantile) in [(0.025, 3.182), (0.05, 2.353)] {
             let found = plain_mean(&[1.0, 2.0, 4.0, 7.0], tail);
@@ -123,7 +129,8 @@ mod tests {
         let found = scene_mean(&scores, 0.025);
         let ratio = gained.iter().sum::<f64>() / way.iter().sum::<f64>();
         assert!((found.mean - ratio).abs() < 1e-12, "{found:?}");
-        // 4.303 is the table's t for 2 degrees of freedom; the residuals are gained - ratio x way over the mean way.
+        // 4.303 is the table's t for 2 degrees of freedom; the residuals are gained - ratio x way
+        // over the mean way.
         let mean_way = way.iter().sum::<f64>() / 3.0;
         let squares: f64 = (gained.iter().zip(way))
             .map(|(gained, way)| ((gained - ratio * way) / mean_way).powi(2))
@@ -132,7 +139,8 @@ mod tests {
         assert!((found.interval[1] - ratio - half).abs() < 1e-3, "{found:?}");
     }
 
-    /// FLIP of three filters on the 23 shipped scenes at 160x90, by 32 samples per pixel: skewed, with one far outlier.
+    /// FLIP of three filters on the 23 shipped scenes at 160x90, by 32 samples per pixel: skewed,
+    /// with one far outlier.
     const FLIP: [[f64; 23]; 3] = [
         // mcguire:paper
         [
@@ -172,7 +180,8 @@ mod tests {
         [0.022, 0.066],
     ];
 
-    /// Returns the share of 10,000 intervals over `scenes` samples of a population that contain the population's mean.
+    /// Returns the share of 10,000 intervals over `scenes` samples of a population that contain the
+    /// population's mean.
     fn coverage(population: &[Weighted], scenes: usize) -> f64 {
         let mut random = Random(1);
         let expected = scene_mean(population, 0.025).mean;

@@ -10,10 +10,11 @@ use tracer::{Progress, RenderSettings, Scene, TruthTracer, load_scene, trace_fra
 use crate::written_scenes::write_scenes;
 
 const SHIPPED: [&str; 5] = ["fan", "railing", "walker", "foliage", "neon"];
-/// Noise floor of the moving region that times are scaled to, by the square of the floor that was reached. Noise falls faster
-/// than that, so times of noisier truths are upper limits.
+/// Noise floor of the moving region that times are scaled to, by the square of the floor that was
+/// reached. Noise falls faster than that, so times of noisier truths are upper limits.
 const TARGET: f64 = 0.005;
-/// Standard error of radiance over the whole picture that the time of a trailing truth is scaled to.
+/// Standard error of radiance over the whole picture that the time of a trailing truth is scaled
+/// to.
 const TARGET_OF_PICTURE: f64 = 0.002;
 const SAMPLES: u32 = 128;
 
@@ -103,8 +104,8 @@ fn unwatched(_: Progress) -> ControlFlow<()> {
     ControlFlow::Continue(())
 }
 
-/// Runs some work; returns its CPU seconds on all threads (wall time if the system does not report CPU time), and its
-/// result.
+/// Runs some work; returns its CPU seconds on all threads (wall time if the system does not report
+/// CPU time), and its result.
 fn measure_time<T>(work: impl FnOnce() -> T) -> (f64, T) {
     let start = Instant::now();
     let cpu = cpu_time();

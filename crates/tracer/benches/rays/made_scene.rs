@@ -1,4 +1,5 @@
-//! The scene that rays are timed on: a displaced ground and 25 displaced spheres, 540,000 triangles in all.
+//! The scene that rays are timed on: a displaced ground and 25 displaced spheres, 540,000 triangles
+//! in all.
 
 use std::f64::consts::{PI, TAU};
 

@@ -1,5 +1,5 @@
-//! Rays per second. The variants take turns, part by part, and the best of several turns of every part counts, so that
-//! a busy machine does not change the rates.
+//! Rays per second. The variants take turns, part by part, and the best of several turns of every
+//! part counts, so that a busy machine does not change the rates.
 
 mod frames;
 mod made_scene;
@@ -127,7 +127,8 @@ fn once(work: impl Fn() -> usize) -> Duration {
     start.elapsed()
 }
 
-/// Measures several works in parts and in turns; returns for each the sum of its parts' shortest times.
+/// Measures several works in parts and in turns; returns for each the sum of its parts' shortest
+/// times.
 fn best_of<const N: usize>(works: [&dyn Fn(usize) -> Duration; N]) -> [Duration; N] {
     let mut best = [[Duration::MAX; PARTS]; N];
     for _ in 0..TURNS {
@@ -140,7 +141,8 @@ fn best_of<const N: usize>(works: [&dyn Fn(usize) -> Duration; N]) -> [Duration;
     best.map(|parts| parts.iter().sum())
 }
 
-/// A number in [0, 1) that depends on its arguments alone: R2 points (Roberts 2018), rotated per dimension.
+/// A number in [0, 1) that depends on its arguments alone: R2 points (Roberts 2018), rotated per
+/// dimension.
 fn number(index: usize, dimension: usize) -> f64 {
     const STEPS: [f64; 3] = [
         0.819_172_513_396_164_4,

@@ -1,4 +1,5 @@
-//! Scenes with meshes of the size of well-known ones, written to a folder so that other renderers can draw them, too.
+//! Scenes with meshes of the size of well-known ones, written to a folder so that other renderers
+//! can draw them, too.
 
 use std::fs;
 use std::path::{Path, PathBuf};

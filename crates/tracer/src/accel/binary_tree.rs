@@ -1,11 +1,13 @@
 //! Binary trees over boxes, built in a time that does not depend on the arrangement of the boxes.
 //!
-//! Boxes are sorted along a curve through space. In rounds, each node looks for the neighbour with which its union is
-//! smallest, and two that choose each other are merged (Meister and Bittner 2018, PLOC). Among equal or nested boxes nearly
-//! all choose the same neighbour. Such a round merges two nodes only: n boxes would take n rounds and make a tree as deep.
-//! Here a round that merges few nodes is followed by one that merges every node with the next.
+//! Boxes are sorted along a curve through space. In rounds, each node looks for the neighbour with
+//! which its union is smallest, and two that choose each other are merged (Meister and Bittner
+//! 2018, PLOC). Among equal or nested boxes nearly all choose the same neighbour. Such a round
+//! merges two nodes only: n boxes would take n rounds and make a tree as deep. Here a round that
+//! merges few nodes is followed by one that merges every node with the next.
 //!
-//! obvhs then moves nodes to better places (Meister and Bittner 2017), up to a fixed amount of work.
+//! obvhs then moves nodes to better places (Meister and Bittner 2017), up to a fixed amount of
+//! work.
 
 use glam::DVec3;
 use obvhs::aabb::Aabb as Aabb32;
@@ -86,7 +88,8 @@ pub(crate) fn optimize(tree: &mut Bvh2) {
 struct Shape {
     /// Nodes from the root to the deepest leaf.
     depth: usize,
-    /// Mean number of nodes that a ray through the root's box enters. A search for a better place visits about as many.
+    /// Mean number of nodes that a ray through the root's box enters. A search for a better place
+    /// visits about as many.
     overlap: f64,
 }
 
@@ -114,7 +117,8 @@ impl Shape {
     }
 }
 
-/// Makes leaves of the boxes and sorts them by their centres along a Morton curve; equal ones keep their order.
+/// Makes leaves of the boxes and sorts them by their centres along a Morton curve; equal ones keep
+/// their order.
 fn sort_along_curve(boxes: &[Aabb32]) -> Vec<Bvh2Node> {
     let mut whole = Aabb32::empty();
     for each in boxes {
@@ -171,7 +175,8 @@ fn pair_up(count: usize) -> Vec<usize> {
     (0..count).map(|index| (index ^ 1).min(count - 1)).collect()
 }
 
-/// All nodes of a binary tree, every one before those below it. A loop, because trees may be deeper than a thread's stack.
+/// All nodes of a binary tree, every one before those below it. A loop, because trees may be deeper
+/// than a thread's stack.
 pub(crate) fn parents_first(binary: &Bvh2) -> Vec<u32> {
     let mut order = Vec::with_capacity(binary.nodes.len());
     order.extend((!binary.nodes.is_empty()).then_some(0));
@@ -195,7 +200,8 @@ pub(in crate::accel) mod tests {
     use super::*;
 
     const MANY: u32 = 200_000;
-    /// Two rounds at least halve the nodes, which makes 36 levels of 200,000 boxes; optimisation adds a few.
+    /// Two rounds at least halve the nodes, which makes 36 levels of 200,000 boxes; optimisation
+    /// adds a few.
     const SHALLOW: usize = 60;
 
     fn cube(centre: f32, size: f32) -> Aabb32 {
@@ -259,10 +265,11 @@ pub(in crate::accel) mod tests {
     #[test]
     fn nested_boxes_make_a_tree_that_is_far_less_deep_than_they_are_many() {
         let nested = (1..=MANY).map(|size| cube(0.0, size as f32));
-        // Optimisation makes a chain of them, in which rays enter fewest boxes. It ends beyond MAX_DEPTH; its last pass may
-        // have added as much again.
+        // Optimisation makes a chain of them, in which rays enter fewest boxes. It ends beyond
+        // MAX_DEPTH; its last pass may have added as much again.
         assert_depth(nested.collect(), 2 * MAX_DEPTH);
-        // Each twice as large as the one before, from the smallest to the largest with an area in 32 bits.
+        // Each twice as large as the one before, from the smallest to the largest with an area in
+        // 32 bits.
         let growing = (0..100).map(|size| cube(0.0, 2_f32.powi(size - 50)));
         assert_depth(growing.collect(), 100);
     }

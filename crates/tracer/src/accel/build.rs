@@ -1,9 +1,10 @@
 //! The build of wide trees.
 //!
-//! A binary tree is built ([`crate::accel::binary_tree`]) and collapsed ([`crate::accel::collapse`]) into nodes of sixteen
-//! children with full-precision boxes. Only these three files use obvhs. Its triangle tests leave holes along shared edges,
-//! its two-level traversal drops instances, and its eight-wide nodes ignore hits nearer than 1e-4. Traversal, intersections
-//! and the second level are therefore this crate's own.
+//! A binary tree is built ([`crate::accel::binary_tree`]) and collapsed
+//! ([`crate::accel::collapse`]) into nodes of sixteen children with full-precision boxes. Only
+//! these three files use obvhs. Its triangle tests leave holes along shared edges, its two-level
+//! traversal drops instances, and its eight-wide nodes ignore hits nearer than 1e-4. Traversal,
+//! intersections and the second level are therefore this crate's own.
 
 use glam::DVec3;
 use obvhs::aabb::Aabb as Aabb32;
@@ -61,8 +62,8 @@ impl TreeBuilder {
 
     /// Adds nodes over at least one box; returns the topmost node.
     ///
-    /// `child` makes the child for boxes that share a leaf. If leaves have one box, it may also be a node that was built
-    /// before; a traversal of such a node needs up to `stack_size` entries.
+    /// `child` makes the child for boxes that share a leaf. If leaves have one box, it may also be
+    /// a node that was built before; a traversal of such a node needs up to `stack_size` entries.
     pub fn add_tree(
         &mut self,
         boxes: &[Aabb],
@@ -82,8 +83,8 @@ impl TreeBuilder {
         self.add_nodes(&binary.nodes, &collapse, stack_size, &mut child)
     }
 
-    /// Children that together hold everything below the root. The largest node is replaced by its children until there are
-    /// at least `count`.
+    /// Children that together hold everything below the root. The largest node is replaced by its
+    /// children until there are at least `count`.
     pub fn topmost(&self, count: usize) -> Vec<(Aabb, Child)> {
         let mut topmost = self.children(Child::ROOT);
         while topmost.len() < count {
@@ -115,7 +116,8 @@ impl TreeBuilder {
             .collect()
     }
 
-    /// Adds the nodes of a collapsed binary tree. The stack already has `stack_size` entries above its root.
+    /// Adds the nodes of a collapsed binary tree. The stack already has `stack_size` entries above
+    /// its root.
     fn add_nodes(
         &mut self,
         binary: &[Bvh2Node],

@@ -82,11 +82,11 @@ impl Leaves {
 }
 
 impl Tree {
-    /// Visits the leaves below a node that the ray may enter before the limit, in units of its direction: roughly from near
-    /// to far if `SORTED`, else in any order.
+    /// Visits the leaves below a node that the ray may enter before the limit, in units of its
+    /// direction: roughly from near to far if `SORTED`, else in any order.
     ///
-    /// `visit` takes the free part of the stack and returns the new limit; one below 0 ends the traversal. `prefetch`
-    /// gets the leaves that are pushed on the stack.
+    /// `visit` takes the free part of the stack and returns the new limit; one below 0 ends the
+    /// traversal. `prefetch` gets the leaves that are pushed on the stack.
     #[inline(always)]
     pub fn traverse<L: Lanes, const SORTED: bool>(
         &self,
@@ -110,7 +110,8 @@ impl Tree {
                 limit = visit(&mut stack[count..], leaf) as f32;
             } else {
                 let node = &nodes[child as usize];
-                // Copied at once, so that the processor waits for memory once and not for each child.
+                // Copied at once, so that the processor waits for memory once and not for each
+                // child.
                 let children = node.children;
                 let (mut entered, near) = lanes.enter(&node.boxes, &ray, limit);
                 if entered != 0 {
@@ -130,7 +131,8 @@ impl Tree {
                             Some(leaf) => prefetch(leaf),
                             None => nodes[farther as u32 as usize].prefetch(),
                         }
-                        // Insertion sort, of fifteen at most and mostly of one or two. The nearest comes last.
+                        // Insertion sort, of fifteen at most and mostly of one or two. The nearest
+                        // comes last.
                         let mut at = count;
                         while SORTED && at > first && stack[at - 1] < farther {
                             stack[at] = stack[at - 1];
@@ -156,7 +158,8 @@ impl Tree {
     }
 }
 
-/// A child, and the distance at which the ray enters it. Entries sort by their distances, which are not negative.
+/// A child, and the distance at which the ray enters it. Entries sort by their distances, which are
+/// not negative.
 #[inline(always)]
 fn stack_entry(child: u32, near: f32) -> u64 {
     u64::from(near.to_bits()) << 32 | u64::from(child)

@@ -1,8 +1,9 @@
 //! The collapse of a binary tree into wide nodes and leaves that rays are expected to visit least.
 //!
-//! A ray that enters a box enters a box inside it with a probability in proportion to their areas (Wald, Benthin and Boulos
-//! 2008). The cheapest collapse by that measure into leaves and nodes of at most sixteen children is found from the leaves
-//! upwards (Ylitie, Karras and Laine 2017, section 4).
+//! A ray that enters a box enters a box inside it with a probability in proportion to their areas
+//! (Wald, Benthin and Boulos 2008). The cheapest collapse by that measure into leaves and nodes of
+//! at most sixteen children is found from the leaves upwards (Ylitie, Karras and Laine 2017,
+//! section 4).
 
 use obvhs::bvh2::Bvh2;
 
@@ -50,7 +51,8 @@ impl<'a> Collapse<'a> {
         collapse
     }
 
-    /// The nodes of the binary tree that become the children of the wide node for `top`; `top` itself if it is a leaf.
+    /// The nodes of the binary tree that become the children of the wide node for `top`; `top`
+    /// itself if it is a leaf.
     pub fn children(&self, top: usize) -> Vec<usize> {
         let mut children = Vec::with_capacity(WIDTH);
         if self.is_leaf(top) {
@@ -112,7 +114,8 @@ impl<'a> Collapse<'a> {
         };
     }
 
-    /// The cost of a node's two halves if they share `count` children of a wide node, and the first half's number of them.
+    /// The cost of a node's two halves if they share `count` children of a wide node, and the first
+    /// half's number of them.
     fn split(&self, node: usize, count: usize) -> (f32, usize) {
         let first = self.binary.nodes[node].first_index as usize;
         let [left, right] = [first, first + 1].map(|half| &self.costs[half].children);
@@ -164,7 +167,8 @@ mod tests {
         ways
     }
 
-    /// The cost of the cheapest child of a wide node that covers a node of the binary tree, found by trying all covers.
+    /// The cost of the cheapest child of a wide node that covers a node of the binary tree, found
+    /// by trying all covers.
     fn least_cost(binary: &Bvh2, rules: LeafRules, node: usize, known: &mut [Option<f32>]) -> f32 {
         if let Some(cost) = known[node] {
             return cost;

@@ -20,8 +20,8 @@ const LEAF_RULES: LeafRules = LeafRules {
 
 /// A deforming mesh between two times, with one tree per slice of time.
 ///
-/// Vertices are interpolated to the ray's time in `f64`, the same for every triangle that has them, so that no gap opens
-/// between neighbours.
+/// Vertices are interpolated to the ray's time in `f64`, the same for every triangle that has them,
+/// so that no gap opens between neighbours.
 pub(crate) struct DeformingTree<'a> {
     mesh: &'a Mesh,
     slices: Slices,
@@ -101,8 +101,8 @@ impl<'a> DeformingTree<'a> {
 }
 
 impl Slice {
-    /// Builds the tree of a slice. Vertices move in straight lines between key shapes, so the box around a triangle at both
-    /// ends and at the keys inside contains it at all times.
+    /// Builds the tree of a slice. Vertices move in straight lines between key shapes, so the box
+    /// around a triangle at both ends and at the keys inside contains it at all times.
     fn build(mesh: &Mesh, from: f64, to: f64) -> Self {
         let times = times_within(mesh.shape_times(), from, to);
         let boxes: Vec<Aabb> = (0..mesh.triangles.len() as u32)
@@ -121,7 +121,8 @@ impl Slice {
     }
 }
 
-/// The number of slices within which no vertex travels farther than the mean edge, so that boxes stay small.
+/// The number of slices within which no vertex travels farther than the mean edge, so that boxes
+/// stay small.
 fn needed_slices(mesh: &Mesh, from: f64, to: f64) -> f64 {
     let shape = mesh.at(0.5 * (from + to));
     let edges: f64 = (0..mesh.triangles.len() as u32)

@@ -1,8 +1,9 @@
 //! Tests of sixteen boxes or eight triangles at once, with AVX2 and FMA or portably.
 //!
-//! The portable tests serve processors without AVX2, ARM among them, and are the reference in tests of
-//! the others. Both only *reject*, and only what a ray certainly misses. Everything else is decided by the same scalar code,
-//! so hits, and with them all bytes of a picture, do not depend on the processor.
+//! The portable tests serve processors without AVX2, ARM among them, and are the reference in tests
+//! of the others. Both only *reject*, and only what a ray certainly misses. Everything else is
+//! decided by the same scalar code, so hits, and with them all bytes of a picture, do not depend on
+//! the processor.
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;
@@ -17,7 +18,8 @@ pub(crate) const WIDTH: usize = 16;
 /// Triangles of a leaf.
 pub(crate) const LEAF: usize = 8;
 
-/// Sixteen boxes side by side: per axis the least and the greatest coordinates, metres. Unused lanes are empty boxes.
+/// Sixteen boxes side by side: per axis the least and the greatest coordinates, metres. Unused
+/// lanes are empty boxes.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(32))]
 pub(crate) struct Boxes(pub [[[f32; WIDTH]; 2]; 3]);
@@ -27,18 +29,20 @@ pub(crate) struct Boxes(pub [[[f32; WIDTH]; 2]; 3]);
 #[repr(C, align(32))]
 pub(crate) struct Triangles(pub [[[f32; LEAF]; 3]; 3]);
 
-/// A ray prepared for boxes: it crosses a plane at `t = scale * plane + offset`, in units of its direction.
+/// A ray prepared for boxes: it crosses a plane at `t = scale * plane + offset`, in units of its
+/// direction.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SlabRay {
     scale: [f32; 3],
-    /// Offsets for planes through which the ray enters, a little too early, and leaves, a little too late.
+    /// Offsets for planes through which the ray enters, a little too early, and leaves, a little
+    /// too late.
     offsets: [[f32; 3]; 2],
     /// Per axis, the side of a box that is met first: 0 the least, 1 the greatest.
     first: [usize; 3],
 }
 
-/// A ray prepared for triangles: a shear moves every vertex along the ray into the plane across the ray's longest axis, with
-/// the ray at the plane's origin (Woop, Benthin and Wald 2013).
+/// A ray prepared for triangles: a shear moves every vertex along the ray into the plane across the
+/// ray's longest axis, with the ray at the plane's origin (Woop, Benthin and Wald 2013).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct EdgeRay {
     /// The two axes of the plane, then the one along which the direction is longest.
@@ -53,16 +57,17 @@ pub(crate) struct EdgeRay {
 
 /// Part of the greatest coordinate involved by which each ray grows the boxes.
 ///
-/// The test runs in `f32`: plane, origin, direction, its inverse, their product, the sum and the limit are each rounded by
-/// 6e-8 of at most a few times that coordinate, about 1e-6 together. A hit at exactly the limit is therefore still visited,
-/// and the caller decides ties.
+/// The test runs in `f32`: plane, origin, direction, its inverse, their product, the sum and the
+/// limit are each rounded by 6e-8 of at most a few times that coordinate, about 1e-6 together. A
+/// hit at exactly the limit is therefore still visited, and the caller decides ties.
 const PAD: f64 = 2e-6;
-/// Rounding error of a vertex's place, as a part of the greatest coordinate involved: five roundings, each of 6e-8 of at most
-/// three times that coordinate.
+/// Rounding error of a vertex's place, as a part of the greatest coordinate involved: five
+/// roundings, each of 6e-8 of at most three times that coordinate.
 const EDGE_PAD: f64 = 1e-6;
 /// Coordinate, in metres, beyond which squares overflow 32 bits and nothing is rejected.
 const GREATEST_SQUARED: f64 = 1e18;
-/// Least component of a direction: a smaller one has no finite inverse, and over a scene it leads nowhere.
+/// Least component of a direction: a smaller one has no finite inverse, and over a scene it leads
+/// nowhere.
 const LEAST_DIRECTION: f32 = 1e-18;
 
 /// Instructions that test several boxes or triangles at once.
@@ -136,8 +141,9 @@ impl EdgeRay {
         }
     }
 
-    /// The greatest rounding error of a weight of a triangle of this size that the ray crosses. The triangle's vertices lie
-    /// within twice the size of the ray, and each of a product's four factors errs by `doubt`.
+    /// The greatest rounding error of a weight of a triangle of this size that the ray crosses. The
+    /// triangle's vertices lie within twice the size of the ray, and each of a product's four
+    /// factors errs by `doubt`.
     #[inline(always)]
     fn doubt(&self, size: f32) -> f32 {
         16.0 * self.doubt * (size + self.doubt) + f32::MIN_POSITIVE
@@ -219,7 +225,8 @@ mod tests {
         DVec3::from_array([0, 1, 2].map(|axis| number(index, dimension + axis)))
     }
 
-    /// Eight triangles of this size around places up to a metre from the world's origin, and the size that a leaf stores.
+    /// Eight triangles of this size around places up to a metre from the world's origin, and the
+    /// size that a leaf stores.
     fn triangles(index: usize, size: f64) -> ([[DVec3; 3]; LEAF], Triangles, f32) {
         let corners: [[DVec3; 3]; LEAF] = std::array::from_fn(|lane| {
             let centre = point(LEAF * index + lane, 0);
@@ -236,7 +243,8 @@ mod tests {
         (corners, lanes, greatest.next_up())
     }
 
-    /// The lanes that each instruction set lets pass; they may differ in triangles that the exact test refuses.
+    /// The lanes that each instruction set lets pass; they may differ in triangles that the exact
+    /// test refuses.
     fn let_through(lanes: &Triangles, size: f32, ray: &EdgeRay) -> Vec<u32> {
         #[cfg(target_arch = "x86_64")]
         if let Some(avx2) = Avx2::detect() {
@@ -279,8 +287,9 @@ mod tests {
             let (corners, lanes, extent) = triangles(index, size);
             let [a, b, c] = corners[0];
             let normal = (b - a).cross(c - a);
-            // A weight is the edge's length times the distance from it: 5e-6 before the shear. The doubt is 16 times a
-            // size of 0.02 times the rounding of coordinates of at most 2.5: 8e-7.
+            // A weight is the edge's length times the distance from it: 5e-6 before the shear. The
+            // doubt is 16 times a size of 0.02 times the rounding of coordinates of at most 2.5:
+            // 8e-7.
             if a.distance(b) < size || normal.length() < 0.1 * size * size {
                 continue;
             }

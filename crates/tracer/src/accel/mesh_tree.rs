@@ -59,7 +59,8 @@ impl<'a> MeshTree<'a> {
         }
     }
 
-    /// Visits every crossing at `0 < t` of the mesh without a tree: the reference for tests of traversals.
+    /// Visits every crossing at `0 < t` of the mesh without a tree: the reference for tests of
+    /// traversals.
     pub fn visit_all(
         &self,
         mesh: &Mesh,

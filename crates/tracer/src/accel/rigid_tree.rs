@@ -15,7 +15,8 @@ use crate::scene::Mesh;
 
 /// Leaves of triangles side by side, and a tree over the leaves.
 pub(crate) struct RigidTree {
-    /// Tree over the leaves; dropped if the leaves of every object that shows the mesh are in the world tree.
+    /// Tree over the leaves; dropped if the leaves of every object that shows the mesh are in the
+    /// world tree.
     tree: Option<Tree>,
     leaves: Vec<Leaf>,
     pub ball: Ball,
@@ -104,8 +105,9 @@ impl RigidTree {
         Some(LeafRay { approach, edges })
     }
 
-    /// Visits the crossings at `0 < t <= limit`: roughly from near to far if `SORTED`, else in any order. `visit` takes
-    /// the triangle's index in the mesh and returns the new limit; one below 0 ends the traversal.
+    /// Visits the crossings at `0 < t <= limit`: roughly from near to far if `SORTED`, else in any
+    /// order. `visit` takes the triangle's index in the mesh and returns the new limit; one below 0
+    /// ends the traversal.
     #[inline(always)]
     pub fn traverse<L: Lanes, const SORTED: bool>(
         &self,

@@ -22,8 +22,8 @@ const FEW_MOVERS: usize = 24;
 
 /// The meshes of a scene, and the world tree above them.
 ///
-/// Still objects are in the world tree, leaf by leaf. Per slice of the shutter interval, a small tree has the topmost nodes
-/// of that tree and the boxes that moving objects sweep.
+/// Still objects are in the world tree, leaf by leaf. Per slice of the shutter interval, a small
+/// tree has the topmost nodes of that tree and the boxes that moving objects sweep.
 pub(crate) struct SceneTree<'a> {
     scene: &'a Scene,
     /// Trees per mesh of the scene; none if no object shows it.
@@ -62,8 +62,8 @@ impl LastLeafRay {
 }
 
 impl<'a> SceneTree<'a> {
-    /// Builds all trees for rays at times in `[from, to]`, the interval of `poses`. Refuses objects with coordinates above
-    /// [`LARGEST_COORDINATE`].
+    /// Builds all trees for rays at times in `[from, to]`, the interval of `poses`. Refuses objects
+    /// with coordinates above [`LARGEST_COORDINATE`].
     pub fn build(
         scene: &'a Scene,
         poses: &mut Poses,
@@ -117,7 +117,8 @@ impl<'a> SceneTree<'a> {
         })
     }
 
-    /// Finds the nearest surface at `t > 0`; among equally near ones, that of the lowest object, then triangle.
+    /// Finds the nearest surface at `t > 0`; among equally near ones, that of the lowest object,
+    /// then triangle.
     #[inline(always)]
     pub fn closest<L: Lanes>(
         &self,
@@ -130,8 +131,9 @@ impl<'a> SceneTree<'a> {
         self.closest_of(lanes, poses, ray, sight, all)
     }
 
-    /// Finds the nearest surface behind a hit of the same ray, in the order of [`SceneTree::closest`]. Triangles of one object
-    /// that meet at the hit are one surface: a ray through their common edge passes it once.
+    /// Finds the nearest surface behind a hit of the same ray, in the order of
+    /// [`SceneTree::closest`]. Triangles of one object that meet at the hit are one surface: a ray
+    /// through their common edge passes it once.
     #[inline(always)]
     pub fn closest_behind<L: Lanes>(
         &self,
@@ -148,7 +150,8 @@ impl<'a> SceneTree<'a> {
         self.closest_of(lanes, poses, ray, Sight::Everything, behind)
     }
 
-    /// Finds a surface at the place of a hit of the same ray, of those that `is_other` names by object and triangle.
+    /// Finds a surface at the place of a hit of the same ray, of those that `is_other` names by
+    /// object and triangle.
     pub fn coincident<L: Lanes>(
         &self,
         lanes: L,
@@ -254,8 +257,9 @@ impl<'a> SceneTree<'a> {
         self.movers.len() <= FEW_MOVERS
     }
 
-    /// Visits the crossings at `0 < t <= limit`: roughly from near to far if `SORTED`, else in any order. `visit` takes
-    /// the object and the triangle and returns the new limit; one below 0 ends the traversal.
+    /// Visits the crossings at `0 < t <= limit`: roughly from near to far if `SORTED`, else in any
+    /// order. `visit` takes the object and the triangle and returns the new limit; one below 0 ends
+    /// the traversal.
     #[inline(always)]
     fn traverse<L: Lanes, const SORTED: bool>(
         &self,
@@ -369,7 +373,8 @@ impl<'a> SceneTree<'a> {
     }
 }
 
-/// Refuses objects with too large coordinates: of their swept boxes, or of their meshes in their own space.
+/// Refuses objects with too large coordinates: of their swept boxes, or of their meshes in their
+/// own space.
 fn check_coordinates(scene: &Scene, slices: &[Vec<Aabb>]) -> Result<(), TraceError> {
     let own: Vec<f64> = (scene.meshes.iter())
         .map(|mesh| {

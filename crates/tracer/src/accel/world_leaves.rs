@@ -6,16 +6,18 @@ use crate::geometry::aabb::Aabb;
 use crate::motion::poses::Poses;
 use crate::scene::Scene;
 
-/// Upper limit on instanced leaves that are copied into the world tree, those of up to 2 million triangles.
+/// Upper limit on instanced leaves that are copied into the world tree, those of up to 2 million
+/// triangles.
 const MAX_COPIES: usize = 1 << 18;
-/// Least mean size of an object's leaves, as a part of the scene's greatest coordinate. A ray's boxes are grown by 2e-6 of
-/// that coordinate, so by a fifth of a leaf at most.
+/// Least mean size of an object's leaves, as a part of the scene's greatest coordinate. A ray's
+/// boxes are grown by 2e-6 of that coordinate, so by a fifth of a leaf at most.
 const MIN_LEAF_SIZE: f64 = 2e-5;
 
 /// Collects, per object with leaves in the world tree, their boxes in the world.
 ///
-/// Rays then need no tree of the object's own, and enter its space only at a leaf. Only still objects qualify. Objects that
-/// share a mesh share its triangles; only the nodes above them are copied.
+/// Rays then need no tree of the object's own, and enter its space only at a leaf. Only still
+/// objects qualify. Objects that share a mesh share its triangles; only the nodes above them are
+/// copied.
 pub(crate) fn collect_world_leaves(
     scene: &Scene,
     meshes: &[Option<MeshTree>],
@@ -124,7 +126,8 @@ mod tests {
 
     #[test]
     fn fine_meshes_in_a_wide_scene_stay_out() {
-        // Leaves of fans of 8 triangles in all are as large as the fan, those of thousands a hundred times smaller.
+        // Leaves of fans of 8 triangles in all are as large as the fan, those of thousands a
+        // hundred times smaller.
         let meshes = || vec![fan(8), fan(8000)];
         let objects = || vec![still(0), still(1)];
         assert_eq!(in_world_tree(meshes(), objects(), 1.0), [true, true]);

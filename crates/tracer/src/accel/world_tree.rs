@@ -15,8 +15,8 @@ const LEAF_RULES: LeafRules = LeafRules {
     item_cost: 0.0,
 };
 
-/// A tree over the leaves of still objects. Per slice of the shutter interval, there is a small tree above it, over its
-/// topmost nodes and the boxes that all other objects sweep.
+/// A tree over the leaves of still objects. Per slice of the shutter interval, there is a small
+/// tree above it, over its topmost nodes and the boxes that all other objects sweep.
 pub(crate) struct WorldTree {
     pub tree: Tree,
     slices: Slices,
@@ -80,8 +80,8 @@ impl Numbers {
 }
 
 impl WorldTree {
-    /// Builds the tree. `leaves` has the boxes of each object's leaves if they are in the world tree. `swept`
-    /// has the boxes that the objects sweep in each slice.
+    /// Builds the tree. `leaves` has the boxes of each object's leaves if they are in the world
+    /// tree. `swept` has the boxes that the objects sweep in each slice.
     pub fn build(leaves: &[Option<Vec<Aabb>>], slices: Slices, swept: &[Vec<Aabb>]) -> Self {
         let numbers = Numbers::new(leaves.len());
         let mut boxes = Vec::new();
@@ -206,7 +206,8 @@ mod tests {
 
     #[test]
     fn what_moves_is_met_among_what_stands_still() {
-        // A hundred leaves in a row; the second object passes from before them over their middle to behind them.
+        // A hundred leaves in a row; the second object passes from before them over their middle to
+        // behind them.
         let leaves = (0..100).map(|x| cube(f64::from(x))).collect();
         let swept = [-10.0, 49.5, 49.5, 200.0].map(|x| vec![Aabb::EMPTY, cube(x)]);
         let slices = Slices::new([0.0, 4.0], 4.0);
@@ -231,7 +232,8 @@ mod tests {
             let tree = WorldTree::build(&[Some(leaves.clone()), None], slices, &swept).tree;
             tree.nodes.len()
         };
-        // Over a thousand leaves there are at least 143 nodes; above 16 of them and one object, at most 17.
+        // Over a thousand leaves there are at least 143 nodes; above 16 of them and one object, at
+        // most 17.
         assert!(nodes(8) < 2 * nodes(1), "{} and {}", nodes(8), nodes(1));
     }
 }

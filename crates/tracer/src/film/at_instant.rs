@@ -13,16 +13,19 @@ use crate::path::stops::Stop;
 use crate::sampler::Sampler;
 use crate::stage::Stage;
 
-/// Rounding of a projected place, in pixels; points at the picture's very border still count as inside.
+/// Rounding of a projected place, in pixels; points at the picture's very border still count as
+/// inside.
 const ROUNDING: f64 = 1e-9;
 
 /// The camera of the instant, and the picture that it takes.
 pub(crate) struct InstantView {
     view: View,
     canvas: Canvas,
-    /// True if the camera stands still. A still point that it sees at one time is then hidden at another only by a mover.
+    /// True if the camera stands still. A still point that it sees at one time is then hidden at
+    /// another only by a mover.
     camera_stands_still: bool,
-    /// True if nothing changes in the world and all surfaces are diffuse: shading is then the same at all times.
+    /// True if nothing changes in the world and all surfaces are diffuse: shading is then the same
+    /// at all times.
     unchanging: bool,
 }
 
@@ -80,10 +83,11 @@ impl InstantView {
         }
     }
 
-    /// Looks back at the point that `ray` meets at the time of `poses`; `then` are the poses of the instant.
+    /// Looks back at the point that `ray` meets at the time of `poses`; `then` are the poses of the
+    /// instant.
     ///
-    /// The camera of the instant looks from the same point of its lens: places, hidden points and shading then show motion
-    /// alone, and nothing differs if nothing moves.
+    /// The camera of the instant looks from the same point of its lens: places, hidden points and
+    /// shading then show motion alone, and nothing differs if nothing moves.
     pub fn look_back(
         &self,
         stage: &Stage,
@@ -105,8 +109,8 @@ impl InstantView {
         let way = point - eye;
         let is_still = self.sees_still(stage, Some(hit));
         let same_side = is_still || side(then, 0.0, way) == side(poses, hit.time, ray.direction);
-        // If the camera saw the other side then, this ray meets the side that is seen now, in the same direction as now
-        // in the object's own space.
+        // If the camera saw the other side then, this ray meets the side that is seen now, in the
+        // same direction as now in the object's own space.
         let direction = if same_side {
             way.normalize()
         } else {
@@ -135,7 +139,8 @@ impl InstantView {
         }
     }
 
-    /// Returns true if neither the camera nor what a ray met ever moves. The same ray meets it at all times, unless a mover is before it.
+    /// Returns true if neither the camera nor what a ray met ever moves. The same ray meets it at
+    /// all times, unless a mover is before it.
     pub fn sees_still(&self, stage: &Stage, hit: Option<&Hit>) -> bool {
         self.camera_stands_still && hit.is_none_or(|hit| stage.object_stands_still(hit.object))
     }
@@ -177,8 +182,9 @@ impl InstantView {
         self.view.project_through(target, *from)
     }
 
-    /// Shades a sample's point at the instant; returns the radiance then minus the radiance of the sample's own path from
-    /// `stop`, which scattered `bounces` times. `then` are the poses of the instant.
+    /// Shades a sample's point at the instant; returns the radiance then minus the radiance of the
+    /// sample's own path from `stop`, which scattered `bounces` times. `then` are the poses of the
+    /// instant.
     pub fn shift(
         &self,
         integrator: &Integrator,
@@ -202,7 +208,8 @@ impl InstantView {
         place.cmpge(DVec2::splat(-ROUNDING)).all() && place.cmplt(size + ROUNDING).all()
     }
 
-    /// Returns true if anything is between the eye and the point. The ray leaves the surface as shadow rays do.
+    /// Returns true if anything is between the eye and the point. The ray leaves the surface as
+    /// shadow rays do.
     fn is_hidden(
         &self,
         stage: &Stage,
@@ -224,7 +231,8 @@ impl InstantView {
     }
 }
 
-/// Returns true if anything is between the eye and a point that some sample saw; `is_still` says that only a mover can be.
+/// Returns true if anything is between the eye and a point that some sample saw; `is_still` says
+/// that only a mover can be.
 fn is_blocked(stage: &Stage, then: &mut Poses, ray: &Ray, limit: f64, is_still: bool) -> bool {
     if is_still {
         stage.is_blocked_by_mover(then, ray, limit)
@@ -241,14 +249,16 @@ fn find_point(stage: &Stage, then: &mut Poses, hit: &Hit) -> DVec3 {
 }
 
 impl InstantSums {
-    /// Adds a sample that was looked up at the instant: the share of it that the frame does not show, and the change of its radiance.
+    /// Adds a sample that was looked up at the instant: the share of it that the frame does not
+    /// show, and the change of its radiance.
     pub fn add_recalled(&mut self, unknowable: f64, shift: Vec3) {
         self.recalled += 1;
         self.unknowable += unknowable;
         self.shift += shift.as_dvec3();
     }
 
-    /// Adds the place of a point that a sample saw, with its share of the sample, to the pixel with this centre.
+    /// Adds the place of a point that a sample saw, with its share of the sample, to the pixel with
+    /// this centre.
     pub fn add_place(&mut self, place: DVec2, share: f64, centre: [f64; 2]) {
         let offset = place - DVec2::from(centre);
         self.placed += share;
@@ -258,8 +268,9 @@ impl InstantSums {
 
     /// The means over the pixel's samples, of which there are `samples`.
     ///
-    /// Most samples shift little or not at all, so that a part of them suffices. If few shift much, radiance and shift may sum to less than
-    /// 0; they must not be clamped, or their mean would be too high.
+    /// Most samples shift little or not at all, so that a part of them suffices. If few shift much,
+    /// radiance and shift may sum to less than 0; they must not be clamped, or their mean would be
+    /// too high.
     pub fn means(&self, samples: u32) -> InstantMeans {
         let samples = f64::from(samples);
         // Without any, their sums are 0.

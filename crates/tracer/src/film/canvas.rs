@@ -4,8 +4,8 @@ use frame::Tile;
 
 use crate::pixel_grid::PixelGrid;
 
-/// The size of a picture and of its guard band, which only frames have. Positions count from the picture's top left corner:
-/// in the band they are negative or beyond the size.
+/// The size of a picture and of its guard band, which only frames have. Positions count from the
+/// picture's top left corner: in the band they are negative or beyond the size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Canvas {
     /// Pixels per row of the picture.
@@ -79,8 +79,8 @@ impl Canvas {
         [0, 1].map(|axis| self.step[axis] * (corner[axis] + within[axis] + self.offset[axis]))
     }
 
-    /// The number that seeds a pixel. Inside the picture it does not depend on the guard band, and so neither do the random
-    /// numbers.
+    /// The number that seeds a pixel. Inside the picture it does not depend on the guard band, and
+    /// so neither do the random numbers.
     pub fn seed_number(&self, pixel: u32) -> u32 {
         if self.is_in_picture(pixel) {
             let [column, row] = self.corner(pixel).map(|place| place as u32);

@@ -2,7 +2,8 @@
 
 use frame::Raster;
 
-/// Marks every pixel within `margin` columns and rows of a marked one. The square contains the disc of that radius.
+/// Marks every pixel within `margin` columns and rows of a marked one. The square contains the disc
+/// of that radius.
 pub(crate) fn dilate_square(mask: &Raster<bool>, margin: u32) -> Raster<bool> {
     let within = |at: u32, end: u32| at.saturating_sub(margin)..(at + margin + 1).min(end);
     let across = Raster::from_fn(mask.width, mask.height, |x, y| {

@@ -10,9 +10,11 @@ use crate::film::at_instant::InstantMeans;
 #[derive(Clone, Debug)]
 pub(crate) struct Estimate {
     pub radiance: DVec3,
-    /// Share of the samples that met a surface and then scattered, per bounce: the mean number of bounces.
+    /// Share of the samples that met a surface and then scattered, per bounce: the mean number of
+    /// bounces.
     pub bounces: f64,
-    /// Samples that saw each object, by id; a sample that sees through translucent surfaces is shared out.
+    /// Samples that saw each object, by id; a sample that sees through translucent surfaces is
+    /// shared out.
     pub seen: Vec<f64>,
     /// Means at the instant, if the film has a view of it.
     pub at_instant: Option<InstantMeans>,

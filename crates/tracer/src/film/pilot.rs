@@ -14,15 +14,16 @@ use crate::progress::{Meter, Progress, Watch};
 pub(crate) const PILOT_SAMPLES: u32 = 2;
 /// Replicates of a pilot: the fewest whose difference shows the noise.
 pub(crate) const PILOT_REPLICATES: u32 = 2;
-/// Side of the tiles that share a number of samples, pixels. Their pixels' noise is averaged, because one pixel's is
-/// hardly known.
+/// Side of the tiles that share a number of samples, pixels. Their pixels' noise is averaged,
+/// because one pixel's is hardly known.
 const TILE: u32 = 4;
-/// Weight of squared errors where nothing moves. Scores of motion blur are pooled over moving pixels.
+/// Weight of squared errors where nothing moves. Scores of motion blur are pooled over moving
+/// pixels.
 const WEIGHT_OF_STILL: f64 = 0.2;
 /// Radiance below which a display shows all as dark.
 const DARK: f64 = 0.005;
-/// Weight of the variance of coverage against that of three times the cube root of radiance. Scores of labels see the edge of a
-/// mover that has the colour of its surroundings.
+/// Weight of the variance of coverage against that of three times the cube root of radiance. Scores
+/// of labels see the edge of a mover that has the colour of its surroundings.
 const WEIGHT_OF_COVERAGE: f64 = 0.25;
 /// Cost of a sample without bounces, in bounces.
 const COST_OF_A_MISS: f64 = 0.25;
@@ -42,7 +43,8 @@ struct TilePilot {
     moves: bool,
 }
 
-/// The column and the row of a pixel's tile. A pixel of the guard band has the nearest tile of the picture.
+/// The column and the row of a pixel's tile. A pixel of the guard band has the nearest tile of the
+/// picture.
 fn find_tile(canvas: Canvas, pixel: u32) -> [u32; 2] {
     let [x, y] = canvas.corner(pixel).map(|at| at.max(0.0) as u32);
     [
@@ -51,11 +53,13 @@ fn find_tile(canvas: Canvas, pixel: u32) -> [u32; 2] {
     ]
 }
 
-/// Chooses the samples of every pixel of a film, with at most `mean` on the average over its picture.
+/// Chooses the samples of every pixel of a film, with at most `mean` on the average over its
+/// picture.
 ///
-/// The mean square error over the picture is least if the samples of a pixel are in proportion to its noise, over the root
-/// of a sample's cost (Neyman 1934). The pilot's samples are its own and go into no picture, so the choice does not bias
-/// any. Errors where something moves, or within `margin` pixels, count more; `moving` says so per object id.
+/// The mean square error over the picture is least if the samples of a pixel are in proportion to
+/// its noise, over the root of a sample's cost (Neyman 1934). The pilot's samples are its own and
+/// go into no picture, so the choice does not bias any. Errors where something moves, or within
+/// `margin` pixels, count more; `moving` says so per object id.
 pub(crate) fn choose_samples(
     pilot: &Film,
     moving: &[bool],
@@ -110,8 +114,8 @@ pub(crate) fn choose_samples(
     Ok(SampleCounts::share(pilot.canvas, &demand, mean))
 }
 
-/// Raises each tile to the mean of itself and its neighbours. So a tile in which the pilot met nothing by chance gets its
-/// share if it is next to a noisy one, or in an evenly noisy region.
+/// Raises each tile to the mean of itself and its neighbours. So a tile in which the pilot met
+/// nothing by chance gets its share if it is next to a noisy one, or in an evenly noisy region.
 fn widen(variance: &Raster<f64>) -> Raster<f64> {
     let around = |at: u32, end: u32| at.saturating_sub(1)..(at + 2).min(end);
     Raster::from_fn(variance.width, variance.height, |x, y| {

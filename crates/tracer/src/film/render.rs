@@ -21,8 +21,8 @@ use crate::stage::Stage;
 
 /// Pixels that a thread takes at a time; between two tasks it reports progress.
 const PIXELS_PER_TASK: usize = 64;
-/// One sample of a recalled pixel in so many is shaded at the instant, too, but at least one. One in eight would make the noise
-/// floor of frozen shading 2.5 times as high.
+/// One sample of a recalled pixel in so many is shaded at the instant, too, but at least one. One
+/// in eight would make the noise floor of frozen shading 2.5 times as high.
 const ONE_RECALLED_IN: u32 = 4;
 
 /// Times of the samples of a picture.
@@ -42,11 +42,13 @@ pub(crate) struct Film<'a> {
     pub canvas: Canvas,
     /// Places of the samples: spread evenly over the pixel's area, or its centre.
     pub color: ColorSampling,
-    /// Times of each picture that is rendered; a sample at a time of several pictures is traced once.
+    /// Times of each picture that is rendered; a sample at a time of several pictures is traced
+    /// once.
     pub times: &'a [Times<'a>],
     /// View of the instant, if samples are looked up there; the stage must then hold `t = 0`.
     pub instant: Option<InstantView>,
-    /// Per picture, the pixels whose first samples are shaded at the instant, too; without a picture's, none of its are.
+    /// Per picture, the pixels whose first samples are shaded at the instant, too; without a
+    /// picture's, none of its are.
     pub recalled: &'a [&'a Raster<bool>],
     /// Independent, complete sets of samples, by the numbers that seed them.
     pub replicates: Range<u32>,
@@ -67,7 +69,8 @@ impl Times<'_> {
     }
 }
 
-/// Computes a result for each of the listed pixels, in their order, on all threads. `work` is the progress that some pixels make.
+/// Computes a result for each of the listed pixels, in their order, on all threads. `work` is the
+/// progress that some pixels make.
 pub(crate) fn for_each_pixel<T: Send>(
     place: (&Stage, Canvas),
     pixels: &[u32],
@@ -83,7 +86,8 @@ pub(crate) fn for_each_pixel<T: Send>(
     Ok(all)
 }
 
-/// Adds each of the listed pixels to a part of the result, on all threads; returns the parts in the order of the pixels.
+/// Adds each of the listed pixels to a part of the result, on all threads; returns the parts in the
+/// order of the pixels.
 fn fill_parts<P: Default + Send>(
     (stage, canvas): (&Stage, Canvas),
     pixels: &[u32],
@@ -117,7 +121,8 @@ impl<'a> Film<'a> {
         each * self.samples.sum(pixels)
     }
 
-    /// Renders the listed pixels (indices in row-major order): for every replicate the means of each picture.
+    /// Renders the listed pixels (indices in row-major order): for every replicate the means of
+    /// each picture.
     pub fn render(&self, pixels: &[u32], meter: &Meter) -> Result<Vec<Vec<Means>>, TraceError> {
         let place = (self.integrator.stage, self.canvas);
         let work = |task: &[u32]| self.work(task);
@@ -140,7 +145,8 @@ impl<'a> Film<'a> {
             .collect())
     }
 
-    /// Renders the listed pixels and turns the estimates of each into a result: for every replicate one of each picture.
+    /// Renders the listed pixels and turns the estimates of each into a result: for every replicate
+    /// one of each picture.
     pub fn summarise<T: Send>(
         &self,
         pixels: &[u32],

@@ -20,11 +20,12 @@ pub(crate) enum SampleCounts {
 }
 
 impl SampleCounts {
-    /// Shares out samples in proportion to `demand`, per pixel of the canvas, as nearly as powers of two can, with at most
-    /// `mean` on the average over the picture. The guard band gets what its demand would get in the picture.
+    /// Shares out samples in proportion to `demand`, per pixel of the canvas, as nearly as powers
+    /// of two can, with at most `mean` on the average over the picture. The guard band gets what
+    /// its demand would get in the picture.
     ///
-    /// No pixel gets less than an eighth of the mean, so that what a pilot missed is not missed again, and none more than
-    /// eight times the mean.
+    /// No pixel gets less than an eighth of the mean, so that what a pilot missed is not missed
+    /// again, and none more than eight times the mean.
     pub fn share(canvas: Canvas, demand: &[f64], mean: u32) -> Self {
         let picture: Vec<u32> = (canvas.pixels().into_iter())
             .filter(|&pixel| canvas.is_in_picture(pixel))
@@ -43,7 +44,8 @@ impl SampleCounts {
                 .sum();
             sum <= budget
         };
-        // At the lower end all counts are the least, which fit. Scales are compared by their logarithms.
+        // At the lower end all counts are the least, which fit. Scales are compared by their
+        // logarithms.
         let mut exponents = [-60.0, 60.0].map(|end| end - f64::log2(largest));
         for _ in 0..SEARCH_STEPS {
             let middle = 0.5 * (exponents[0] + exponents[1]);

@@ -58,15 +58,16 @@ impl ShutterSampler {
 
     /// The time of a sample, in frames, from a number in [0, 1).
     ///
-    /// The numbers rise with time, with a period of one exposure, and are 0 where a trailing shutter opens. So two
-    /// alignments of one exposure without ramps have equal times wherever they overlap, bit for bit, and share their
-    /// samples there. Every alignment has each part of its interval once, and is stratified as well as any other.
+    /// The numbers rise with time, with a period of one exposure, and are 0 where a trailing
+    /// shutter opens. So two alignments of one exposure without ramps have equal times wherever
+    /// they overlap, bit for bit, and share their samples there. Every alignment has each part of
+    /// its interval once, and is stratified as well as any other.
     pub fn sample_time(&self, number: f64, row: u32, height: u32) -> f64 {
         self.time(self.sample_part(number), row, height)
     }
 
-    /// The time of that sample's sub-frame: the middle of the one of `subframes` equal parts of the light that has
-    /// [`ShutterSampler::sample_time`].
+    /// The time of that sample's sub-frame: the middle of the one of `subframes` equal parts of the
+    /// light that has [`ShutterSampler::sample_time`].
     pub fn subframe_time(&self, number: f64, subframes: u32, row: u32, height: u32) -> f64 {
         let subframes = f64::from(subframes);
         let index = (self.sample_part(number) * subframes).floor();
@@ -101,7 +102,8 @@ impl ShutterSampler {
             let since = rest / first.max(f64::MIN_POSITIVE);
             return piece.start + since.min(piece.length);
         }
-        // first s + (last - first) s^2 / (2 length) = rest, in the form that loses no digits where the slope is small.
+        // first s + (last - first) s^2 / (2 length) = rest, in the form that loses no digits where
+        // the slope is small.
         let root = (first * first + 2.0 * rest * (last - first) / piece.length).max(0.0);
         let since = 2.0 * rest / (first + root.sqrt()).max(f64::MIN_POSITIVE);
         piece.start + since.min(piece.length)

@@ -13,11 +13,13 @@ use crate::path::stops::visit_layers;
 use crate::progress::Meter;
 use crate::sampler::{Sampler, Stream, pixel_seed};
 
-/// Rays per pixel, a power of two. Parts that cover less of a pixel than one ray represents may be missed.
+/// Rays per pixel, a power of two. Parts that cover less of a pixel than one ray represents may be
+/// missed.
 const SAMPLES: u32 = 64;
 /// Rays per pixel if they and those of all eight neighbours met the same.
 const FIRST_SAMPLES: u32 = 16;
-/// Factor on both for a camera with a lens, which spreads what is seen over more pixels and covers less of each.
+/// Factor on both for a camera with a lens, which spreads what is seen over more pixels and covers
+/// less of each.
 const LENS_FACTOR: u32 = 4;
 /// Seed, the same for all renders, so that regions do not depend on the seed of a truth.
 const SEED: u64 = 0;
@@ -44,8 +46,9 @@ struct PixelProbe {
     is_mixed: bool,
 }
 
-/// Probes the scene over the canvas and each of the times of `film`, which must have a view of the instant; nothing else of
-/// it is used. `moving` says per time and object id whether the object moves on screen.
+/// Probes the scene over the canvas and each of the times of `film`, which must have a view of the
+/// instant; nothing else of it is used. `moving` says per time and object id whether the object
+/// moves on screen.
 pub(crate) fn trace_supports(
     film: &Film,
     moving: &[&[bool]],
@@ -89,7 +92,8 @@ pub(crate) fn trace_supports(
         .collect())
 }
 
-/// Adds samples to the probes that `before` returns, in each of the pixels at those of the film's times that `is_probed` names.
+/// Adds samples to the probes that `before` returns, in each of the pixels at those of the film's
+/// times that `is_probed` names.
 fn probe_pixels(
     film: &Film,
     pixels: &[u32],
@@ -115,8 +119,8 @@ fn probe_pixels(
     })
 }
 
-/// Returns true if a pixel's rays, and its neighbours' rays, all found the same at one of the times, either all of it knowable or none
-/// of it.
+/// Returns true if a pixel's rays, and its neighbours' rays, all found the same at one of the
+/// times, either all of it knowable or none of it.
 fn is_plain(canvas: Canvas, probes: &[Vec<PixelProbe>], pixel: u32, number: usize) -> bool {
     let columns = canvas.columns();
     let around = |at: u32, end: u32| at.saturating_sub(1)..(at + 2).min(end);
@@ -200,7 +204,8 @@ fn probe_once(
 }
 
 impl PixelProbe {
-    /// Marks the objects that one ray met, each with true if the instant hides the point that the ray saw.
+    /// Marks the objects that one ray met, each with true if the instant hides the point that the
+    /// ray saw.
     fn mark(&mut self, found: &[(usize, bool)]) {
         if let [(object, is_hidden)] = found
             && self.known == 1

@@ -47,7 +47,8 @@ impl Aabb {
         }
     }
 
-    /// Returns true if a ray certainly misses the inside of the box. `inverse` is 1 over its direction.
+    /// Returns true if a ray certainly misses the inside of the box. `inverse` is 1 over its
+    /// direction.
     #[inline(always)]
     pub fn is_missed(&self, ray: &Ray, inverse: DVec3) -> bool {
         let [one, other] = [self.min, self.max].map(|corner| (corner - ray.origin) * inverse);

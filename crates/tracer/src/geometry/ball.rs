@@ -7,10 +7,11 @@ use crate::geometry::triangle::{Crossing, cross};
 
 /// Room for rounding.
 const SLACK: f64 = 1.0 + 1e-6;
-/// Radii from the centre within which a ray keeps its origin, because it has the mesh's own magnitude there.
+/// Radii from the centre within which a ray keeps its origin, because it has the mesh's own
+/// magnitude there.
 const NEAR: f64 = 8.0;
-/// Radii from the centre beyond which the early test gives no answer. There squared distances are rounded by a hundredth of
-/// the slack.
+/// Radii from the centre beyond which the early test gives no answer. There squared distances are
+/// rounded by a hundredth of the slack.
 const FAR: f64 = 1e4;
 
 /// A ball around a mesh.
@@ -46,7 +47,8 @@ impl Ball {
         }
     }
 
-    /// Returns true if a ray certainly misses the ball. From very far away rounding makes that uncertain.
+    /// Returns true if a ray certainly misses the ball. From very far away rounding makes that
+    /// uncertain.
     #[inline(always)]
     pub fn is_missed(&self, ray: &Ray) -> bool {
         let way = self.centre - ray.origin;
@@ -59,8 +61,8 @@ impl Ball {
             && (along <= 0.0 || aside_squared > self.radius_squared * squared)
     }
 
-    /// Moves a ray up to the ball; none if the ray misses it. A flat mesh may touch its ball at the border only, so the
-    /// ball is grown by rounding, never shrunk.
+    /// Moves a ray up to the ball; none if the ray misses it. A flat mesh may touch its ball at the
+    /// border only, so the ball is grown by rounding, never shrunk.
     #[inline(always)]
     pub fn approach(&self, ray: &Ray) -> Option<Approach> {
         let way = self.centre - ray.origin;

@@ -2,11 +2,12 @@
 
 use glam::{DAffine3, DVec3};
 
-/// Offset of secondary rays from their surface, as a part of the greatest coordinate. Positions are exact to about 1e-14 of
-/// it.
+/// Offset of secondary rays from their surface, as a part of the greatest coordinate. Positions are
+/// exact to about 1e-14 of it.
 pub(crate) const LIFT: f64 = 1e-9;
 
-/// Relative difference of distances below which two surfaces are in one place: rounding of their positions to 32 bits.
+/// Relative difference of distances below which two surfaces are in one place: rounding of their
+/// positions to 32 bits.
 pub(crate) const IN_ONE_PLACE: f64 = 1e-6;
 
 /// The points `origin + t * direction` for `t > 0`.
@@ -14,8 +15,8 @@ pub(crate) const IN_ONE_PLACE: f64 = 1e-6;
 pub struct Ray {
     /// Metres.
     pub origin: DVec3,
-    /// Unit in the world. In an object's space it keeps the length that the transform gives it, so that `t` means the same
-    /// in both.
+    /// Unit in the world. In an object's space it keeps the length that the transform gives it, so
+    /// that `t` means the same in both.
     pub direction: DVec3,
 }
 

@@ -15,20 +15,22 @@ pub(crate) struct Crossing {
     pub v: f64,
 }
 
-/// Rounding of a weight, as a part of the squared greatest length times the direction's: each of a few dozen
-/// operations errs by 1.1e-16 of at most that.
+/// Rounding of a weight, as a part of the squared greatest length times the direction's: each of a
+/// few dozen operations errs by 1.1e-16 of at most that.
 const ROUNDING: f64 = 1e-14;
 
-/// Part of the greatest length by which a crossing may be behind the origin. Rounding is a thousandth of it.
+/// Part of the greatest length by which a crossing may be behind the origin. Rounding is a
+/// thousandth of it.
 const BEHIND: f64 = 1e-12;
 
-/// Crosses a triangle from either side; its border belongs to it. None if the crossing is behind the ray by more than
-/// rounding.
+/// Crosses a triangle from either side; its border belongs to it. None if the crossing is behind
+/// the ray by more than rounding.
 ///
-/// Edge functions in `f64` (Woop, Benthin and Wald 2013 discuss the sheared form). Two triangles that share an edge
-/// compute its function from the same vertices with exactly the opposite sign, so at least one of them accepts. Around a
-/// vertex that is not enough: rounding could make every triangle there refuse the ray. A sign in doubt is therefore
-/// decided exactly, for one and the same line (Shewchuk 1997, adaptive predicates).
+/// Edge functions in `f64` (Woop, Benthin and Wald 2013 discuss the sheared form). Two triangles
+/// that share an edge compute its function from the same vertices with exactly the opposite sign,
+/// so at least one of them accepts. Around a vertex that is not enough: rounding could make every
+/// triangle there refuse the ray. A sign in doubt is therefore decided exactly, for one and the
+/// same line (Shewchuk 1997, adaptive predicates).
 #[inline(always)]
 pub(crate) fn cross(ray: &Ray, corners: [DVec3; 3]) -> Option<Crossing> {
     let [a, b, c] = corners;

@@ -8,7 +8,8 @@ use crate::light::lights::LightSample;
 use crate::scene::EnvironmentMap;
 
 impl EnvironmentMap {
-    /// Radiance from a unit direction: bilinear, wrapped around the horizon and clamped at the poles.
+    /// Radiance from a unit direction: bilinear, wrapped around the horizon and clamped at the
+    /// poles.
     pub fn radiance(&self, direction: DVec3) -> Vec3 {
         let [x, y] = self.place(direction).map(|part| part - 0.5);
         let [left, top] = [x.floor(), y.floor()];
@@ -44,7 +45,8 @@ impl EnvironmentMap {
         row * self.width as usize + column
     }
 
-    /// The direction at an azimuth, as a part of the image's width, and a height above the horizon, as a sine.
+    /// The direction at an azimuth, as a part of the image's width, and a height above the horizon,
+    /// as a sine.
     fn direction(&self, across: f64, height: f64) -> DVec3 {
         let (sine, cosine) = (TAU * (across - 0.5)).sin_cos();
         let level = (1.0 - height * height).max(0.0).sqrt();
@@ -59,8 +61,8 @@ impl EnvironmentMap {
 
 /// Draws directions of an environment map roughly in proportion to its radiance.
 ///
-/// A texel is chosen by the mean of itself and its neighbours, so that every direction that interpolation makes bright can be
-/// sampled. Within a texel directions are sampled evenly.
+/// A texel is chosen by the mean of itself and its neighbours, so that every direction that
+/// interpolation makes bright can be sampled. Within a texel directions are sampled evenly.
 pub(crate) struct EnvironmentSampler {
     /// Probability per steradian of each texel.
     densities: Vec<f64>,
@@ -126,7 +128,8 @@ impl EnvironmentSampler {
         }
     }
 
-    /// The probability per steradian with which [`EnvironmentSampler::sample`] draws a unit direction.
+    /// The probability per steradian with which [`EnvironmentSampler::sample`] draws a unit
+    /// direction.
     pub fn density(&self, map: &EnvironmentMap, direction: DVec3) -> f64 {
         self.densities[map.cell(direction)]
     }

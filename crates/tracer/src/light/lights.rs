@@ -20,7 +20,8 @@ pub(crate) struct LightSample {
     pub density: f64,
 }
 
-/// Probability per steradian of a point sampled uniformly on an area, seen at a distance and a cosine.
+/// Probability per steradian of a point sampled uniformly on an area, seen at a distance and a
+/// cosine.
 pub(crate) fn density_per_steradian(area: f64, distance: f64, cosine: f64) -> f64 {
     distance * distance / (area * cosine.abs())
 }
@@ -85,8 +86,8 @@ impl Emitters {
         }
     }
 
-    /// Draws a point on an emitter from three numbers in [0, 1), as seen from `from`; none if the sampled triangle is seen
-    /// edge-on, or nothing emits.
+    /// Draws a point on an emitter from three numbers in [0, 1), as seen from `from`; none if the
+    /// sampled triangle is seen edge-on, or nothing emits.
     pub fn sample(
         &self,
         scene: &Scene,
@@ -136,8 +137,8 @@ impl Emitters {
 }
 
 impl Sun {
-    /// Draws a direction to the sun from two numbers in [0, 1). A point sun has a density of 1 and its irradiance as
-    /// radiance, since nothing else can draw it.
+    /// Draws a direction to the sun from two numbers in [0, 1). A point sun has a density of 1 and
+    /// its irradiance as radiance, since nothing else can draw it.
     pub(crate) fn sample(&self, [u, v]: [f64; 2]) -> LightSample {
         let direction = if self.angular_radius == 0.0 {
             self.direction

@@ -8,9 +8,9 @@ use crate::light::environment::EnvironmentSampler;
 use crate::light::lights::LightSample;
 use crate::scene::Background;
 
-/// Ratio of the brightest to the darkest level above which a sky is sampled as a light. A more even sky is left to the BRDFs,
-/// which sample it nearly in proportion to its radiance: another shadow ray per bounce would lower the noise by less than as
-/// many more samples.
+/// Ratio of the brightest to the darkest level above which a sky is sampled as a light. A more even
+/// sky is left to the BRDFs, which sample it nearly in proportion to its radiance: another shadow
+/// ray per bounce would lower the noise by less than as many more samples.
 const UNEVEN: f64 = 8.0;
 
 impl Background {
@@ -125,7 +125,8 @@ fn is_uneven([brightest, darkest]: [f64; 2]) -> bool {
     brightest > UNEVEN * darkest
 }
 
-/// Draws a height. Its density is linear on either side of the horizon; equal ranges of height have equal solid angles.
+/// Draws a height. Its density is linear on either side of the horizon; equal ranges of height have
+/// equal solid angles.
 fn sample_height([ground, horizon, zenith]: [f64; 3], u: f64) -> f64 {
     let [below, above] = [ground + horizon, horizon + zenith];
     let split = below / (below + above);
@@ -136,8 +137,8 @@ fn sample_height([ground, horizon, zenith]: [f64; 3], u: f64) -> f64 {
     }
 }
 
-/// Draws a place in [0, 1] from a number in [0, 1], with a density that is linear from `from` to `to` (Pharr, Jakob and
-/// Humphreys 2023, A.4.1).
+/// Draws a place in [0, 1] from a number in [0, 1], with a density that is linear from `from` to
+/// `to` (Pharr, Jakob and Humphreys 2023, A.4.1).
 fn sample_linear(from: f64, to: f64, u: f64) -> f64 {
     let slope = from + ((1.0 - u) * from * from + u * to * to).sqrt();
     if slope > 0.0 {

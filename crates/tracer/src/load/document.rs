@@ -97,7 +97,8 @@ impl Document {
         }
     }
 
-    /// Refuses `nan` and `inf`, which TOML allows, and numbers whose squares overflow 32-bit floats.
+    /// Refuses `nan` and `inf`, which TOML allows, and numbers whose squares overflow 32-bit
+    /// floats.
     fn check_number(
         &self,
         parsed: Option<f64>,
@@ -116,8 +117,8 @@ impl Document {
         check_visible(text).map_err(|reason| self.error(place, format!("the text {reason}")))
     }
 
-    /// Turns a parser's error into one about the file: keys, words and numbers instead of fields, variants and Rust
-    /// types.
+    /// Turns a parser's error into one about the file: keys, words and numbers instead of fields,
+    /// variants and Rust types.
     fn syntax_error(&self, error: &toml::de::Error) -> SceneError {
         let reason = error
             .message()

@@ -13,7 +13,8 @@ use crate::limits::{
     BRIGHTEST, LARGEST_IMAGE_FILE, MAX_ENVIRONMENT_TEXELS, MAX_ENVIRONMENT_VALUES,
 };
 
-/// Reads a map with strength 1 and rotation 0. The error is a reason alone: the caller knows the line that names the file.
+/// Reads a map with strength 1 and rotation 0. The error is a reason alone: the caller knows the
+/// line that names the file.
 pub(super) fn read_map(files: &mut Files, path: &Path) -> Result<EnvironmentMap, String> {
     let name = path.display();
     let format = match path.extension().and_then(|extension| extension.to_str()) {
@@ -79,7 +80,8 @@ fn read_exr_colors(bytes: &[u8], path: &Path) -> Result<Vec<[f32; 3]>, String> {
     Ok(color.pixels)
 }
 
-/// Limits all values of an EXR file: the decoder reads every channel and layer, and pixels outside the picture.
+/// Limits all values of an EXR file: the decoder reads every channel and layer, and pixels outside
+/// the picture.
 fn check_exr_values(bytes: &[u8]) -> Result<(), String> {
     let file = exr::block::read(Cursor::new(bytes), false)
         .map_err(|error| format!("cannot be decoded: {error}"))?;

@@ -6,7 +6,8 @@ use frame::is_hidden;
 
 use crate::limits::LARGEST_NUMBER;
 
-/// Error in a scene's files. It reads `path:line: reason`; the reason says what was found and what is allowed.
+/// Error in a scene's files. It reads `path:line: reason`; the reason says what was found and what
+/// is allowed.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "{path}:{line} {reason}",
@@ -89,8 +90,8 @@ pub(super) fn check_name(name: &str) -> Result<(), String> {
     ))
 }
 
-/// Refuses characters that terminals, logs and reports obey: they move the cursor, end a line, or turn the direction of
-/// writing. The error follows the name of the text.
+/// Refuses characters that terminals, logs and reports obey: they move the cursor, end a line, or
+/// turn the direction of writing. The error follows the name of the text.
 pub(super) fn check_visible(text: &str) -> Result<(), String> {
     match text.chars().find(|letter| is_hidden(*letter)) {
         None => Ok(()),

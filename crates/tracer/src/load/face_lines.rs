@@ -1,4 +1,5 @@
-//! Faces of an OBJ text that has been read, with their lines, for messages and comparisons of key shapes.
+//! Faces of an OBJ text that has been read, with their lines, for messages and comparisons of key
+//! shapes.
 
 use super::statements::{Statement, split_statements};
 

@@ -1,13 +1,14 @@
 //! Removal of faces that no ray needs, with a note to the user.
 //!
 //! - A face whose corners lie on a line has no area; no ray hits it.
-//! - If two faces have the same corners, attributes and material, every ray hits the first. The second would only count its light
-//!   twice.
+//! - If two faces have the same corners, attributes and material, every ray hits the first. The
+//!   second would only count its light twice.
 //!
-//! Faces with the same corners that differ otherwise stay. A ray is tested against each of them, so their number is limited.
+//! Faces with the same corners that differ otherwise stay. A ray is tested against each of them, so
+//! their number is limited.
 //!
-//! Faces without area get a note only if they are more than half: at the pole of a sphere, each square becomes one triangle and one
-//! such face.
+//! Faces without area get a note only if they are more than half: at the pole of a sphere, each
+//! square becomes one triangle and one such face.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -27,8 +28,8 @@ struct Removed {
     copies: usize,
 }
 
-/// Removes faces without area and copies of faces, and returns a note for each mesh with more of them than usual. Refuses
-/// meshes with too many faces in one place.
+/// Removes faces without area and copies of faces, and returns a note for each mesh with more of
+/// them than usual. Refuses meshes with too many faces in one place.
 pub(super) fn remove_redundant_faces(
     meshes: &mut [Mesh],
     objects: &[Object],
@@ -115,7 +116,8 @@ fn corners_of(mesh: &Mesh, face: u32) -> [Vec3; 3] {
     mesh.triangles[face as usize].map(|vertex| mesh.positions[vertex as usize])
 }
 
-/// Returns whether the corners lie on a line at all times. Exact: removing a face that is merely thin would leave a gap.
+/// Returns whether the corners lie on a line at all times. Exact: removing a face that is merely
+/// thin would leave a gap.
 fn has_no_area(mesh: &Mesh, face: u32, [a, b, c]: [[u32; 3]; 3]) -> bool {
     if a == b || b == c || c == a {
         return true;
@@ -131,8 +133,8 @@ fn has_no_area(mesh: &Mesh, face: u32, [a, b, c]: [[u32; 3]; 3]) -> bool {
         })
 }
 
-/// Returns whether two faces in one place have the same corners in the same order, and the same normals, texture coordinates
-/// and material.
+/// Returns whether two faces in one place have the same corners in the same order, and the same
+/// normals, texture coordinates and material.
 fn is_copy(mesh: &Mesh, face: u32, other: u32) -> bool {
     let [faces, others] = [face, other].map(|face| mesh.triangles[face as usize]);
     let same_corners = faces.iter().zip(&others).all(|(vertex, other)| {

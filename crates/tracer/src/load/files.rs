@@ -26,8 +26,8 @@ impl Files {
         }
     }
 
-    /// Reads a regular file of at most `limit` bytes. The error is a reason alone: the caller knows the line that names
-    /// the file.
+    /// Reads a regular file of at most `limit` bytes. The error is a reason alone: the caller knows
+    /// the line that names the file.
     pub(super) fn read(&mut self, path: &Path, limit: u64) -> Result<Vec<u8>, String> {
         let bytes = self.folder.at(path).read(limit).map_err(describe)?;
         // Relative to the scene, so that a copy of the folder elsewhere has the same hash.
@@ -85,7 +85,8 @@ pub(super) fn read_document(files: &mut Files, folder: &Path) -> Result<Document
     Ok(Document::new(&path, text))
 }
 
-/// Finds the name of a folder: the last part of its path, or of its full path if that ends in `.` or `..`.
+/// Finds the name of a folder: the last part of its path, or of its full path if that ends in `.`
+/// or `..`.
 pub(super) fn folder_name(folder: &Path) -> Result<String, SceneError> {
     let full = match folder.file_name() {
         Some(_) => folder.to_owned(),

@@ -32,9 +32,9 @@ impl From<Finish> for FinishValues {
 }
 
 impl FinishValues {
-    /// Builds the finish. Without a roughness it is diffuse, whatever the index: exporters write an index for every
-    /// material. `names` are the file's for roughness, metallic and index; the error has the number of the wrong
-    /// value among them, and says why.
+    /// Builds the finish. Without a roughness it is diffuse, whatever the index: exporters write an
+    /// index for every material. `names` are the file's for roughness, metallic and index; the
+    /// error has the number of the wrong value among them, and says why.
     pub fn build(self, names: [&str; 3]) -> Result<Finish, (usize, String)> {
         let refuse =
             |wrong: usize, reason: String| Err((wrong, format!("{} {reason}", names[wrong])));

@@ -21,11 +21,12 @@ pub(super) struct Slot {
     pub(super) textured: bool,
 }
 
-/// Builds the mesh of a whole file or one group, with the materials of its slots. Several files are the shapes of a deforming
-/// mesh at these times; materials and texture coordinates come from the first.
+/// Builds the mesh of a whole file or one group, with the materials of its slots. Several files are
+/// the shapes of a deforming mesh at these times; materials and texture coordinates come from the
+/// first.
 ///
-/// If some parts have normals, faces without get flat ones; if some have texture coordinates, faces without get (0, 0), which
-/// no texture reads.
+/// If some parts have normals, faces without get flat ones; if some have texture coordinates, faces
+/// without get (0, 0), which no texture reads.
 pub(super) fn build_mesh(
     files: &[(f64, &ObjFile)],
     group: Option<&str>,
@@ -82,7 +83,8 @@ struct Building {
 }
 
 impl Building {
-    /// Adds the faces of a part, by its index in every file. The first file decides how they are cut.
+    /// Adds the faces of a part, by its index in every file. The first file decides how they are
+    /// cut.
     fn add_part(
         &mut self,
         files: &[(f64, &ObjFile)],
@@ -162,8 +164,9 @@ impl Building {
     }
 }
 
-/// Numbers the corners of triangles, in the order in which they are first met. Corners that are one vertex in every file have one
-/// number: equal normals share an index, so that files of the same faces may differ in theirs. Flat triangles share no vertices.
+/// Numbers the corners of triangles, in the order in which they are first met. Corners that are one
+/// vertex in every file have one number: equal normals share an index, so that files of the same
+/// faces may differ in theirs. Flat triangles share no vertices.
 fn number_vertices(parts: &[Cow<Part>], corners: &[u32], is_flat: &[bool]) -> Vec<u32> {
     let mut numbers = vec![0; corners.len()];
     for part in parts {

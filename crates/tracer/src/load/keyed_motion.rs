@@ -76,7 +76,8 @@ pub(super) fn build_motion(
     Ok(motion)
 }
 
-/// Refuses times that do not rise, or so close that the speed between them has no meaning. `noun` is a key or a shape.
+/// Refuses times that do not rise, or so close that the speed between them has no meaning. `noun`
+/// is a key or a shape.
 pub(super) fn check_times(
     document: &Document,
     what: &str,
@@ -113,7 +114,8 @@ fn turn_between(
     })
 }
 
-/// Refuses scales that pass through 0, from a frame before the instant to a frame after it, and between all keys.
+/// Refuses scales that pass through 0, from a frame before the instant to a frame after it, and
+/// between all keys.
 fn check_scales(
     document: &Document,
     what: &str,

@@ -182,8 +182,8 @@ impl Libraries {
     }
 }
 
-/// Lists the files that a `mtllib` names. Names may have blanks: several files are taken only if one with the whole name cannot
-/// be read.
+/// Lists the files that a `mtllib` names. Names may have blanks: several files are taken only if
+/// one with the whole name cannot be read.
 fn library_names<'a>(files: &mut Files, obj: &Path, text: &'a str) -> Vec<&'a str> {
     let ends = text.match_indices(char::is_whitespace).map(|(end, _)| end);
     let is_end = |end: &usize| {

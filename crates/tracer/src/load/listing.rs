@@ -23,7 +23,8 @@ pub struct SceneListing {
     pub variants: Vec<String>,
 }
 
-/// Lists the scenes in `root` by name: every folder with a scene.toml. A folder without scenes is an error.
+/// Lists the scenes in `root` by name: every folder with a scene.toml. A folder without scenes is
+/// an error.
 pub fn list_scenes(root: impl Into<Location>) -> Result<Vec<SceneListing>, SceneError> {
     let root = root.into();
     let unreadable = |error| {
@@ -44,8 +45,8 @@ pub fn list_scenes(root: impl Into<Location>) -> Result<Vec<SceneListing>, Scene
     folders.iter().map(list_scene).collect()
 }
 
-/// Returns whether a folder has something named scene.toml. A folder that cannot be read is an error: skipped silently,
-/// its scene would be missing from every mean.
+/// Returns whether a folder has something named scene.toml. A folder that cannot be read is an
+/// error: skipped silently, its scene would be missing from every mean.
 fn holds_scene(location: &Location) -> Result<bool, SceneError> {
     let Some(folder) = location.on_disk() else {
         return Ok(location.join("scene.toml").is_file());

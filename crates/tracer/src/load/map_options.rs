@@ -5,7 +5,8 @@ use glam::Vec2;
 use super::statements::shorten;
 use crate::limits::LARGEST_NUMBER;
 
-/// Options with a fixed number of words after them, and the words that change nothing; none if no words change the texture.
+/// Options with a fixed number of words after them, and the words that change nothing; none if no
+/// words change the texture.
 const OPTIONS: [(&str, usize, Option<&str>); 10] = [
     ("-blendu", 1, None),
     ("-blendv", 1, None),

@@ -46,8 +46,8 @@ fn change_finish(
     })
 }
 
-/// Replaces the values that the table names. Paths of textures are relative to the scene's folder. `is_blended` says
-/// what the object's opacities mean.
+/// Replaces the values that the table names. Paths of textures are relative to the scene's folder.
+/// `is_blended` says what the object's opacities mean.
 pub(super) fn change_material(
     document: &Document,
     files: &mut Files,

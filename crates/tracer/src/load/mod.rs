@@ -1,4 +1,5 @@
-//! The loader of scenes: from a scene.toml, and the OBJ, MTL and picture files that it names, to a checked [`Scene`].
+//! The loader of scenes: from a scene.toml, and the OBJ, MTL and picture files that it names, to a
+//! checked [`Scene`].
 //!
 //! `scenes/README.md` documents the format, with a complete example.
 
@@ -57,9 +58,9 @@ use crate::{FrameRate, Location, Scene, SceneId, Seal};
 /// Variant that every scene has without naming it: its surfaces send out their own colours.
 const UNLIT: &str = "unlit";
 
-/// Loads the scene in `folder`, on disk or in a [`Bundle`](crate::Bundle), or one of its variants. The variants
-/// `unlit` and `seal7`, with any seed, can be made from any scene. So can those at another [`FrameRate`], such as
-/// `144fps` or `unlit@24fps_1-48s`.
+/// Loads the scene in `folder`, on disk or in a [`Bundle`](crate::Bundle), or one of its variants.
+/// The variants `unlit` and `seal7`, with any seed, can be made from any scene. So can those at
+/// another [`FrameRate`], such as `144fps` or `unlit@24fps_1-48s`.
 ///
 /// Refuses whatever a render could not use, with its place and what is allowed; repairs nothing.
 pub fn load_scene(folder: impl Into<Location>, variant: Option<&str>) -> Result<Scene, SceneError> {
@@ -138,7 +139,8 @@ pub fn load_scene_and_files(
     Ok((scene.at_rate(rate), paths))
 }
 
-/// Finds the times, in frames of the file, that a render may ask for: those of an open shutter, and a frame to either side.
+/// Finds the times, in frames of the file, that a render may ask for: those of an open shutter, and
+/// a frame to either side.
 fn rendered_interval(
     table: &SceneTable,
     rolling: f64,

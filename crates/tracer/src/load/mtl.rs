@@ -1,4 +1,5 @@
-//! Materials from the statements of MTL files: diffuse, glossy, emissive, cut-out and translucent surfaces.
+//! Materials from the statements of MTL files: diffuse, glossy, emissive, cut-out and translucent
+//! surfaces.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -61,8 +62,8 @@ pub(super) fn default_material() -> Material {
 }
 
 impl Stated {
-    /// Reads the text of a statement as tobj takes it: no comment after numbers, no options before a file, and three numbers for a
-    /// colour, since tobj panics on fewer.
+    /// Reads the text of a statement as tobj takes it: no comment after numbers, no options before
+    /// a file, and three numbers for a colour, since tobj panics on fewer.
     pub(super) fn read(keyword: &str, statement: &Statement, path: &Path) -> Result<Self, String> {
         let mut mapping = Mapping::NONE;
         let mut unread = Vec::new();

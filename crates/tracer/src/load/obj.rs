@@ -109,7 +109,8 @@ impl Part {
         self.corners.len() - 2 * self.arities.len()
     }
 
-    /// Cuts all faces into triangles, as indices into the corners. The error is the number of a face that cannot be cut.
+    /// Cuts all faces into triangles, as indices into the corners. The error is the number of a
+    /// face that cannot be cut.
     fn cut_faces(&self) -> Result<Cut, usize> {
         let mut all = Cut::default();
         let mut start = 0;

@@ -24,7 +24,8 @@ struct Counts {
     triangles: usize,
 }
 
-/// Finds the first fault. Runs only after tobj or a check of what it read has failed, neither of which knows lines.
+/// Finds the first fault. Runs only after tobj or a check of what it read has failed, neither of
+/// which knows lines.
 pub(super) fn find_fault(path: &Path, text: &str) -> SceneError {
     let kind = |statement: &Statement| ELEMENTS.iter().position(|(k, ..)| *k == statement.keyword);
     let mut counts = Counts::default();

@@ -1,8 +1,9 @@
 //! Text of an OBJ file in the form that tobj reads.
 //!
-//! tobj takes each line alone, and as it is. Here comments after numbers, colours of vertices and statements of other subjects
-//! are left out. Vertices come before all faces, so that these may name any. Faces with other kinds of indices than those before
-//! them begin a group of the same name, since tobj gives all faces of a group the same kinds.
+//! tobj takes each line alone, and as it is. Here comments after numbers, colours of vertices and
+//! statements of other subjects are left out. Vertices come before all faces, so that these may
+//! name any. Faces with other kinds of indices than those before them begin a group of the same
+//! name, since tobj gives all faces of a group the same kinds.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -12,7 +13,8 @@ use super::statements::Statement;
 use super::statements::split_statements;
 use crate::limits::MAX_VERTICES;
 
-/// Name of a material that no file defines, for `usemtl` without a name. Names have no control characters.
+/// Name of a material that no file defines, for `usemtl` without a name. Names have no control
+/// characters.
 const NO_MATERIAL: &str = "\u{1}";
 
 /// Text for tobj, and what the text refers to.

@@ -4,7 +4,8 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
 
-/// Largest error of corners in files, as a part of a face's perimeter. Thin faces cross themselves by as much.
+/// Largest error of corners in files, as a part of a face's perimeter. Thin faces cross themselves
+/// by as much.
 const ERROR_IN_FILES: f64 = 1e-5;
 
 /// Least part of a face's area, counted by turns, that shows the face's plane.
@@ -44,7 +45,8 @@ impl Outline {
     pub(super) fn new(corners: &[DVec3]) -> Self {
         let spans = corners[1..].windows(2);
         let normals = spans.map(|pair| (pair[0] - corners[0]).cross(pair[1] - corners[0]));
-        // Newell's normal: its length is twice the area. Parts that turn the other way may leave little of it.
+        // Newell's normal: its length is twice the area. Parts that turn the other way may leave
+        // little of it.
         let mut normal: DVec3 = normals.clone().sum();
         let spread: DVec3 = normals.map(DVec3::abs).sum();
         if normal.length() < CANCELLED * spread.length() {
@@ -95,7 +97,8 @@ impl Outline {
         (triangles.iter().map(turn).sum::<f64>() - self.area).abs()
     }
 
-    /// Returns whether the outline goes around its first corner more than once. A fan from there would cover a part twice.
+    /// Returns whether the outline goes around its first corner more than once. A fan from there
+    /// would cover a part twice.
     pub(super) fn surrounds_first(&self) -> bool {
         let first = self.points[0];
         let others = self.points[1..].iter().filter(|point| **point != first);
@@ -135,8 +138,8 @@ impl Outline {
         })
     }
 
-    /// Cuts one ear after the other: a corner that turns left, with no other corner in its triangle. Returns none if there is
-    /// none, because the outline crosses itself.
+    /// Cuts one ear after the other: a corner that turns left, with no other corner in its
+    /// triangle. Returns none if there is none, because the outline crosses itself.
     pub(super) fn cut_ears(&self) -> Option<Vec<[u32; 3]>> {
         let count = self.points.len();
         let mut ring = Ring {
@@ -195,7 +198,8 @@ impl Outline {
 
     /// Returns whether another corner, or its sides, lie in an ear.
     ///
-    /// A face with a hole touches itself, because a side leads to the hole and back. There, corners lie on corners.
+    /// A face with a hole touches itself, because a side leads to the hole and back. There, corners
+    /// lie on corners.
     fn is_blocked(&self, ring: &Ring, [before, tip, after]: [usize; 3], other: usize) -> bool {
         let point = self.points[other];
         if point == self.points[before] || point == self.points[after] {

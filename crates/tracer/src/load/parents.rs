@@ -68,7 +68,8 @@ impl<'a> OrderedObjects<'a> {
         Err(document.error(parent.span(), reason))
     }
 
-    /// Follows the parents of an object; returns the path if it meets an object twice: `a -> b -> a`.
+    /// Follows the parents of an object; returns the path if it meets an object twice: `a -> b ->
+    /// a`.
     fn find_cycle(&self, name: &str, parent: &Spanned<String>) -> Option<String> {
         let mut path = vec![name];
         let mut seen = HashSet::from([name]);

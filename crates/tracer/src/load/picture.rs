@@ -31,7 +31,8 @@ impl<'a> Header<'a> {
         u64::from(self.width) * u64::from(self.height)
     }
 
-    /// Refuses an empty picture and one of more than `most` texels. The error follows the name of the picture.
+    /// Refuses an empty picture and one of more than `most` texels. The error follows the name of
+    /// the picture.
     pub(super) fn check(&self, most: u64) -> Result<(), String> {
         if (1..=most).contains(&self.texels()) {
             return Ok(());

@@ -9,13 +9,15 @@ use serde::{Deserialize, Deserializer};
 
 use crate::Turn;
 
-/// Largest turn between orientations that give no axis, in degrees. From half a turn on, its direction is ambiguous.
+/// Largest turn between orientations that give no axis, in degrees. From half a turn on, its
+/// direction is ambiguous.
 pub(super) const LARGEST_TURN: f64 = 179.9;
 
 /// Distance below which two axes, as unit vectors, are the same except for rounding.
 const SAME_AXIS: f64 = 1e-9;
 
-/// Orientation as written: `{ axis, degrees }`, which can state more than one turn, or a quaternion `[x, y, z, w]`.
+/// Orientation as written: `{ axis, degrees }`, which can state more than one turn, or a quaternion
+/// `[x, y, z, w]`.
 #[derive(Clone, Copy)]
 pub(super) enum Rotation {
     AxisAngle { axis: DVec3, degrees: f64 },
@@ -28,7 +30,8 @@ impl Default for Rotation {
     }
 }
 
-// Hand-written because serde's untagged enums lose the places of their values, and say only that nothing matched.
+// Hand-written because serde's untagged enums lose the places of their values, and say only that
+// nothing matched.
 impl<'de> Deserialize<'de> for Rotation {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         #[derive(Deserialize)]
@@ -84,7 +87,8 @@ impl Rotation {
         }
     }
 
-    /// Finds the turn to `next`; none if it reaches half a turn and no common axis gives its direction.
+    /// Finds the turn to `next`; none if it reaches half a turn and no common axis gives its
+    /// direction.
     pub(super) fn turn_to(self, next: Rotation) -> Option<Turn> {
         if let (
             Rotation::AxisAngle { axis, degrees },

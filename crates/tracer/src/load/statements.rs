@@ -16,8 +16,9 @@ pub(super) struct Statement<'a> {
     pub(super) rest: &'a str,
 }
 
-/// Removes a byte order mark, and joins each line that ends in `\` with the next. Empty lines follow the joined ones, so that
-/// all lines keep their numbers. A line with a comment ends it: paths in comments end in `\` too.
+/// Removes a byte order mark, and joins each line that ends in `\` with the next. Empty lines
+/// follow the joined ones, so that all lines keep their numbers. A line with a comment ends it:
+/// paths in comments end in `\` too.
 pub(super) fn clean_text(text: &str) -> Cow<'_, str> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let continued = |line: &'_ str| -> Option<usize> {
@@ -67,7 +68,8 @@ pub(super) fn shorten(text: &str) -> String {
 }
 
 impl<'a> Statement<'a> {
-    /// Splits the text after the keyword into words, up to a comment. Names may contain a `#`; numbers do not.
+    /// Splits the text after the keyword into words, up to a comment. Names may contain a `#`;
+    /// numbers do not.
     pub(super) fn words(&self) -> impl Iterator<Item = &'a str> + Clone + use<'a> {
         let end = self.rest.find('#').unwrap_or(self.rest.len());
         self.rest[..end].split_whitespace()

@@ -31,8 +31,8 @@ pub(super) struct Textures {
 }
 
 impl Textures {
-    /// Loads a texture, unless it is there, and returns its index. The error is a reason alone: the caller knows the
-    /// line that names the file.
+    /// Loads a texture, unless it is there, and returns its index. The error is a reason alone: the
+    /// caller knows the line that names the file.
     pub(super) fn load(
         &mut self,
         files: &mut Files,

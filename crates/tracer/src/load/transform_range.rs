@@ -6,8 +6,8 @@ use crate::Motion;
 use crate::limits::{FARTHEST, LARGEST_ANGLE, SMALLEST_SCALE};
 use crate::motion::keys::key_times;
 
-/// Range of a motion, or of a chain of motions: it moves a point at distance `d` from its origin to at most
-/// `largest_scale * d + offset` from the world's.
+/// Range of a motion, or of a chain of motions: it moves a point at distance `d` from its origin to
+/// at most `largest_scale * d + offset` from the world's.
 #[derive(Clone, Copy)]
 pub(super) struct TransformRange {
     largest_scale: f64,
@@ -65,8 +65,8 @@ impl TransformRange {
         }
     }
 
-    /// Refuses a range that carries a thing of a radius, in metres, too far for 32-bit boxes, turns it by an angle of too few
-    /// exact digits, or shrinks it to nothing.
+    /// Refuses a range that carries a thing of a radius, in metres, too far for 32-bit boxes, turns
+    /// it by an angle of too few exact digits, or shrinks it to nothing.
     pub(super) fn check(&self, what: &str, radius: f64) -> Result<(), String> {
         let farthest = self.largest_scale * radius + self.offset;
         if farthest.is_nan() || farthest > FARTHEST {

@@ -41,7 +41,8 @@ impl Alpha {
         })
     }
 
-    /// Says what becomes of a material that its file calls translucent, if the scene.toml does not choose.
+    /// Says what becomes of a material that its file calls translucent, if the scene.toml does not
+    /// choose.
     pub(super) fn note(self, material: &Material, mesh: &Path) -> Option<String> {
         let opacity = material.opacity;
         let is_clear = material.translucency == Some(Translucency::CLEAR);
@@ -61,8 +62,8 @@ impl Alpha {
         ))
     }
 
-    /// Sets the translucency of a material of the object, from what its file asks for. A material that is opaque everywhere has
-    /// none. The error says what is wrong with the material.
+    /// Sets the translucency of a material of the object, from what its file asks for. A material
+    /// that is opaque everywhere has none. The error says what is wrong with the material.
     pub(super) fn apply(self, material: &mut Material) -> Result<(), String> {
         let asked = material.translucency.take();
         if !self.is_blended {

@@ -17,9 +17,10 @@ pub(super) struct Cut {
 
 /// Cuts a face into triangles.
 ///
-/// A fan from the first corner serves if it covers the face once, as it does for every convex face. Else ears are cut, in the
-/// plane of the two axes that shows most of the face. A quad that crosses itself becomes two triangles from the crossing. A
-/// twisted quad only seems to cross itself; like other readers, it gets a fan. Returns none for other faces that cross themselves.
+/// A fan from the first corner serves if it covers the face once, as it does for every convex face.
+/// Else ears are cut, in the plane of the two axes that shows most of the face. A quad that crosses
+/// itself becomes two triangles from the crossing. A twisted quad only seems to cross itself; like
+/// other readers, it gets a fan. Returns none for other faces that cross themselves.
 pub(super) fn triangulate(corners: &[Vec3]) -> Option<Cut> {
     let points: Vec<DVec3> = corners.iter().map(|corner| corner.as_dvec3()).collect();
     let outline = Outline::new(&points);

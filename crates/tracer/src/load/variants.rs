@@ -79,8 +79,8 @@ impl<'a> ParsedScene<'a> {
         names.try_for_each(|name| self.read_changes(name).map(|_| ()))
     }
 
-    /// Reads and checks what a variant changes, and no more, so that the time grows with the length of the text. Tables of its
-    /// objects are merged with those of the scene's objects.
+    /// Reads and checks what a variant changes, and no more, so that the time grows with the length
+    /// of the text. Tables of its objects are merged with those of the scene's objects.
     fn read_changes(&self, variant: &str) -> Result<DeTable<'a>, SceneError> {
         let what = format!("variant \"{variant}\"");
         let value = &self.variants[variant];

@@ -14,7 +14,8 @@ pub(crate) enum Brdf<'a> {
 }
 
 impl<'a> Brdf<'a> {
-    /// The BRDF of a surface of this colour, seen from a unit direction on its facet's side; none if it scatters nothing.
+    /// The BRDF of a surface of this colour, seen from a unit direction on its facet's side; none
+    /// if it scatters nothing.
     pub fn new(
         glossy: Option<&'a GlossyMaterial>,
         color: Vec3,

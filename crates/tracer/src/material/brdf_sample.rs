@@ -18,7 +18,8 @@ pub(crate) struct BrdfSample {
     pub direction: DVec3,
     /// Scattered radiance over the density.
     pub weight: Vec3,
-    /// Probability per steradian; none for the single direction of a mirror, which nothing else can draw.
+    /// Probability per steradian; none for the single direction of a mirror, which nothing else can
+    /// draw.
     pub density: Option<f64>,
 }
 

@@ -6,8 +6,9 @@ use glam::DVec3;
 
 /// A cosine lobe about the shading normal, with its part below the facet mirrored up.
 ///
-/// Interpolated normals turn part of the lobe into the body. Without that part every smooth mesh would be too dark. Mirrored
-/// at the facet it keeps the albedo exact, and sampling still agrees with evaluation.
+/// Interpolated normals turn part of the lobe into the body. Without that part every smooth mesh
+/// would be too dark. Mirrored at the facet it keeps the albedo exact, and sampling still agrees
+/// with evaluation.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct DiffuseLobe {
     facet: DVec3,
@@ -20,7 +21,8 @@ impl DiffuseLobe {
         Self { facet, normal }
     }
 
-    /// Probability per steradian of a unit direction. The scattered share of light is the albedo times this.
+    /// Probability per steradian of a unit direction. The scattered share of light is the albedo
+    /// times this.
     pub fn density(&self, direction: DVec3) -> f64 {
         let above = direction.dot(self.facet);
         if above <= 0.0 {
@@ -46,7 +48,8 @@ impl DiffuseLobe {
 mod tests {
     use super::*;
 
-    /// Normals that deviate from the facet's by nothing, by half a right angle and by nearly a right angle.
+    /// Normals that deviate from the facet's by nothing, by half a right angle and by nearly a
+    /// right angle.
     fn lobes() -> Vec<DiffuseLobe> {
         let facet = DVec3::new(0.6, 0.0, 0.8);
         [0.0, 0.8, 1.5]
@@ -57,7 +60,8 @@ mod tests {
             .to_vec()
     }
 
-    /// The integral of `value` times density over the sphere, by the midpoint rule in height and azimuth.
+    /// The integral of `value` times density over the sphere, by the midpoint rule in height and
+    /// azimuth.
     fn integral(lobe: &DiffuseLobe, value: impl Fn(DVec3) -> DVec3) -> DVec3 {
         let steps = 400;
         let mut sum = DVec3::ZERO;

@@ -2,8 +2,8 @@
 
 use glam::Vec3;
 
-/// The reflectance of a smooth dielectric for unpolarised light from outside (Fresnel's equations). The index of refraction
-/// is at least 1.
+/// The reflectance of a smooth dielectric for unpolarised light from outside (Fresnel's equations).
+/// The index of refraction is at least 1.
 pub(crate) fn dielectric(index: f64, cosine: f64) -> f64 {
     let inside = (1.0 - (1.0 - cosine * cosine) / (index * index)).sqrt();
     let across = (cosine - index * inside) / (cosine + index * inside);
@@ -11,7 +11,8 @@ pub(crate) fn dielectric(index: f64, cosine: f64) -> f64 {
     0.5 * (across * across + along * along)
 }
 
-/// The reflectance of a metal, from its reflectance at normal incidence (Schlick 1994, equation 15).
+/// The reflectance of a metal, from its reflectance at normal incidence (Schlick 1994, equation
+/// 15).
 pub(crate) fn conductor(normal_incidence: Vec3, cosine: f64) -> Vec3 {
     let grazing = (1.0 - cosine).clamp(0.0, 1.0).powi(5) as f32;
     normal_incidence + grazing * (Vec3::ONE - normal_incidence)

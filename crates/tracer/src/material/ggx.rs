@@ -6,7 +6,8 @@ use glam::{DVec2, DVec3};
 
 /// A rough surface whose mean normal is +Z; directions point away from it.
 ///
-/// Distribution and masking as in Heitz 2014, "Understanding the Masking-Shadowing Function", sections 5.2 and 6.
+/// Distribution and masking as in Heitz 2014, "Understanding the Masking-Shadowing Function",
+/// sections 5.2 and 6.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ggx {
     /// Width of the distribution of slopes, above 0.
@@ -16,7 +17,8 @@ pub(crate) struct Ggx {
 /// One reflection at the microfacets.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Reflection {
-    /// Radiance sent per radiance arriving per steradian, cosine included, from facets that reflect everything.
+    /// Radiance sent per radiance arriving per steradian, cosine included, from facets that reflect
+    /// everything.
     pub scattered: f64,
     /// Probability per steradian with which [`Ggx::sample`] draws the incoming direction.
     pub density: f64,
@@ -37,8 +39,9 @@ impl Ggx {
         }
     }
 
-    /// Draws the normal of a facet from two numbers in [0, 1), in proportion to how much of it `outgoing` sees. The incoming
-    /// direction is `outgoing` reflected at it (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps").
+    /// Draws the normal of a facet from two numbers in [0, 1), in proportion to how much of it
+    /// `outgoing` sees. The incoming direction is `outgoing` reflected at it (Dupuy and Benyoub
+    /// 2023, "Sampling Visible GGX Normals with Spherical Caps").
     pub fn sample(&self, outgoing: DVec3, [u, v]: [f64; 2]) -> DVec3 {
         let stretch = DVec3::new(self.alpha, self.alpha, 1.0);
         let straight = (stretch * outgoing).normalize();
@@ -49,10 +52,11 @@ impl Ggx {
         (stretch * cap.with_z(cap.z.max(0.0))).normalize()
     }
 
-    /// The share of light that single reflections return at `cosine`; `fresnel` is the share that a facet reflects.
+    /// The share of light that single reflections return at `cosine`; `fresnel` is the share that a
+    /// facet reflects.
     ///
-    /// It is integrated by the midpoint rule over [`Ggx::sample`], whose azimuth is symmetric, with steps that shrink
-    /// towards the long tail of slopes.
+    /// It is integrated by the midpoint rule over [`Ggx::sample`], whose azimuth is symmetric, with
+    /// steps that shrink towards the long tail of slopes.
     pub fn albedo(&self, cosine: f64, fresnel: impl Fn(f64) -> f64) -> f64 {
         const STEPS: u32 = 32;
         let outgoing = DVec3::new((1.0 - cosine * cosine).max(0.0).sqrt(), 0.0, cosine);

@@ -12,13 +12,13 @@ use crate::material::glossy_material::GlossyMaterial;
 /// Least cosine between a shading normal and the viewer; normals are bent to reach it.
 const LOWEST_VIEW: f64 = 0.01;
 
-/// Microfacets, over a second lobe for the light that a single reflection does not return: light between the facets of a
-/// metal, or below a coat.
+/// Microfacets, over a second lobe for the light that a single reflection does not return: light
+/// between the facets of a metal, or below a coat.
 ///
-/// With the microfacets' albedo E, the second lobe is (1 - E(out)) (1 - E(in)) / (pi (1 - mean E)). It is reciprocal and adds
-/// up to all that is missing (Kulla and Conty 2017, "Revisiting Physically Based Shading at Imageworks"). Light that an
-/// interpolated normal sends below the facet is mirrored at it, as in
-/// [`DiffuseLobe`](crate::material::diffuse_lobe::DiffuseLobe).
+/// With the microfacets' albedo E, the second lobe is (1 - E(out)) (1 - E(in)) / (pi (1 - mean E)).
+/// It is reciprocal and adds up to all that is missing (Kulla and Conty 2017, "Revisiting
+/// Physically Based Shading at Imageworks"). Light that an interpolated normal sends below the
+/// facet is mirrored at it, as in [`DiffuseLobe`](crate::material::diffuse_lobe::DiffuseLobe).
 pub(crate) struct GlossyBrdf<'a> {
     material: &'a GlossyMaterial,
     facet: DVec3,
@@ -156,8 +156,9 @@ impl<'a> GlossyBrdf<'a> {
     }
 }
 
-/// The colour of light that leaves a metal after two or more reflections between its facets, over the light that did not
-/// leave after one. It follows from the facets' mean reflectance and the mean albedo of a single reflection of everything.
+/// The colour of light that leaves a metal after two or more reflections between its facets, over
+/// the light that did not leave after one. It follows from the facets' mean reflectance and the
+/// mean albedo of a single reflection of everything.
 fn interreflection(reflectance: Vec3, albedo: f64) -> Vec3 {
     let albedo = albedo as f32;
     reflectance * reflectance * albedo / (Vec3::ONE - reflectance * (1.0 - albedo))

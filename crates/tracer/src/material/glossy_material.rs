@@ -19,8 +19,8 @@ pub(crate) struct GlossyMaterial {
     pub albedo: AlbedoTable,
 }
 
-/// The share of light that one reflection returns, by the cosine. A coat has its own reflectance; a metal is tabulated as if
-/// it reflected everything.
+/// The share of light that one reflection returns, by the cosine. A coat has its own reflectance; a
+/// metal is tabulated as if it reflected everything.
 #[derive(Clone, Debug)]
 pub(crate) struct AlbedoTable {
     /// Shares at cosines that are the squares of equal steps.

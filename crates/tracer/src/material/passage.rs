@@ -42,7 +42,8 @@ impl Passage {
         (1.0 - self.opacity) as f32 * self.passed
     }
 
-    /// The chance that light that is not stopped is reflected: its share, by the mean of the components.
+    /// The chance that light that is not stopped is reflected: its share, by the mean of the
+    /// components.
     pub fn chance_of_reflection(&self) -> f64 {
         let [reflected, passed] =
             [self.reflected, self.passed].map(|share| f64::from(share.element_sum()));
@@ -54,11 +55,12 @@ impl Passage {
     }
 }
 
-/// The shares that a flat pane reflects and lets pass, with all reflections between its two sides. Between them, light keeps the
-/// share `filter` of each component.
+/// The shares that a flat pane reflects and lets pass, with all reflections between its two sides.
+/// Between them, light keeps the share `filter` of each component.
 ///
 /// The sides reflect `r` each, by Fresnel's equations, and the series of all ways through sums to
-/// `T = (1 - r)^2 a / (1 - r^2 a^2)` and `R = r + r a T` (Born and Wolf, "Principles of Optics", 7.6, without interference).
+/// `T = (1 - r)^2 a / (1 - r^2 a^2)` and `R = r + r a T` (Born and Wolf, "Principles of Optics",
+/// 7.6, without interference).
 fn split_by_pane(index: f64, cosine: f64, filter: Vec3) -> [Vec3; 2] {
     let r = fresnel::dielectric(index, cosine).min(1.0);
     let split = |a: f32| {

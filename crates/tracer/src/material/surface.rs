@@ -36,7 +36,8 @@ pub(crate) enum Sight {
     Opaque,
 }
 
-/// Finds per object whether it is opaque everywhere, without holes cut out by opacity and without translucent parts.
+/// Finds per object whether it is opaque everywhere, without holes cut out by opacity and without
+/// translucent parts.
 pub(crate) fn find_solid_objects(scene: &Scene) -> Vec<bool> {
     let is_solid = |&material: &usize| {
         let material = &scene.materials[material];
@@ -124,7 +125,8 @@ fn material_index(scene: &Scene, object: usize, triangle: u32) -> usize {
     object.materials[slot as usize]
 }
 
-/// Emitted radiance at a point of a triangle: zero where it has a hole, and in proportion to its opacity where it is translucent.
+/// Emitted radiance at a point of a triangle: zero where it has a hole, and in proportion to its
+/// opacity where it is translucent.
 pub(crate) fn emission(scene: &Scene, object: usize, triangle: u32, weights: [f64; 2]) -> Vec3 {
     let opacity = opacity(scene, object, triangle, weights);
     let material = find_material(scene, object, triangle);

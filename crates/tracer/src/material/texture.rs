@@ -5,7 +5,8 @@ use glam::{Vec2, Vec4};
 use crate::scene::Texture;
 
 impl Texture {
-    /// The texture's linear RGBA at texture coordinates `uv`, v up: (0, 0) is the image's bottom left corner.
+    /// The texture's linear RGBA at texture coordinates `uv`, v up: (0, 0) is the image's bottom
+    /// left corner.
     pub fn sample(&self, uv: Vec2) -> Vec4 {
         let x = wrap(uv.x, self.width);
         let y = wrap(1.0 - uv.y, self.height);
@@ -22,13 +23,14 @@ impl Texture {
     }
 }
 
-/// Wraps a texture coordinate and converts it to texels from the centre of the first. The integer part of `fraction` is
-/// dropped first, so that far repeats keep their precision.
+/// Wraps a texture coordinate and converts it to texels from the centre of the first. The integer
+/// part of `fraction` is dropped first, so that far repeats keep their precision.
 fn wrap(fraction: f32, texels: u32) -> f32 {
     (fraction - fraction.floor()) * texels as f32 - 0.5
 }
 
-/// A texel and the next one, in a row of `texels` that repeats; `first` is a whole number from -1 to `texels`.
+/// A texel and the next one, in a row of `texels` that repeats; `first` is a whole number from -1
+/// to `texels`.
 fn neighbours(first: f32, texels: u32) -> [usize; 2] {
     let last = texels as usize - 1;
     match first as i64 {

@@ -64,7 +64,8 @@ impl Camera {
         self.motion.keys.len() <= 1 && self.vertical_fov.len() <= 1
     }
 
-    /// Times within `[from, to]` at which the field of view may be greatest or least: the ends, keys and turning points.
+    /// Times within `[from, to]` at which the field of view may be greatest or least: the ends,
+    /// keys and turning points.
     pub(crate) fn vertical_fov_extremes(&self, from: f64, to: f64) -> Vec<f64> {
         let keys = self.vertical_fov.iter().map(|(time, _)| *time);
         let turns = keys.clone().flat_map(|key| {
@@ -121,7 +122,8 @@ impl Camera {
 }
 
 impl View {
-    /// The ray through a point of the picture, in pixels from the top left, and the centre of the lens.
+    /// The ray through a point of the picture, in pixels from the top left, and the centre of the
+    /// lens.
     pub fn ray(&self, x: f64, y: f64) -> Ray {
         let direction = DVec3::new(x - self.half[0], self.half[1] - y, -self.focal);
         Ray {
@@ -130,8 +132,8 @@ impl View {
         }
     }
 
-    /// The ray through a point of the picture, in pixels from the top left, and a point of the lens. All rays through one point of
-    /// the picture meet at the focus.
+    /// The ray through a point of the picture, in pixels from the top left, and a point of the
+    /// lens. All rays through one point of the picture meet at the focus.
     pub(crate) fn ray_through(&self, place: [f64; 2], from: LensPoint) -> Ray {
         let Some(lens) = self.lens else {
             return self.ray(place[0], place[1]);
@@ -153,7 +155,8 @@ impl View {
         }
     }
 
-    /// Projects a target to pixels from the top left, through the centre of the lens; none behind the camera.
+    /// Projects a target to pixels from the top left, through the centre of the lens; none behind
+    /// the camera.
     pub(crate) fn project(&self, target: Target) -> Option<[f64; 2]> {
         let seen = match target {
             Target::Point(point) => self.to_camera.transform_point3(point),
@@ -168,8 +171,9 @@ impl View {
         })
     }
 
-    /// The derivative of a target's projection and depth: pixels per frame, +x right, +y down, then metres per frame away from
-    /// the camera. The target moves by `velocity` metres per frame in the world, and the view by `rate`. None behind the camera.
+    /// The derivative of a target's projection and depth: pixels per frame, +x right, +y down, then
+    /// metres per frame away from the camera. The target moves by `velocity` metres per frame in
+    /// the world, and the view by `rate`. None behind the camera.
     pub(crate) fn velocity_of(
         &self,
         target: Target,
@@ -199,7 +203,8 @@ impl View {
         (depth > 0.0).then(|| [across(0), -across(1), away])
     }
 
-    /// Projects a target through a point of the lens: the place whose ray through that point meets it.
+    /// Projects a target through a point of the lens: the place whose ray through that point meets
+    /// it.
     pub(crate) fn project_through(&self, target: Target, from: LensPoint) -> Option<DVec2> {
         let place = DVec2::from(self.project(target)?);
         let Some(lens) = self.lens else {
@@ -213,11 +218,13 @@ impl View {
         Some(place + DVec2::new(shift.x, -shift.y))
     }
 
-    /// The homography from this view's picture to `other`'s. Its three rows act on (x, y, 1, 1 / depth), in pixels and
-    /// metres, and give (x', y', 1) times a common factor, which is positive in front of the camera.
+    /// The homography from this view's picture to `other`'s. Its three rows act on (x, y, 1, 1 /
+    /// depth), in pixels and metres, and give (x', y', 1) times a common factor, which is positive
+    /// in front of the camera.
     pub(crate) fn to_picture_of(self, other: &View) -> [[f64; 4]; 3] {
         let to_other = other.to_camera * self.to_world;
-        // Half the picture and the focal length convert a place to a direction, and a direction to a place.
+        // Half the picture and the focal length convert a place to a direction, and a direction to
+        // a place.
         let [half_x, half_y] = self.half;
         let direction = |place: DVec3| {
             DVec3::new(

@@ -59,8 +59,9 @@ impl<T: Quantity> Cubic<T> {
         bend * 2.0 + twist * (6.0 * time)
     }
 
-    /// Upper limits of the size of the curve and its derivatives within `[from, to]`; exact for a line. A curve with a
-    /// second derivative of at most `d` strays from its chord by at most `d h^2 / 8`.
+    /// Upper limits of the size of the curve and its derivatives within `[from, to]`; exact for a
+    /// line. A curve with a second derivative of at most `d` strays from its chord by at most `d
+    /// h^2 / 8`.
     pub fn maxima(&self, from: f64, to: f64, size: impl Fn(T) -> f64) -> CurveMaxima {
         let at_ends = |part: &dyn Fn(f64) -> T| size(part(from)).max(size(part(to)));
         let stray = (to - from) * (to - from) / 8.0;
@@ -127,8 +128,9 @@ impl<K> Keyed<'_, K> {
         0 < segment && segment < self.keys.len()
     }
 
-    /// The curve of a value over a segment, from its value at each key and its mean slope from each key to the next.
-    /// Before the first key and after the last it is a line with the slope of that end.
+    /// The curve of a value over a segment, from its value at each key and its mean slope from each
+    /// key to the next. Before the first key and after the last it is a line with the slope of that
+    /// end.
     pub fn curve<T: Quantity>(
         &self,
         segment: usize,
@@ -143,9 +145,9 @@ impl<K> Keyed<'_, K> {
         Cubic::between([value(from), value(segment)], slopes, self.duration(from))
     }
 
-    /// The slope at a key. If changes are linear, it is the slope of the segment after the key. Otherwise it is the
-    /// slope of the parabola through the key and its neighbours, or at an end through the three nearest keys (Overhauser
-    /// 1968; Catmull and Rom 1974, for uneven times).
+    /// The slope at a key. If changes are linear, it is the slope of the segment after the key.
+    /// Otherwise it is the slope of the parabola through the key and its neighbours, or at an end
+    /// through the three nearest keys (Overhauser 1968; Catmull and Rom 1974, for uneven times).
     pub fn slope<T: Quantity>(&self, key: usize, chord: &impl Fn(usize) -> T) -> T {
         let Some(last) = self.keys.len().checked_sub(2) else {
             return T::default();

@@ -5,8 +5,9 @@ use glam::{DAffine3, DVec3};
 use crate::geometry::aabb::Aabb;
 use crate::scene::{Mesh, Scene};
 
-/// Nodes along an edge of the cube of directions. With 9 a cell is 0.25 wide and a box around a sphere at most
-/// `2 x 0.25^2 / 8` = 1.6 % too large, because the curvature of a vector's length on the cube is at most 1.
+/// Nodes along an edge of the cube of directions. With 9 a cell is 0.25 wide and a box around a
+/// sphere at most `2 x 0.25^2 / 8` = 1.6 % too large, because the curvature of a vector's length on
+/// the cube is at most 1.
 const NODES: usize = 9;
 /// Vertices below which a mesh has no grid: its vertices are transformed one by one.
 const FEW: usize = 64;
@@ -20,10 +21,12 @@ pub(crate) struct Extent {
 
 /// The support function of a rigid mesh, sampled at a grid on the faces of a cube.
 ///
-/// A direction inside a cell is a weighted mean of the cell's corners. The support function is convex, so the same mean of
-/// its samples is an upper limit for that direction; along the axes it is exact.
+/// A direction inside a cell is a weighted mean of the cell's corners. The support function is
+/// convex, so the same mean of its samples is an upper limit for that direction; along the axes it
+/// is exact.
 struct Grid {
-    /// Per face of the cube (+x, -x, +y, -y, +z, -z), row and column: the greatest `direction . vertex`.
+    /// Per face of the cube (+x, -x, +y, -y, +z, -z), row and column: the greatest `direction .
+    /// vertex`.
     support: Vec<f64>,
 }
 
@@ -41,7 +44,8 @@ impl Extent {
         }
     }
 
-    /// A box around the mesh with its shape at `time`, transformed by `pose`; contains it up to rounding.
+    /// A box around the mesh with its shape at `time`, transformed by `pose`; contains it up to
+    /// rounding.
     pub fn aabb(&self, mesh: &Mesh, pose: &DAffine3, time: f64) -> Aabb {
         match &self.grid {
             Some(grid) => grid.aabb(pose),

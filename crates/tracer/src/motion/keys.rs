@@ -38,8 +38,8 @@ impl Motion {
             .rate(time)
     }
 
-    /// An upper limit on the angular velocity within `[from, to]`, an interval without keys inside, in radians per frame;
-    /// exact if the motion is linear.
+    /// An upper limit on the angular velocity within `[from, to]`, an interval without keys inside,
+    /// in radians per frame; exact if the motion is linear.
     pub fn fastest_turn(&self, from: f64, to: f64) -> f64 {
         let segment = self.segment(0.5 * (from + to));
         let [from, to] = [from, to].map(|time| segment.since(time));

@@ -6,7 +6,8 @@ use glam::DVec2;
 
 use crate::scene::Lens;
 
-/// A point of a camera's lens, in metres from its centre; +x right, +y up. A pinhole has only the centre.
+/// A point of a camera's lens, in metres from its centre; +x right, +y up. A pinhole has only the
+/// centre.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct LensPoint(pub DVec2);
 
@@ -15,14 +16,15 @@ impl LensPoint {
 }
 
 impl Lens {
-    /// The point of the lens for two numbers in [0, 1). Uniform numbers give points that are uniform over the disc.
+    /// The point of the lens for two numbers in [0, 1). Uniform numbers give points that are
+    /// uniform over the disc.
     pub(crate) fn point(&self, numbers: [f64; 2]) -> LensPoint {
         LensPoint(0.5 * self.aperture * map_to_disc(numbers))
     }
 }
 
-/// Maps the unit square to the unit disc: equal areas to equal areas, and neighbours to neighbours (Shirley and Chiu 1997, "A Low
-/// Distortion Map Between Disk and Square").
+/// Maps the unit square to the unit disc: equal areas to equal areas, and neighbours to neighbours
+/// (Shirley and Chiu 1997, "A Low Distortion Map Between Disk and Square").
 fn map_to_disc(numbers: [f64; 2]) -> DVec2 {
     let [a, b] = numbers.map(|number| 2.0 * number - 1.0);
     if a == 0.0 && b == 0.0 {

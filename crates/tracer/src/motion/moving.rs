@@ -14,8 +14,9 @@ const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// Part of the scene's size below which a change of position is rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// Finds per object id whether it moves relative to the camera while the shutter is open. The background, at infinity,
-/// moves when the camera turns. Everything moves when the field of view changes.
+/// Finds per object id whether it moves relative to the camera while the shutter is open. The
+/// background, at infinity, moves when the camera turns. Everything moves when the field of view
+/// changes.
 pub(crate) fn find_moving_objects(scene: &Scene, shutter: Shutter) -> Vec<bool> {
     let camera = &scene.camera.motion;
     let times = sample_times(scene, None, shutter);

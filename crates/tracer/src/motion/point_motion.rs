@@ -100,7 +100,8 @@ impl PointMotion {
         (view, rate)
     }
 
-    /// The times of a point's shape, its object and that object's parents when the camera is at `time`.
+    /// The times of a point's shape, its object and that object's parents when the camera is at
+    /// `time`.
     pub(super) fn times(&self, time: f64) -> [f64; 3] {
         let now = self.moved_at;
         let [shape, own, parents] = match self.objects_before {
@@ -121,6 +122,7 @@ pub enum ObjectsBefore {
     Now,
     /// Their place and shape now relative to their parents, which move.
     WithParents,
-    /// No place: their matrix is still the identity, so that they were at the origin, not turned and not scaled.
+    /// No place: their matrix is still the identity, so that they were at the origin, not turned
+    /// and not scaled.
     Identity,
 }

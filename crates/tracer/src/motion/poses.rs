@@ -1,4 +1,5 @@
-//! The poses of all objects at the time of one path, computed when first asked for and kept for all bounces.
+//! The poses of all objects at the time of one path, computed when first asked for and kept for all
+//! bounces.
 
 use std::sync::Arc;
 
@@ -17,7 +18,8 @@ pub struct Poses<'a> {
     /// Pose of each object, valid if its stamp is the current one or [`FOR_EVER`].
     poses: Vec<(Stamp, Pose)>,
     current: Stamp,
-    /// Stack of the traversal. It is kept here because clearing one for every ray takes a twentieth of the ray's time.
+    /// Stack of the traversal. It is kept here because clearing one for every ray takes a twentieth
+    /// of the ray's time.
     pub(crate) stack: Vec<u64>,
 }
 
@@ -26,7 +28,8 @@ struct PreparedMotions {
     camera: PreparedMotion,
     /// Motion of each object, relative to its parent.
     objects: Vec<PreparedMotion>,
-    /// Greatest distance of each object's vertices from its origin, metres; infinite if the mesh deforms.
+    /// Greatest distance of each object's vertices from its origin, metres; infinite if the mesh
+    /// deforms.
     radii: Vec<f64>,
 }
 
@@ -74,7 +77,8 @@ impl PreparedMotion {
 }
 
 impl<'a> Poses<'a> {
-    /// Prepares all motions for times within `[from, to]`. Objects that stand still there are posed once.
+    /// Prepares all motions for times within `[from, to]`. Objects that stand still there are posed
+    /// once.
     pub(crate) fn new(scene: &'a Scene, from: f64, to: f64) -> Self {
         let poses = (0..scene.objects.len())
             .map(|object| {
@@ -139,7 +143,8 @@ impl<'a> Poses<'a> {
         stack
     }
 
-    /// Returns true if a ray certainly misses an object. It is a quick test of objects whose pose is not yet known.
+    /// Returns true if a ray certainly misses an object. It is a quick test of objects whose pose
+    /// is not yet known.
     #[inline(always)]
     pub(crate) fn is_missed(&self, object: usize, ray: &Ray) -> bool {
         if self.is_current(object) {
@@ -172,8 +177,8 @@ impl<'a> Poses<'a> {
         stamp == FOR_EVER || stamp == self.current
     }
 
-    /// Poses an object, and before it those of its parents that are out of date. A loop, because chains of parents may be
-    /// deeper than a thread's stack.
+    /// Poses an object, and before it those of its parents that are out of date. A loop, because
+    /// chains of parents may be deeper than a thread's stack.
     fn update(&mut self, object: usize) {
         let mut outdated = Vec::new();
         let mut outermost = object;

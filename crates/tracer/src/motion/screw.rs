@@ -9,8 +9,8 @@ use crate::motion::pose::Pose;
 
 /// A segment of a motion that turns about one axis and keeps its scale.
 ///
-/// Its matrix is the sum of a constant, a part in proportion to the angle's cosine and one to its sine (Rodrigues'
-/// formula). So is the inverse: no matrix has to be inverted.
+/// Its matrix is the sum of a constant, a part in proportion to the angle's cosine and one to its
+/// sine (Rodrigues' formula). So is the inverse: no matrix has to be inverted.
 pub(crate) struct Screw {
     start: f64,
     translation: Cubic<DVec3>,
@@ -54,8 +54,8 @@ impl Screw {
         })
     }
 
-    /// A ball around a mesh of this radius about its origin, in metres, at `time` (frames). It does not depend on the
-    /// orientation.
+    /// A ball around a mesh of this radius about its origin, in metres, at `time` (frames). It does
+    /// not depend on the orientation.
     pub fn ball(&self, radius: f64, time: f64) -> Ball {
         Ball::new(self.translation.at(time - self.start), radius * self.scale)
     }
@@ -87,7 +87,8 @@ mod tests {
     use super::*;
     use crate::scene::{Interpolation, Key, Motion, Turn};
 
-    /// A drift of metres and a turn of this many radians about a tilted axis, for a large, flat, mirrored object.
+    /// A drift of metres and a turn of this many radians about a tilted axis, for a large, flat,
+    /// mirrored object.
     fn drifting(angle: f64) -> Motion {
         let axis = DVec3::new(0.36, 0.48, 0.8);
         let start = Key {
@@ -117,7 +118,8 @@ mod tests {
                 for step in 0..=20 {
                     let time = -1.0 + f64::from(step) / 10.0;
                     let pose = screw.at(time);
-                    // Rounding, a few dozen times, of coordinates of up to 20 metres, and of angles of up to 80 radians.
+                    // Rounding, a few dozen times, of coordinates of up to 20 metres, and of angles
+                    // of up to 80 radians.
                     let near = |a: DAffine3, b: DAffine3| a.abs_diff_eq(b, 1e-12);
                     assert!(near(pose.to_world, segment.at(time)), "{index}, {time}");
                     assert!(

@@ -42,7 +42,8 @@ impl Mesh {
         }
     }
 
-    /// The velocity of a point of a triangle just before `time` (frames), in the object's space, metres per frame.
+    /// The velocity of a point of a triangle just before `time` (frames), in the object's space,
+    /// metres per frame.
     pub(crate) fn velocity_before(&self, time: f64, triangle: u32, weights: [f64; 2]) -> DVec3 {
         let next = self.shapes.partition_point(|shape| shape.time < time);
         let Some(Between { shapes, .. }) = self.between(next, time).between else {
@@ -65,8 +66,8 @@ impl Mesh {
         self.shapes.iter().map(|shape| shape.time)
     }
 
-    /// The greatest distance from the origin (metres) and the greatest speed (metres per frame) of any vertex within
-    /// `[from, to]`, an interval without key shapes inside.
+    /// The greatest distance from the origin (metres) and the greatest speed (metres per frame) of
+    /// any vertex within `[from, to]`, an interval without key shapes inside.
     pub(crate) fn vertex_maxima(&self, from: f64, to: f64) -> [f64; 2] {
         let distance = self.at(from).radius().max(self.at(to).radius());
         let Some(between) = self.at(0.5 * (from + to)).between else {
@@ -105,7 +106,8 @@ impl ShapeAt<'_> {
         self.positions().map(DVec3::length).fold(0.0, f64::max)
     }
 
-    /// Unit normal of a vertex; none if the mesh has none, if the face is flat, or if two shapes' cancel.
+    /// Unit normal of a vertex; none if the mesh has none, if the face is flat, or if two shapes'
+    /// cancel.
     #[inline]
     pub fn normal(&self, vertex: u32) -> Option<DVec3> {
         if self.mesh.normals.is_empty() {
@@ -118,7 +120,8 @@ impl ShapeAt<'_> {
         }
     }
 
-    /// The normal of a transformed triangle, on the side from which it is wound anticlockwise. Its length is twice the area.
+    /// The normal of a transformed triangle, on the side from which it is wound anticlockwise. Its
+    /// length is twice the area.
     #[inline]
     pub fn area_normal(&self, triangle: u32, transform: &DAffine3) -> DVec3 {
         let [a, b, c] = self.corners(triangle);

@@ -5,7 +5,8 @@ use crate::motion::extent::Extent;
 use crate::motion::sweep::{greatest_speed, swept_aabb};
 use crate::scene::Scene;
 
-/// Part of its diagonal that an object travels within a slice at most, unless that takes too many slices.
+/// Part of its diagonal that an object travels within a slice at most, unless that takes too many
+/// slices.
 const TRAVEL_PER_SLICE: f64 = 0.25;
 const MAX_SLICES: usize = 16;
 
@@ -18,7 +19,8 @@ pub(crate) struct Slices {
 }
 
 impl Slices {
-    /// Cuts `[from, to]` into at least `needed` slices, rounded up to a power of two, and into 16 at most.
+    /// Cuts `[from, to]` into at least `needed` slices, rounded up to a power of two, and into 16
+    /// at most.
     pub fn new([from, to]: [f64; 2], needed: f64) -> Self {
         let count = needed.clamp(1.0, MAX_SLICES as f64).ceil() as usize;
         Self {
@@ -53,8 +55,8 @@ impl Slices {
     }
 }
 
-/// Cuts `[from, to]` into slices within which no object travels far; returns them with the boxes that the objects sweep in
-/// each.
+/// Cuts `[from, to]` into slices within which no object travels far; returns them with the boxes
+/// that the objects sweep in each.
 pub(crate) fn sweep_slices(scene: &Scene, from: f64, to: f64) -> (Slices, Vec<Vec<Aabb>>) {
     let extents = Extent::of_meshes(scene);
     let objects = 0..scene.objects.len();

@@ -18,10 +18,12 @@ struct PointMaxima {
     acceleration: f64,
 }
 
-/// A box around the object's mesh at every time of `[from, to]`, in the world; `extents` are those of the scene's meshes.
+/// A box around the object's mesh at every time of `[from, to]`, in the world; `extents` are those
+/// of the scene's meshes.
 ///
-/// Between keys a point moves along a curve of an acceleration of at most `A`, and such a curve strays from its chord by at
-/// most `A h^2 / 8`. The union of the boxes at both ends, grown by that, contains it. Translation needs no growth.
+/// Between keys a point moves along a curve of an acceleration of at most `A`, and such a curve
+/// strays from its chord by at most `A h^2 / 8`. The union of the boxes at both ends, grown by
+/// that, contains it. Translation needs no growth.
 pub(crate) fn swept_aabb(
     scene: &Scene,
     extents: &[Extent],
@@ -49,7 +51,8 @@ pub(crate) fn swept_aabb(
     union
 }
 
-/// The greatest speed of any point of the object's mesh within `[from, to]`, metres per frame; never too small.
+/// The greatest speed of any point of the object's mesh within `[from, to]`, metres per frame;
+/// never too small.
 pub(crate) fn greatest_speed(
     scene: &Scene,
     extents: &[Extent],
@@ -66,7 +69,8 @@ pub(crate) fn greatest_speed(
         .fold(0.0, f64::max)
 }
 
-/// The ends of the interval, and the times inside it of the motions' keys and the mesh's key shapes.
+/// The ends of the interval, and the times inside it of the motions' keys and the mesh's key
+/// shapes.
 fn span_times(mesh: &Mesh, motions: &[&Motion], from: f64, to: f64) -> Vec<f64> {
     let keys = motions.iter().flat_map(|motion| &motion.keys);
     times_within(keys.map(|key| key.time).chain(mesh.shape_times()), from, to)
@@ -95,7 +99,8 @@ fn chain_maxima(
     })
 }
 
-/// The limits after one segment of a motion: scale, then rotations, then translation, each by the product rule.
+/// The limits after one segment of a motion: scale, then rotations, then translation, each by the
+/// product rule.
 fn segment_maxima(inner: PointMaxima, segment: &Segment, from: f64, to: f64) -> PointMaxima {
     let [from, to] = [from, to].map(|time| segment.since(time));
     let largest = |scale: DVec3| scale.abs().max_element();

@@ -10,8 +10,8 @@ use crate::scene::Scene;
 
 /// Step of the difference quotient, in frames.
 const STEP: f64 = 1e-5;
-/// Upper limit on the difference between the quotient and the derivative, relative to the latter and at least that of one pixel or metre
-/// per frame.
+/// Upper limit on the difference between the quotient and the derivative, relative to the latter
+/// and at least that of one pixel or metre per frame.
 const AGREEMENT: f64 = 1e-5;
 
 /// A visible point, followed through time.
@@ -28,12 +28,14 @@ impl TrackedPoint {
         hit.map_or(TrackedPoint::Infinity(direction), TrackedPoint::Surface)
     }
 
-    /// Pixels per frame at the time of the motion, +x right, +y down; then metres per frame away from the camera.
+    /// Pixels per frame at the time of the motion, +x right, +y down; then metres per frame away
+    /// from the camera.
     ///
-    /// The derivative is taken from the left. At a key on that time, where a motion may have a corner, that is the side that
-    /// an engine sees, which compares with the frame before. A point that is behind the camera at the other frame has no
-    /// position there and gets the derivative. The motion to a place after is a difference for every kind. What stands still
-    /// under a still camera has a velocity of exactly 0.
+    /// The derivative is taken from the left. At a key on that time, where a motion may have a
+    /// corner, that is the side that an engine sees, which compares with the frame before. A point
+    /// that is behind the camera at the other frame has no position there and gets the derivative.
+    /// The motion to a place after is a difference for every kind. What stands still under a still
+    /// camera has a velocity of exactly 0.
     pub fn velocity(
         &self,
         scene: &Scene,
@@ -53,8 +55,8 @@ impl TrackedPoint {
             if rate.is_still() && exact == [0.0; 3] {
                 return Some(exact);
             }
-            // Some filters choose among equal velocities by their last digit. Published scores have the quotient's, so it stays
-            // where it is right: below some hundred radians per frame.
+            // Some filters choose among equal velocities by their last digit. Published scores have
+            // the quotient's, so it stays where it is right: below some hundred radians per frame.
             let quotient = self.difference_quotient(scene, size, motion);
             let right = quotient.filter(|quotient| agree(quotient, &exact));
             Some(right.unwrap_or(exact))
@@ -69,7 +71,8 @@ impl TrackedPoint {
         velocity.unwrap_or([0.0; 3]).map(|part| part + 0.0)
     }
 
-    /// The derivative of [`TrackedPoint::project`] at the time of the motion, from the left; none behind the camera.
+    /// The derivative of [`TrackedPoint::project`] at the time of the motion, from the left; none
+    /// behind the camera.
     fn derivative(
         &self,
         scene: &Scene,
@@ -103,7 +106,8 @@ impl TrackedPoint {
         }))
     }
 
-    /// The place in the picture at `time` (frames), in pixels, and the depth in metres, 0 at infinity; none behind the camera.
+    /// The place in the picture at `time` (frames), in pixels, and the depth in metres, 0 at
+    /// infinity; none behind the camera.
     fn project(
         &self,
         scene: &Scene,
@@ -135,8 +139,8 @@ impl TrackedPoint {
     }
 }
 
-/// The place of a point of a surface in the world at `time` (frames), and its velocity just before, metres per frame, if its shape, its
-/// object and that object's parents move.
+/// The place of a point of a surface in the world at `time` (frames), and its velocity just before,
+/// metres per frame, if its shape, its object and that object's parents move.
 fn surface_motion(
     scene: &Scene,
     hit: &Hit,
@@ -183,9 +187,9 @@ pub(crate) fn camera(scene: &Scene, [width, height]: [u32; 2]) -> Camera {
     Camera { now, before }
 }
 
-/// The velocity that an engine without a velocity buffer rebuilds: the motion since the frame before of a point that
-/// stands still in the world, at `depth` (metres, infinite for the background) under a pixel centre. Zero for a point that
-/// was behind the camera then.
+/// The velocity that an engine without a velocity buffer rebuilds: the motion since the frame
+/// before of a point that stands still in the world, at `depth` (metres, infinite for the
+/// background) under a pixel centre. Zero for a point that was behind the camera then.
 pub(crate) fn camera_velocity(
     reprojection: &Reprojection,
     centre: [f64; 2],
@@ -203,7 +207,8 @@ pub(crate) fn earliest_time(kind: VelocityKind) -> f64 {
     }
 }
 
-/// Returns whether two velocities and changes of depth are the same, except for errors of the difference quotient.
+/// Returns whether two velocities and changes of depth are the same, except for errors of the
+/// difference quotient.
 fn agree(quotient: &[f64; 3], exact: &[f64; 3]) -> bool {
     let [right, down, away] = difference(*quotient, *exact);
     let allowed = |speed: f64| AGREEMENT * speed.max(1.0);

@@ -15,7 +15,8 @@ use crate::stage::Stage;
 
 /// Bounce at which roulette begins; before it every path goes on.
 const ROULETTE_FROM: u32 = 3;
-/// Most bounces of a path. Roulette ends nearly all paths long before: at albedo 0.8 one in a million gets here.
+/// Most bounces of a path. Roulette ends nearly all paths long before: at albedo 0.8 one in a
+/// million gets here.
 const MAX_BOUNCES: u32 = 64;
 
 /// Traces paths through a stage.
@@ -26,8 +27,8 @@ pub(crate) struct Integrator<'a> {
     draws_points: bool,
 }
 
-/// Density with which a ray's direction was sampled; none for rays of the camera and of mirrors, which no light could have
-/// sampled.
+/// Density with which a ray's direction was sampled; none for rays of the camera and of mirrors,
+/// which no light could have sampled.
 type RayDensity = Option<f64>;
 
 impl<'a> Integrator<'a> {
@@ -43,8 +44,8 @@ impl<'a> Integrator<'a> {
         }
     }
 
-    /// Follows a path from where its camera ray stops, or from the background if it does not; returns its
-    /// radiance and the number of bounces.
+    /// Follows a path from where its camera ray stops, or from the background if it does not;
+    /// returns its radiance and the number of bounces.
     pub fn follow_path(
         &self,
         poses: &mut Poses,
@@ -111,7 +112,8 @@ impl<'a> Integrator<'a> {
         (radiance, MAX_BOUNCES)
     }
 
-    /// Gathers the light of lights and the sky that a surface scatters, and draws the path's next direction.
+    /// Gathers the light of lights and the sky that a surface scatters, and draws the path's next
+    /// direction.
     fn scatter(
         &self,
         poses: &mut Poses,
@@ -142,7 +144,8 @@ impl<'a> Integrator<'a> {
         (light, brdf.sample(lobe_choice, [u, v]))
     }
 
-    /// Radiance of the background and the sun's disc, weighted against the chance that light sampling drew the ray.
+    /// Radiance of the background and the sun's disc, weighted against the chance that light
+    /// sampling drew the ray.
     fn background_radiance(&self, ray: &Ray, density: RayDensity) -> Vec3 {
         let scene = self.stage.scene;
         let weight = density.map_or(1.0, |density| {
@@ -172,8 +175,8 @@ impl<'a> Integrator<'a> {
         surface.emission * weight as f32
     }
 
-    /// Light from the sun and from one emitter, scattered by a surface. The random numbers choose the emitter, the point on
-    /// it and the point on the sun.
+    /// Light from the sun and from one emitter, scattered by a surface. The random numbers choose
+    /// the emitter, the point on it and the point on the sun.
     fn direct_light(
         &self,
         poses: &mut Poses,
@@ -194,8 +197,8 @@ impl<'a> Integrator<'a> {
         light
     }
 
-    /// Light from one light sample, scattered by a surface. `by_surface` says that the BRDF might have sampled the direction
-    /// too.
+    /// Light from one light sample, scattered by a surface. `by_surface` says that the BRDF might
+    /// have sampled the direction too.
     fn light_from(
         &self,
         poses: &mut Poses,

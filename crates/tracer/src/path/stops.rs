@@ -32,13 +32,13 @@ pub(crate) struct Layer {
     pub stop: Option<Stop>,
     /// Share of the ray's coverage; the shares of all layers sum to 1.
     pub share: f64,
-    /// Share of the light from the stop that comes back along the ray. In front of a pane, the pane's own reflectance is left to the
-    /// path.
+    /// Share of the light from the stop that comes back along the ray. In front of a pane, the
+    /// pane's own reflectance is left to the path.
     pub weight: Vec3,
 }
 
-/// Finds all stops of a ray, from near to far: each translucent surface, and at the end an opaque one or the background. Calls
-/// `visit` for each.
+/// Finds all stops of a ray, from near to far: each translucent surface, and at the end an opaque
+/// one or the background. Calls `visit` for each.
 pub(crate) fn visit_layers(
     stage: &Stage,
     poses: &mut Poses,
@@ -88,8 +88,9 @@ pub(crate) fn visit_layers(
     visit(poses, last);
 }
 
-/// Draws one of the stops of a ray by their shares of coverage, with the weight that keeps the mean of the light. `number` gives
-/// one in [0, 1), if it is needed. One number is enough for all surfaces: the rest of it at each is uniform again.
+/// Draws one of the stops of a ray by their shares of coverage, with the weight that keeps the mean
+/// of the light. `number` gives one in [0, 1), if it is needed. One number is enough for all
+/// surfaces: the rest of it at each is uniform again.
 pub(crate) fn find_stop(
     stage: &Stage,
     poses: &mut Poses,

@@ -9,7 +9,8 @@ use glam::{DVec3, Vec3};
 pub enum Background {
     /// Radiance that is the same from everywhere.
     Constant(Vec3),
-    /// Piecewise linear in the height (y) of the unit direction: `ground` at -1, `horizon` at 0, `zenith` at +1.
+    /// Piecewise linear in the height (y) of the unit direction: `ground` at -1, `horizon` at 0,
+    /// `zenith` at +1.
     Gradient {
         /// Radiance straight down.
         ground: Vec3,
@@ -22,13 +23,14 @@ pub enum Background {
     Map(EnvironmentMap),
 }
 
-/// Radiance by direction, in longitude (from left to right) and latitude (from +Y at the top to -Y).
+/// Radiance by direction, in longitude (from left to right) and latitude (from +Y at the top to
+/// -Y).
 #[derive(Clone, Debug, PartialEq)]
 pub struct EnvironmentMap {
     /// The image file.
     pub path: PathBuf,
-    /// Texels around the horizon, twice as many as rows. The middle of the image is towards -Z, its right quarter towards
-    /// +X.
+    /// Texels around the horizon, twice as many as rows. The middle of the image is towards -Z, its
+    /// right quarter towards +X.
     pub width: u32,
     /// Rows.
     pub height: u32,
@@ -47,6 +49,7 @@ pub struct Sun {
     pub direction: DVec3,
     /// Irradiance on a surface that faces it.
     pub irradiance: Vec3,
-    /// Radius of its disc in radians; 0 is a point at infinity, which no camera ray and no bounce can hit.
+    /// Radius of its disc in radians; 0 is a point at infinity, which no camera ray and no bounce
+    /// can hit.
     pub angular_radius: f64,
 }

@@ -24,18 +24,21 @@ pub struct Material {
     pub name: String,
     /// Reflection.
     pub finish: Finish,
-    /// Linear albedo (Kd), each component in [0, 1]; multiplied by the texture if there is one. A conductor's
-    /// reflectance at normal incidence.
+    /// Linear albedo (Kd), each component in [0, 1]; multiplied by the texture if there is one. A
+    /// conductor's reflectance at normal incidence.
     pub diffuse: Vec3,
     /// Index into the scene's textures (map_Kd).
     pub diffuse_texture: Option<usize>,
     /// Emitted radiance (Ke), from both sides.
     pub emission: Vec3,
-    /// Index into the scene's textures (map_Ke); multiplies `emission`. Without albedo it makes an unlit surface.
+    /// Index into the scene's textures (map_Ke); multiplies `emission`. Without albedo it makes an
+    /// unlit surface.
     pub emission_texture: Option<usize>,
-    /// Opacity (d). Where opacity times its texture's is below 0.5, the surface has a hole, unless it is translucent.
+    /// Opacity (d). Where opacity times its texture's is below 0.5, the surface has a hole, unless
+    /// it is translucent.
     pub opacity: f32,
-    /// Index into the scene's textures (map_d); its alpha counts if it has one, else its first component undecoded.
+    /// Index into the scene's textures (map_d); its alpha counts if it has one, else its first
+    /// component undecoded.
     pub opacity_texture: Option<usize>,
     /// Treatment of the light that opacity leaves, if opacity mixes the surface with what
     /// is behind it; none if opacity cuts holes.
@@ -45,12 +48,14 @@ pub struct Material {
 /// The light that a translucent surface does not stop. It passes straight through.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Translucency {
-    /// Part of the light that passes (Tf), each component in [0, 1]; in glass, of each passage from side to side.
+    /// Part of the light that passes (Tf), each component in [0, 1]; in glass, of each passage from
+    /// side to side.
     pub filter: Vec3,
-    /// Index of refraction of a pane of glass, which reflects a part of the light on its two sides; none for a film that
-    /// reflects nothing.
+    /// Index of refraction of a pane of glass, which reflects a part of the light on its two sides;
+    /// none for a film that reflects nothing.
     pub glass: Option<f32>,
-    /// True if velocity, depth and object id come from this surface; else from what is behind it, as in engines.
+    /// True if velocity, depth and object id come from this surface; else from what is behind it,
+    /// as in engines.
     pub in_buffers: bool,
 }
 
@@ -84,7 +89,8 @@ impl Material {
     /// Opacity below which a surface has a hole, unless it is translucent.
     pub const HOLE: f32 = 0.5;
 
-    /// Makes a surface that sends out its albedo and reflects nothing; one that emits keeps its radiance.
+    /// Makes a surface that sends out its albedo and reflects nothing; one that emits keeps its
+    /// radiance.
     pub(super) fn unlit(self) -> Self {
         let (emission, emission_texture) = if self.emission == Vec3::ZERO {
             (self.diffuse, self.diffuse_texture)
@@ -106,8 +112,8 @@ impl Material {
     }
 }
 
-/// The reflection of a surface. Roughness is 0 for a mirror, else from [`Finish::SMOOTHEST`] to 1; its square is the width of
-/// the GGX distribution of slopes.
+/// The reflection of a surface. Roughness is 0 for a mirror, else from [`Finish::SMOOTHEST`] to 1;
+/// its square is the width of the GGX distribution of slopes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Finish {
     /// Diffuse reflection (Lambert).

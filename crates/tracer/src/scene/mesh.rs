@@ -19,8 +19,9 @@ pub struct Mesh {
     pub triangles: Vec<[u32; 3]>,
     /// Index into the object's `materials`, per triangle.
     pub slots: Vec<u32>,
-    /// Key shapes at strictly rising times: none for a rigid mesh, else at least two, the first being `positions` and
-    /// `normals`. Vertices move in straight lines between them, and beyond the ends as between the nearest two.
+    /// Key shapes at strictly rising times: none for a rigid mesh, else at least two, the first
+    /// being `positions` and `normals`. Vertices move in straight lines between them, and beyond
+    /// the ends as between the nearest two.
     pub shapes: Vec<Shape>,
 }
 

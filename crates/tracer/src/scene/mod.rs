@@ -97,15 +97,16 @@ impl Family {
 pub struct Camera {
     /// Transform from camera to world; never scales.
     pub motion: Motion,
-    /// At least one key of time in frames and vertical field of view in radians. Between and beyond its keys the field of
-    /// view is interpolated as the motion is.
+    /// At least one key of time in frames and vertical field of view in radians. Between and beyond
+    /// its keys the field of view is interpolated as the motion is.
     pub vertical_fov: Vec<(f64, f64)>,
     /// Lens; none for a pinhole.
     pub lens: Option<Lens>,
 }
 
-/// A thin lens: a disc across the view axis, around the camera's position. It has no errors and does not darken the picture: a pixel
-/// is the mean of what the pinholes at all points of the disc see.
+/// A thin lens: a disc across the view axis, around the camera's position. It has no errors and
+/// does not darken the picture: a pixel is the mean of what the pinholes at all points of the disc
+/// see.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Lens {
     /// Diameter in metres, above 0.
@@ -141,8 +142,9 @@ pub struct Object {
 }
 
 impl Scene {
-    /// Makes every surface send out its albedo in any light: emitters keep their radiance, and glass reflects nothing.
-    /// There is no sun, and the background lights nothing. An engine without lights draws the same radiance.
+    /// Makes every surface send out its albedo in any light: emitters keep their radiance, and
+    /// glass reflects nothing. There is no sun, and the background lights nothing. An engine
+    /// without lights draws the same radiance.
     pub fn unlit(self) -> Self {
         let materials = self.materials.into_iter().map(Material::unlit);
         Self {

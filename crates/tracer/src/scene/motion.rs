@@ -26,8 +26,8 @@ pub struct Key {
     pub turn: Turn,
 }
 
-/// At least one key, in rising order of time. Before the first key and after the last the motion goes on at the velocity
-/// that it has there. A motion of one key stands still.
+/// At least one key, in rising order of time. Before the first key and after the last the motion
+/// goes on at the velocity that it has there. A motion of one key stands still.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Motion {
     /// Poses at strictly rising times.
@@ -40,20 +40,21 @@ pub struct Motion {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Interpolation {
-    /// Position and scale change at a constant rate, the orientation turns at a constant angular velocity. Velocities
-    /// jump at keys.
+    /// Position and scale change at a constant rate, the orientation turns at a constant angular
+    /// velocity. Velocities jump at keys.
     #[default]
     Linear,
     /// Velocities are continuous.
     ///
-    /// Position and scale follow cubic polynomials. The slope at a key is the slope of the parabola through the key and
-    /// its neighbours (Catmull and Rom 1974, for uneven times), so keys taken from a parabola reproduce it. The angular
-    /// velocity at a key is the same mean of the turns before and after it.
+    /// Position and scale follow cubic polynomials. The slope at a key is the slope of the parabola
+    /// through the key and its neighbours (Catmull and Rom 1974, for uneven times), so keys taken
+    /// from a parabola reproduce it. The angular velocity at a key is the same mean of the turns
+    /// before and after it.
     ///
-    /// Between keys the orientation is a product of rotations about fixed axes by cubic angles (the kind of curve of Kim,
-    /// Kim and Shin 1995): the turn from key to key, with a swing before it and one after it. A swing vanishes at both
-    /// keys and supplies the part of the angular velocity there that is across the turn's axis. Turns that share an axis
-    /// need no swing.
+    /// Between keys the orientation is a product of rotations about fixed axes by cubic angles (the
+    /// kind of curve of Kim, Kim and Shin 1995): the turn from key to key, with a swing before it
+    /// and one after it. A swing vanishes at both keys and supplies the part of the angular
+    /// velocity there that is across the turn's axis. Turns that share an axis need no swing.
     Cubic,
 }
 

@@ -4,7 +4,8 @@ use glam::{DQuat, DVec3};
 
 use crate::scene::{Background, Key, Scene};
 
-/// Mirrors a scene at the plane x = 0, camera and lights included: its picture is the scene's, left for right.
+/// Mirrors a scene at the plane x = 0, camera and lights included: its picture is the scene's, left
+/// for right.
 pub(super) fn mirror(mut scene: Scene) -> Scene {
     for mesh in &mut scene.meshes {
         let shapes = (mesh.shapes.iter_mut())

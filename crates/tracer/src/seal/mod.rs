@@ -25,8 +25,9 @@ const ZOOM: RangeInclusive<f64> = 0.9..=1.1;
 /// Factor on the albedo of each material.
 const SHADE: RangeInclusive<f64> = 0.7..=1.0;
 
-/// The changes that a seed makes to a scene. They keep the scene's subject, and change everything that a preset could have been
-/// fitted to: speeds, directions, places in the picture, timing and colours.
+/// The changes that a seed makes to a scene. They keep the scene's subject, and change everything
+/// that a preset could have been fitted to: speeds, directions, places in the picture, timing and
+/// colours.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Seal {
     /// The seed.
@@ -63,7 +64,8 @@ impl Seal {
         colors: [0, 1, 2],
     };
 
-    /// Largest time of the scene that the sealed one shows `time` frames after its instant, or as many before it.
+    /// Largest time of the scene that the sealed one shows `time` frames after its instant, or as
+    /// many before it.
     pub(crate) fn farthest(time: f64) -> f64 {
         SPEED.end() * (time + DELAY.end())
     }

@@ -37,9 +37,11 @@ pub struct RowFilter<'a> {
     reach: usize,
     /// Length of a line, a multiple of [`LANES`].
     stride: usize,
-    /// Opponent colours of one row and its lightness from 0 to 1, with the outermost pixels repeated.
+    /// Opponent colours of one row and its lightness from 0 to 1, with the outermost pixels
+    /// repeated.
     padded: [Vec<f32>; 4],
-    /// The last rows, filtered along themselves, as many as filters reach over; each has the slot of its number.
+    /// The last rows, filtered along themselves, as many as filters reach over; each has the slot
+    /// of its number.
     recent: Vec<f32>,
     /// First row that was not yet filtered along itself.
     next: usize,

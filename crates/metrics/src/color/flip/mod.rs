@@ -1,9 +1,10 @@
 //! FLIP: the difference that a person sees when flipping between two pictures.
 //!
-//! Andersson et al., "FLIP: A Difference Evaluator for Alternating Images" (HPG 2020), and "Visualizing Errors in
-//! Rendered High Dynamic Range Images" (Eurographics short papers 2021), as NVIDIA's tool 1.7 computes them. Sums are taken
-//! in the tool's order, in 32 bits; powers are rounded from 64 bits. Every pixel has its own sums, so that the bytes are the same
-//! on any number of threads.
+//! Andersson et al., "FLIP: A Difference Evaluator for Alternating Images" (HPG 2020), and
+//! "Visualizing Errors in Rendered High Dynamic Range Images" (Eurographics short papers 2021), as
+//! NVIDIA's tool 1.7 computes them. Sums are taken in the tool's order, in 32 bits; powers are
+//! rounded from 64 bits. Every pixel has its own sums, so that the bytes are the same on any number
+//! of threads.
 //!
 //! | file | holds |
 //! |---|---|
@@ -29,17 +30,19 @@ use seen::{Seen, raise_to_errors};
 /// Upper limit on the exposures of HDR-FLIP.
 pub const MAX_EXPOSURES: u32 = 128;
 
-/// Maps LDR-FLIP, in [0, 1], of scene-linear images at `viewing.stops`, seen at 67.02 pixels per degree: a monitor
-/// 0.7 m wide with 3840 pixels, from 0.7 m away. The images are finite and of one size.
+/// Maps LDR-FLIP, in [0, 1], of scene-linear images at `viewing.stops`, seen at 67.02 pixels per
+/// degree: a monitor 0.7 m wide with 3840 pixels, from 0.7 m away. The images are finite and of one
+/// size.
 pub fn flip_ldr(truth: &Image, output: &Image, viewing: &Viewing) -> Plane {
     let [truth, output] = [truth, output].map(|image| Displayed::new(image, viewing));
     SeenExposures::of_display(&truth).map_errors(&output.linear)
 }
 
-/// Maps HDR-FLIP: the largest LDR-FLIP over the viewing's exposures, ACES tone curve, seen as in [`flip_ldr`].
+/// Maps HDR-FLIP: the largest LDR-FLIP over the viewing's exposures, ACES tone curve, seen as in
+/// [`flip_ldr`].
 ///
-/// The exposures are always explicit: derived from the truth, they would amplify its noise by 2^24 over a black
-/// background, and change with every render.
+/// The exposures are always explicit: derived from the truth, they would amplify its noise by 2^24
+/// over a black background, and change with every render.
 pub fn flip_hdr(truth: &Image, output: &Image, viewing: &Viewing) -> Plane {
     SeenExposures::new(truth, viewing).map_errors(output)
 }
@@ -61,7 +64,8 @@ impl Displayed {
     }
 }
 
-/// A truth as the eye sees it, for FLIP of any number of pictures: on a display, or at each exposure of HDR-FLIP.
+/// A truth as the eye sees it, for FLIP of any number of pictures: on a display, or at each
+/// exposure of HDR-FLIP.
 pub struct SeenExposures(Vec<(Exposure, Seen)>);
 
 impl SeenExposures {

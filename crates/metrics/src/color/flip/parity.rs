@@ -24,7 +24,8 @@ const VIEWING: Viewing = Viewing {
     flip_count: 5,
 };
 
-/// Makes a picture of a flat part, a ramp, an edge, and fine grain in a part of it; brighter than display white in places.
+/// Makes a picture of a flat part, a ramp, an edge, and fine grain in a part of it; brighter than
+/// display white in places.
 fn picture(width: u32, height: u32, seed: u32) -> Image {
     Raster::from_fn(width, height, |x, y| {
         let mixed = (x.wrapping_mul(73_856_093) ^ y.wrapping_mul(19_349_663) ^ seed)

@@ -9,7 +9,8 @@ use super::space::{distance, largest_distance};
 use super::weights::Weights;
 use crate::math::power::power;
 
-/// Rows filtered by one thread: more leave threads idle on pictures of few rows, fewer filter more rows twice.
+/// Rows filtered by one thread: more leave threads idle on pictures of few rows, fewer filter more
+/// rows twice.
 const BAND: usize = 64;
 
 /// A picture as the eye sees it at one exposure.

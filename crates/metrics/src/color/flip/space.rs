@@ -43,7 +43,8 @@ pub fn tone_map(value: f32, factor: f32) -> f32 {
     clamp(curve)
 }
 
-/// Converts linear values to the opponent colours in which contrast is filtered: lightness, red to green, blue to yellow.
+/// Converts linear values to the opponent colours in which contrast is filtered: lightness, red to
+/// green, blue to yellow.
 #[inline(always)]
 pub fn to_opponent(color: [f32; 3]) -> [f32; 3] {
     let [x, y, z] = multiply(&TO_XYZ, color);
@@ -51,8 +52,8 @@ pub fn to_opponent(color: [f32; 3]) -> [f32; 3] {
     [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
 }
 
-/// Converts lines of filtered opponent colours to CIELab with Hunt's adjustment, step by step: compilers turn each step into wide
-/// instructions.
+/// Converts lines of filtered opponent colours to CIELab with Hunt's adjustment, step by step:
+/// compilers turn each step into wide instructions.
 #[inline(always)]
 pub fn to_lab<const LANES: usize>([first, second, third]: &mut [[f32; LANES]; 3]) {
     for lane in 0..LANES {
@@ -108,7 +109,8 @@ fn bend(value: f32) -> f32 {
     }
 }
 
-/// Computes CIELab from curved parts of white, with Hunt's adjustment: dark colours are less colourful.
+/// Computes CIELab from curved parts of white, with Hunt's adjustment: dark colours are less
+/// colourful.
 #[inline(always)]
 fn adjust([x, y, z]: [f32; 3]) -> [f32; 3] {
     let lightness = 116.0 * y - 16.0;

@@ -7,7 +7,8 @@ const PIXELS_PER_DEGREE: f32 = 0.7 * (3840.0 / 0.7) * (PI / 180.0);
 
 /// Weights of every separable filter, from the first pixel to the last; all have odd lengths.
 pub struct Weights {
-    /// Contrast sensitivity to lightness, to red and green, and twice to blue and yellow, whose two parts add up.
+    /// Contrast sensitivity to lightness, to red and green, and twice to blue and yellow, whose two
+    /// parts add up.
     pub contrast: [Vec<f32>; 4],
     /// Gaussian, and its first and second derivative, which find edges and points.
     pub feature: [Vec<f32>; 3],

@@ -17,7 +17,8 @@ impl Avx2 {
         V3::try_new().map(Self)
     }
 
-    /// The distances at which the ray enters (end 0) or leaves (end 1) the slabs of one half of the boxes.
+    /// The distances at which the ray enters (end 0) or leaves (end 1) the slabs of one half of the
+    /// boxes.
     #[inline(always)]
     fn planes(self, boxes: &Boxes, half: usize, ray: &SlabRay, axis: usize, end: usize) -> __m256 {
         let Self(V3 { avx, fma, .. }) = self;
