@@ -3,9 +3,9 @@
     python3 examples/changes/search.py --filter shaders/godot --preset addon --out out/changes > results/changes/godot_addon.md
 
 It scores the preset and every change of one parameter with `shuttertruth tune serve`, and prints the gain in mean FLIP with its 95 %
-CI over the scenes. The best change counts if its CI excludes 0. Then it tries the best changes two at a time; a pair counts if the CI
-of its gain over the best single change excludes 0. What was found is measured again on sealed variants of the scenes, which took no
-part in the choice. README.md has more.
+CI over the scenes. The best change whose CI excludes 0 counts. Then it tries the best changes two at a time; the best pair
+counts if the CI of its gain over that change excludes 0. What was found is measured again on sealed variants of the scenes, which took
+no part in the choice. README.md has more.
 """
 
 import argparse
@@ -36,7 +36,7 @@ def main():
     print(f"{len(start)} scenes at {arguments.size}, {arguments.samples_per_pixel} samples per pixel: FLIP {fmean(start.values()):.4f}\n")
     ranked = rank(scores, singles, start)
     print_table("change", ranked)
-    single = ranked[0] if ranked and ranked[0].gain.low > 0 else None
+    single = first_certain(ranked)
     if not single:
         print("\nsmallest change: none; no gain's CI excludes 0")
         return
@@ -211,6 +211,11 @@ def try_pairs(scores, best, single):
     print(f"\nover `{name(single.change)}`:\n")
     print_table("pair", ranked)
     return ranked[0] if ranked[0].gain.low > 0 else None
+
+
+def first_certain(ranked):
+    """Returns the largest gain with a CI that excludes 0."""
+    return next((own for own in ranked if own.gain.low > 0), None)
 
 
 def confirm(sealed, single, pair):

@@ -29,9 +29,9 @@ pub struct Engine {
     /// Commit that the preset follows.
     pub commit: String,
     /// Date of that commit.
-    pub date: String,
+    pub date: Option<String>,
     /// Date when that commit was compared with the engine's newest.
-    pub compared: String,
+    pub compared: Option<String>,
     /// What its newest has instead, if that is another blur.
     pub moved_on: Option<String>,
     pub default: DefaultState,

@@ -25,6 +25,7 @@ pub struct Panels {
     small: LazyCell<Shot>,
     full: LazyCell<Shot>,
     camera: LazyCell<Shot>,
+    full_camera: LazyCell<Shot>,
 }
 
 impl Panels {
@@ -33,18 +34,18 @@ impl Panels {
             small: LazyCell::new(|| measured_shot(Mover::Panel, SMALL)),
             full: LazyCell::new(|| measured_shot(Mover::Panel, FULL_SIZE)),
             camera: LazyCell::new(|| measured_shot(Mover::Camera, SMALL)),
+            full_camera: LazyCell::new(|| measured_shot(Mover::Camera, FULL_SIZE)),
         }
     }
 
     /// Measures an engine's smear with its length times `factor`.
     pub fn measure(&self, engine: &Engine, factor: f64) -> Lengths {
         let shipped = &engine.shipped;
-        let shot = if shipped.camera_moves {
-            &self.camera
-        } else if shipped.full_size {
-            &self.full
-        } else {
-            &self.small
+        let shot = match (shipped.camera_moves, shipped.full_size) {
+            (false, false) => &self.small,
+            (false, true) => &self.full,
+            (true, false) => &self.camera,
+            (true, true) => &self.full_camera,
         };
         let (filter, preset) = (engine.shape.split_once(':')).expect("a preset has a filter");
         let filter = Filter::builtin(filter).expect("engines.toml names built-in filters");

@@ -385,9 +385,15 @@ fn provenance(engine: &Engine) -> String {
         default_at,
         ..
     } = engine;
-    let mut text = format!(
-        "Commit {commit} of {date}, last compared with the newest on {compared}. Its default is at `{default_at}`."
-    );
+    let mut text = match (date, compared) {
+        (Some(date), Some(compared)) => {
+            format!("Commit {commit} of {date}, last compared with the newest on {compared}.")
+        }
+        _ => format!(
+            "Commit {commit}, whose date is not known. It was not compared with the newest, which could not be fetched."
+        ),
+    };
+    text += &format!(" Its default is at `{default_at}`.");
     if let Some(moved) = &engine.moved_on {
         text += &format!(" The engine has moved on: {moved}.");
     }

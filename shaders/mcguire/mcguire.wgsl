@@ -25,6 +25,7 @@ struct Parameters {
     neighbor_rule: u32,
     own_direction_from: f32,
     only_own_direction_from: f32,
+    camera_influence: f32,
 }
 
 @group(0) @binding(1) var<uniform> parameters: Parameters;
@@ -63,6 +64,8 @@ const NEIGHBORS_ALL = 0u;
 const EPSILON = 1e-5;
 // A neighbourhood whose longest half-velocity is no longer than this stands still: half a pixel, and what rounding adds.
 const STILL = 0.5001;
+// In pixels: what rounding leaves of the motion of a camera that stands still.
+const CAMERA_STILL = 1e-3;
 // G3D: a neighbourhood counts as uniform if its shortest radius is at least this, in pixels and as part of the longest.
 const UNIFORM_FROM = 4.0;
 const UNIFORM_PART = 0.65;
@@ -74,6 +77,19 @@ fn least_radius() -> f32 {
 
 fn radius_of(half_velocity: vec2<f32>) -> f32 {
     return max(length(half_velocity), least_radius());
+}
+
+// Motion in a whole frame. G3D takes a part of the camera's, and an object's own whole.
+fn full_velocity(pixel: vec2<i32>) -> vec2<f32> {
+    let full = textureLoad(velocity, pixel, 0).xy;
+    if parameters.camera_influence == 1.0 {
+        return full;
+    }
+    let camera = centre(pixel) - before_camera(centre(pixel), textureLoad(depth, pixel, 0).x);
+    if length(camera) < CAMERA_STILL {
+        return full;
+    }
+    return full - (1.0 - parameters.camera_influence) * camera;
 }
 
 fn half_velocity(full: vec2<f32>) -> vec2<f32> {
@@ -120,7 +136,7 @@ fn cylinder(distance: f32, radius: f32) -> f32 {
 fn halve(@builtin(global_invocation_id) id: vec3<u32>) {
     let pixel = vec2<i32>(id.xy);
     if inside(pixel) {
-        let half = half_velocity(textureLoad(velocity, pixel, 0).xy);
+        let half = half_velocity(full_velocity(pixel));
         let z = compared_depth(textureLoad(depth, pixel, 0).x);
         textureStore(motion_out, pixel, vec4<f32>(half, z, 0.0));
     }

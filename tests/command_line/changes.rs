@@ -111,6 +111,11 @@ fn kept_changes_gain_for_certain_by_their_own_tables() {
             line.map(|own| own.trim_matches('`'))
         };
         let smallest = verdict("smallest change: ").expect("a verdict");
+        if smallest.starts_with("none; no gain's") {
+            let certain = gains.iter().find(|(_, gain)| gain[1] > 0.0);
+            assert!(certain.is_none(), "{name}: {certain:?} gains");
+            continue;
+        }
         if smallest.starts_with("none") {
             continue;
         }
@@ -127,7 +132,10 @@ fn kept_changes_gain_for_certain_by_their_own_tables() {
             });
             assert!(sealed.expect(change)[1] > 0.0, "{name}: {change}");
         }
-        let single = gains.iter().filter(|(change, _)| !change.contains(','));
+        let is_certain = |change: &str, gain: &[f64; 3]| !change.contains(',') && gain[1] > 0.0;
+        let single = gains
+            .iter()
+            .filter(|(change, gain)| is_certain(change, gain));
         let best = single.max_by(|a, b| a.1[0].total_cmp(&b.1[0])).unwrap();
         assert!(
             best.1[0] == gains[smallest][0],
@@ -150,6 +158,16 @@ fn run_python(code: &str) -> String {
 fn the_quantile_of_student_s_t_is_that_of_the_tables() {
     let code = "import search; print(*(f'{search.t_quantile(n):.3f}' for n in (5, 10, 25, 100)))";
     assert_eq!(run_python(code).trim(), "2.570 2.228 2.060 1.984");
+}
+
+#[test]
+fn a_certain_gain_counts_before_a_larger_one_that_is_not() {
+    let code = "
+import search
+from types import SimpleNamespace as Own
+ranked = [Own(change=name, gain=Own(low=low)) for name, low in [('wide', -0.01), ('sure', 0.01), ('less', 0.005)]]
+print(search.first_certain(ranked).change, search.first_certain(ranked[:1]))";
+    assert_eq!(run_python(code).trim(), "sure None");
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 #[path = "../../examples/results/change.rs"]
 mod change;
+mod claims;
 #[path = "../../examples/results/engines.rs"]
 mod engines;
 #[path = "../../examples/results/lengths.rs"]

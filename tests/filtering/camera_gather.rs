@@ -121,6 +121,84 @@ fn armory_s_mode_camera_equals_its_source_in_64_bits() {
 }
 
 #[test]
+fn urp_s_mode_camera_equals_its_source_in_64_bits() {
+    let frame = render_frame(0);
+    let output = blur_frame(&frame, "urp", Some("camera_only"), "");
+    let (width, height) = frame.size();
+    let size = [width, height].map(f64::from);
+    let [mut cut, mut same] = [0; 2];
+    for (x, y) in (0..width).flat_map(|x| (0..height).map(move |y| (x, y))) {
+        // CameraMotionBlur.shader at 438e586, line by line, with an intensity of half the exposure.
+        let device =
+            [0, 1].map(|axis| -2.0 * f64::from(frame.velocity.at(x, y)[axis]) / size[axis]);
+        let length = device[0].hypot(device[1]);
+        let velocity = device.map(|part| 0.5 * frame.exposure * part * length.min(0.05) / length);
+        let uv = [x, y].map(|part| f64::from(part) + 0.5);
+        let noise = (52.9829189 * (0.06711056 * uv[0] + 0.00583715 * uv[1]).fract()).fract();
+        let mut sum = 0.0;
+        for (i, sign) in (0..2).flat_map(|i| [(f64::from(i), -1.0), (f64::from(i), 1.0)]) {
+            let offset = (i + 0.5 + sign * (noise - 0.5)) / 4.0 * sign;
+            let at =
+                [0, 1].map(|axis| (uv[axis] + offset * velocity[axis] * size[axis]).floor() as i64);
+            sum += f64::from(read_clamped(&frame.color, at[0], at[1])[0]);
+        }
+        cut += i32::from(length > 0.05);
+        same += i32::from((f64::from(output.at(x, y)[0]) - sum / 4.0).abs() < 1e-5);
+    }
+    // A tap that lies on the border of two pixels reads either.
+    let pixels = i32::try_from(width * height).unwrap();
+    assert!(cut > 100 && cut < pixels - 100, "{cut} are cut");
+    assert!(same >= pixels - 6, "{same} of {pixels}");
+}
+
+#[test]
+fn half_of_the_camera_s_motion_leaves_movers_their_own() {
+    let frame = render_frame(0);
+    let [whole, half, none] = ["1", "0.5", "0"].map(|part| {
+        let changes = format!("camera_influence={part}");
+        blur_frame(&frame, "mcguire", Some("g3d"), &changes)
+    });
+    let difference = |image: &Image| {
+        let differences = image.zip(&frame.color, |a, b| (a[0] - b[0]).abs());
+        differences.pixels.iter().sum::<f32>()
+    };
+    // The velocities of this frame are the camera's alone, so that nothing is left of them.
+    assert_eq!(difference(&none), 0.0);
+    assert!(difference(&half) > 0.0 && difference(&half) < difference(&whole));
+    // Twice the exposure makes up for half the camera's motion.
+    let longer = Frame {
+        exposure: 2.0 * frame.exposure,
+        ..frame
+    };
+    let doubled = blur_frame(&longer, "mcguire", Some("g3d"), "");
+    let differences = doubled.zip(&whole, |a, b| (a[0] - b[0]).abs());
+    assert_within(differences.pixels.into_iter().fold(0.0, f32::max), ..0.01);
+}
+
+#[test]
+fn a_parameter_switches_the_camera_off() {
+    let frame = render_frame(0);
+    let colors = [&frame.color];
+    let input = Input {
+        reprojection: None,
+        ..frame_input(&frame, &colors)
+    };
+    for (filter, preset, off) in [
+        ("mcguire", "g3d", "camera_influence=1"),
+        ("urp", "camera_only", "motion=all"),
+    ] {
+        let mut needs_it = make_blur(filter, Some(preset), "", frame.size());
+        let error = needs_it.run(&input).unwrap_err().to_string();
+        assert_contains(
+            &error,
+            &["does not say how the camera moved", &format!("set {off}")],
+        );
+        let mut needs_none = make_blur(filter, Some(preset), off, frame.size());
+        needs_none.run(&input).unwrap();
+    }
+}
+
+#[test]
 fn a_frame_without_the_camera_s_motion_is_refused() {
     let frame = render_frame(0);
     let mut blur = make_blur("camera_gather", None, "", frame.size());

@@ -63,6 +63,14 @@ pub fn expected_ramp(filter: &str, preset: &str, steady: &Steady) -> Ramp {
     Ramp::spread(averages.flatten())
 }
 
+/// Returns true for a preset that sees the motion of the camera alone.
+pub fn sees_camera_only(filter: &str, preset: &str) -> bool {
+    matches!(
+        (filter, preset),
+        ("camera_gather" | "babylon_screen", _) | ("urp", "camera_only")
+    )
+}
+
 /// Returns the taps of one pixel with this noise value in [0, 1).
 pub fn place_taps(filter: &str, preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     match filter {

@@ -61,14 +61,32 @@ impl Shot {
     }
 
     /// Traces a shot of this size with a speed in pixels per frame, an angle in degrees, and an exposure in frames.
-    pub fn of(mover: Mover, size: [u32; 2], [speed, degrees, exposure]: [f64; 3]) -> Self {
+    pub fn of(mover: Mover, size: [u32; 2], motion: [f64; 3]) -> Self {
+        Self::trace(mover, size, 4, motion)
+    }
+
+    /// Traces a shot for its motion and depth, which pixel centres have: with a sample of colour, in half the time.
+    pub fn of_motion(mover: Mover, size: [u32; 2], motion: [f64; 3]) -> Self {
+        Self::trace(mover, size, 1, motion)
+    }
+
+    fn trace(
+        mover: Mover,
+        size: [u32; 2],
+        samples_per_pixel: u32,
+        [speed, degrees, exposure]: [f64; 3],
+    ) -> Self {
         let scene = moving_scene(mover, speed * VIEW / f64::from(size[1]), degrees);
         let (direction, middle) = (direction(degrees), middle(size));
         let painted = Raster::from_fn(size[0], size[1], |x, y| {
             let pixel = DVec2::new(f64::from(x), f64::from(y));
             half_plane::area(pixel, direction, direction.dot(middle)) as f32
         });
-        let frame = trace_frame(&scene, &render_settings(size, 4, exposure), &unwatched).unwrap();
+        let settings = RenderSettings {
+            replicates: 1,
+            ..render_settings(size, samples_per_pixel, exposure)
+        };
+        let frame = trace_frame(&scene, &settings, &unwatched).unwrap();
         let panel = frame.objects.iter().position(|name| name == "panel");
         let panel = panel.expect("the frame lists the panel");
         let reach = reach_of(size, speed);

@@ -15,7 +15,7 @@ pub const FULL_SIZE: [u32; 2] = [1920, 1080];
 
 /// Traces the panel for [`smear_degrees`], moving to the right.
 pub fn measured_shot(mover: Mover, size: [u32; 2]) -> Shot {
-    Shot::of(mover, size, [SPEED, 0.0, 0.5])
+    Shot::of_motion(mover, size, [SPEED, 0.0, 0.5])
 }
 
 /// Returns the length of a smear with the shutter open for `exposure` frames, at 60 frames per second, in degrees of the frame: 360 are one

@@ -39,9 +39,14 @@ pub struct Input<'a> {
 
 impl Input<'_> {
     /// Refuses rasters of another size than `size`, and impossible values.
-    pub(crate) fn check(&self, filter: &Filter, size: [u32; 2]) -> Result<(), FilterError> {
+    pub(crate) fn check(
+        &self,
+        filter: &Filter,
+        camera: CameraUse,
+        size: [u32; 2],
+    ) -> Result<(), FilterError> {
         self.check_values(size)
-            .and(self.check_camera(filter.camera_use()))
+            .and(self.check_camera(filter, camera))
             .and(self.check_further(&filter.further_inputs()))
             .map_err(|reason| FilterError::Input {
                 filter: filter.name.clone(),
@@ -97,13 +102,17 @@ impl Input<'_> {
         }
     }
 
-    fn check_camera(&self, reads: CameraUse) -> Result<(), String> {
+    fn check_camera(&self, filter: &Filter, reads: CameraUse) -> Result<(), String> {
         if reads.reprojection && self.reprojection.is_none() {
-            return Err(
+            let switches = filter.parameters.iter().filter_map(|parameter| {
+                let off = parameter.no_camera_at.as_ref()?;
+                Some(format!("set {}={off}, ", parameter.name))
+            });
+            return Err(format!(
                 "the frame does not say how the camera moved, which this filter reads; give it an attribute \
-                 \"reprojection\" of twelve numbers, or choose another filter"
-                    .to_owned(),
-            );
+                 \"reprojection\" of twelve numbers, {}or choose another filter",
+                switches.collect::<String>()
+            ));
         }
         if reads.matrices && self.camera.is_none() {
             return Err(

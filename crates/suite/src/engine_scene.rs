@@ -2,15 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
-use filters::{EXCLUSION, Filter};
+use filters::EXCLUSION;
 use frame::{Alignment, Frame, Ladder, Picture, Plane, Provenance, Truth, read_bounded, read_exr};
 use serde::{Deserialize, Serialize};
 use store::{MAX_TAKEN_BYTES, RenderFile, read_text};
 use tracer::SceneId;
 
-use crate::Error;
 use crate::inputs::border::wide;
 use crate::render::exclusion::EXCLUSION_FILE;
+use crate::{Error, FilterChoice};
 
 /// Name of the file that marks a folder as ingested.
 pub const INGESTED_FILE: &str = "ingested.json";
@@ -89,10 +89,10 @@ impl EngineScene {
     }
 
     /// Finds what a filter reads and the frame lacks.
-    pub fn find_lacking(&self, filter: &Filter) -> Option<&'static str> {
+    pub fn find_lacking(&self, choice: &FilterChoice) -> Option<&'static str> {
         let is_there = |name: &&str| self.further_inputs.iter().any(|own| own == name);
-        let mut further = filter.further_inputs().into_iter();
-        match filter.reads_camera() {
+        let mut further = choice.filter.further_inputs().into_iter();
+        match choice.filter.reads_camera(&choice.settings) {
             true => Some("the camera"),
             false => further.find(|name| !is_there(name)),
         }

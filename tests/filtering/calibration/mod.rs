@@ -9,7 +9,7 @@ use frame::Alignment;
 use outcome::{Outcome, blur_shots};
 use promised::{promised_smear, stated_lengths};
 use silhouette::Light;
-use tests::kernels::{Tap, along_motion, place_taps};
+use tests::kernels::{Tap, along_motion, place_taps, sees_camera_only};
 use tests::near::assert_near;
 use tests::panel::{HALF_BAND, SMALL, Shot};
 use tests::ramp::Ramp;
@@ -78,13 +78,14 @@ fn check_ramp(outcome: &Outcome) -> Option<String> {
     let trail = outcome.shot.speed * outcome.shot.exposure;
     let painted = Ramp::of(&outcome.shot.profile(&outcome.painted));
     let found = painted.beyond(outcome.shot.painted_ramp);
-    let expected = match filter.as_str() {
-        // The camera is still.
-        "camera_gather" | "babylon_screen" => Ramp {
+    // The camera is still.
+    let expected = if sees_camera_only(filter, preset) {
+        Ramp {
             length: 0.0,
             middle: 0.0,
-        },
-        _ => outcome.ramp,
+        }
+    } else {
+        outcome.ramp
     };
     let tolerance = match preset.as_str() {
         // Two taps at whole pixels: the noise has about nine values along a row, and rounding moves either end of a

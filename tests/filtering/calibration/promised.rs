@@ -2,7 +2,9 @@
 
 use std::ops::RangeInclusive;
 
-use tests::kernels::{Steady, along_motion, babylon_trail, jump_flood_trail, three_trail};
+use tests::kernels::{
+    Steady, along_motion, babylon_trail, jump_flood_trail, sees_camera_only, three_trail,
+};
 
 /// Returns the promised length of the smear in pixels: the exposure's, times the preset's factor, cut at its reach, unless the
 /// preset says otherwise.
@@ -10,8 +12,9 @@ pub fn promised_smear(filter: &str, preset: &str, steady: &Steady) -> f64 {
     let [x, y] = steady.trail();
     let trail = x.hypot(y);
     match (filter, preset) {
+        ("identity", _) => 0.0,
         // The camera of this scene is still.
-        ("identity" | "camera_gather" | "babylon_screen", _) => 0.0,
+        _ if sees_camera_only(filter, preset) => 0.0,
         ("three", _) => along_motion(steady, three_trail(preset, steady)).abs(),
         ("babylon", _) => along_motion(steady, babylon_trail(steady)),
         ("jump_flood" | "jump_flood_packed", preset) => {
@@ -62,7 +65,7 @@ pub fn stated_lengths(filter: &str, preset: &str) -> RangeInclusive<f64> {
         ("mcguire", "tuned") => 0.86..=1.04,
         ("guertin", _) => 0.65..=0.87,
         ("dagor", "default") => 0.77..=1.11,
-        ("godot", "addon") => 0.88..=1.025,
+        ("godot", "addon" | "mended") => 0.88..=1.025,
         ("three", _) => 1.03..=1.05,
         ("centred_gather", "armory") => 1.07..=1.09,
         ("centred_gather", "spartan_2024") => 0.98..=1.00,

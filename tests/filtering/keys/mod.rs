@@ -91,6 +91,11 @@ fn make_base(name: &str) -> FilterFiles {
                 "# convention",
             )
         }
+        "camera_moves" => change("[[preset]]\nname = \"first\"", "# rounds\n\n[[preset]]\nname = \"first\"").changed(
+            "keys.wgsl",
+            "let more = ",
+            "let moved = before_camera(centre(texel), 2.0).x;\n    let more = select(moved, 0.0, parameters.rounds == 2) + ",
+        ),
         "lab" => routes::declare("lab.toml"),
         "pyramid" => FilterFiles::fixture("filters/mips")
             .changed("filter.toml", "default = 3", "default = 1.25")
@@ -171,10 +176,14 @@ fn blur(filter: &Filter, settings: &filters::Settings) -> Result<String, String>
     });
     let before = color.map(|[r, g, b]| [0.5 * b, *r, *g]);
     let (colors, colors_before) = ([&color], [&before]);
-    let (input, before) = (picture.input(&colors), picture.input(&colors_before));
+    // One key says when a filter needs no motion of the camera.
+    let input = Input {
+        reprojection: None,
+        ..picture.input(&colors)
+    };
     let mut blur = Blur::new(shared_gpu(), filter, settings, width, height).map_err(text)?;
     let before = Input {
-        color: before.color,
+        color: &colors_before,
         ..input
     };
     let output = blur.run_after(&input, &before).map_err(text)?.remove(0);

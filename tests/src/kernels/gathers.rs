@@ -139,7 +139,7 @@ pub fn realism_effects(steady: &Steady, noise: f64) -> Vec<Tap> {
 /// Places the taps of Unity's URP, at the nearest pixels: even steps, all shifted back by noise.
 pub fn urp(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     let pairs = match preset {
-        "default" => 2,
+        "default" | "camera_only" => 2,
         "medium" => 3,
         "high" => 4,
         _ => panic!("say here how many taps {preset} has"),

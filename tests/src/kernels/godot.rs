@@ -18,7 +18,7 @@ pub fn place_taps(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     );
     let near = match preset {
         // As 16 bits hold them, 11.999 are 12.
-        "addon" => scaled(
+        "addon" | "mended" => scaled(
             scaled(own, 2.0).map(|part| f64::from((part as f32).trunc())),
             0.5,
         ),

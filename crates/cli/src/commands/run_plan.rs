@@ -80,9 +80,9 @@ fn leave_out_filters(
     for scene in engine_scenes {
         let EngineScene { id, alignment, .. } = scene;
         let mut reasons = BTreeMap::new();
-        for FilterChoice { filter, .. } in &filters {
-            let reason = match scene.find_lacking(filter) {
-                _ if filter.alignment != *alignment => {
+        for choice in &filters {
+            let reason = match scene.find_lacking(choice) {
+                _ if choice.filter.alignment != *alignment => {
                     format!("of another shutter than the {alignment} one that the engine drew")
                 }
                 Some(lacking) => format!("because the capture does not have {lacking}"),
@@ -98,9 +98,9 @@ fn leave_out_filters(
     if !alone || engine_scenes.is_empty() {
         return Ok(filters);
     }
-    filters.retain(|FilterChoice { filter, .. }| {
+    filters.retain(|choice| {
         let can_blur = |scene: &EngineScene| {
-            scene.alignment == filter.alignment && scene.find_lacking(filter).is_none()
+            scene.alignment == choice.filter.alignment && scene.find_lacking(choice).is_none()
         };
         engine_scenes.iter().any(can_blur)
     });

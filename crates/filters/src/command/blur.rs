@@ -48,7 +48,8 @@ impl CommandBlur {
 
     /// Blurs every colour image of the input, in order: one run of the program each.
     pub fn run(&self, input: &Input) -> Result<Vec<Image>, FilterError> {
-        input.check(&self.filter, self.size)?;
+        let camera = self.filter.camera_use(&self.settings);
+        input.check(&self.filter, camera, self.size)?;
         (input.color.iter())
             .map(|color| self.blur(color, input))
             .collect()

@@ -16,6 +16,9 @@ pub struct Parameter {
     pub unit: Option<Unit>,
     /// True if a tuner may change it.
     pub tunable: bool,
+    /// The value at which the kernels do not read the camera's motion, so that frames without it can be blurred.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub no_camera_at: Option<Value>,
     /// Meaning and unit, and what raising it costs.
     pub doc: String,
 }

@@ -2,6 +2,7 @@
 
 use super::convention::CONVENTION_VALUES;
 use super::definition::Filter;
+use super::settings::Settings;
 
 /// Numbers of the frame and of the pass.
 const NUMBERS: [&str; 6] = [
@@ -33,6 +34,7 @@ pub(crate) const PREVIOUS: &str = "previous_";
 pub(crate) const MATRIX_NUMBERS: usize = 16;
 
 /// Parts of the camera that a filter reads.
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct CameraUse {
     /// The camera's motion over the pixels.
     pub reprojection: bool,
@@ -77,20 +79,26 @@ impl Filter {
         known.collect::<Vec<_>>().join(", ")
     }
 
-    /// Returns true if a shader reads where the camera is, or how it moved.
-    pub fn reads_camera(&self) -> bool {
+    /// Returns true if with these settings a shader reads where the camera is, or how it moved.
+    pub fn reads_camera(&self, settings: &Settings) -> bool {
         let CameraUse {
             reprojection,
             matrices,
-        } = self.camera_use();
+        } = self.camera_use(settings);
         reprojection || matrices
     }
 
-    /// Lists the parts of the camera the shaders read.
-    pub(crate) fn camera_use(&self) -> CameraUse {
+    /// Lists the parts of the camera that the shaders read with these settings.
+    pub(crate) fn camera_use(&self, settings: &Settings) -> CameraUse {
         let mut blocks = self.shaders.iter().flat_map(|shader| &shader.blocks);
+        let mut switches = (self.parameters.iter())
+            .filter_map(|parameter| Some((&parameter.name, parameter.no_camera_at.as_ref()?)))
+            .map(|(name, off)| settings.values[name] != *off)
+            .peekable();
+        let switched_on = switches.peek().is_none() || switches.any(|on| on);
         CameraUse {
-            reprojection: self.shaders.iter().any(|shader| shader.reads_reprojection),
+            reprojection: switched_on
+                && self.shaders.iter().any(|shader| shader.reads_reprojection),
             matrices: blocks.any(|block| block.reads_any(&is_of_matrix)),
         }
     }

@@ -12,7 +12,7 @@ use super::kernels::{Kernels, Specialised};
 use super::place::Place;
 use super::transfer::{row_bytes, velocity_texels};
 use super::uniforms::FrameValues;
-use crate::filter::{EXCLUSION, History, Origin};
+use crate::filter::{CameraUse, EXCLUSION, History, Origin};
 use crate::input::find_broken;
 use crate::{Filter, FilterError, Format, Input, Settings};
 
@@ -22,6 +22,7 @@ pub struct Blur<'g> {
     pub(super) gpu: &'g Gpu,
     size: [u32; 2],
     kernels: Arc<Specialised>,
+    camera: CameraUse,
     pub(super) passes: BoundPasses,
 }
 
@@ -49,11 +50,13 @@ impl<'g> Blur<'g> {
         let gpu = kernels.gpu;
         settings.check(&kernels.filter)?;
         check_size(gpu, &kernels.filter, width, height)?;
+        let camera = kernels.filter.camera_use(settings);
         let kernels = kernels.specialise(settings)?;
         let size = [width, height];
         Ok(Self {
             gpu,
             size,
+            camera,
             passes: BoundPasses::new(gpu, &kernels, settings, size)?,
             kernels,
         })
@@ -72,8 +75,8 @@ impl<'g> Blur<'g> {
     /// Blurs every colour image of the input as [`Blur::run`] does, for filters with history after another frame, which has
     /// as many colour images, in the same order.
     pub fn run_after(&mut self, input: &Input, before: &Input) -> Result<Vec<Image>, FilterError> {
-        input.check(self.filter(), self.size)?;
-        before.check(self.filter(), self.size)?;
+        self.check(input)?;
+        self.check(before)?;
         assert_eq!(
             input.color.len(),
             before.color.len(),
@@ -203,6 +206,10 @@ impl<'g> Blur<'g> {
         Ok(self.origin().upright(texels))
     }
 
+    fn check(&self, input: &Input) -> Result<(), FilterError> {
+        input.check(self.filter(), self.camera, self.size)
+    }
+
     /// Names a pass of this filter, for errors.
     pub(super) fn place<'a>(&'a self, pass: &'a str) -> Place<'a> {
         self.filter().place(pass)
@@ -210,7 +217,7 @@ impl<'g> Blur<'g> {
 
     /// Uploads an input and its first colour, as at the beginning of a sequence.
     pub(super) fn upload_first(&self, input: &Input) -> Result<(), FilterError> {
-        input.check(self.filter(), self.size)?;
+        self.check(input)?;
         self.upload_layers(input, input)?;
         let color = input.color.first().expect("there is a colour to blur");
         self.upload_color(color, color)

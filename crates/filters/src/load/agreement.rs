@@ -18,6 +18,7 @@ impl Filter {
             Some(pass) => self.check_kernels(self.shader(pass))?,
             None => self.check_parameters_are_used()?,
         }
+        self.check_switches_of_camera()?;
         self.check_passes()
     }
 
@@ -93,6 +94,24 @@ impl Filter {
                 );
                 Err(self.refuse_kernel(line, reason))
             }
+        }
+    }
+
+    /// Refuses a switch of the camera's motion, if no kernel reads that.
+    fn check_switches_of_camera(&self) -> Result<(), FilterError> {
+        let reads = self.shaders.iter().any(|shader| shader.reads_reprojection);
+        let parameters = self.parameters.iter().zip(&self.lines.parameters);
+        let mut switches = parameters.filter(|(parameter, _)| parameter.no_camera_at.is_some());
+        match switches.next() {
+            Some((parameter, line)) if !reads => Err(self.refuse_manifest(
+                *line,
+                format!(
+                    "parameter \"{}\": no_camera_at is for kernels that call before_camera, which none of this filter \
+                     does; leave it out",
+                    parameter.name
+                ),
+            )),
+            _ => Ok(()),
         }
     }
 

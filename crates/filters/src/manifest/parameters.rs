@@ -23,6 +23,7 @@ pub(super) struct ParameterEntry {
     unit: Option<Unit>,
     #[serde(default = "yes")]
     tunable: bool,
+    no_camera_at: Option<toml::Value>,
     doc: String,
 }
 
@@ -61,6 +62,15 @@ pub(super) fn read_parameters(
                 named(format!("default {} is not {allowed}", entry.default)),
             )
         })?;
+        let off = entry.no_camera_at.as_ref().map(|off| {
+            read_value(&kind, off).ok_or_else(|| {
+                let allowed = kind.allowed();
+                file.at(
+                    spanned,
+                    named(format!("no_camera_at {off} is not {allowed}")),
+                )
+            })
+        });
         if entry.unit.is_some() && matches!(kind, Kind::Choice { .. }) {
             let reason = "a choice is counted in nothing; leave unit out";
             return Err(file.at(spanned, named(reason.into())));
@@ -72,6 +82,7 @@ pub(super) fn read_parameters(
             default,
             unit: entry.unit,
             tunable: entry.tunable,
+            no_camera_at: off.transpose()?,
             doc,
         });
     }

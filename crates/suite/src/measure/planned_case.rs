@@ -62,7 +62,7 @@ impl<'a> PlannedCase<'a> {
             alignments.contains(&choice.filter.alignment)
                 && match scene {
                     RunScene::Traced(_) => true,
-                    RunScene::Drawn(scene) => scene.find_lacking(&choice.filter).is_none(),
+                    RunScene::Drawn(scene) => scene.find_lacking(choice).is_none(),
                 }
         };
         let picture = [plan.render.width, plan.render.height];
