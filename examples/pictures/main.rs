@@ -78,6 +78,7 @@ fn make(names: &[String]) -> Result<usize, Error> {
         eprintln!("left as it is: {}, {}", left.file, left.reason);
     }
     if options.is_empty() {
+        kept.retain(|path, _| Path::new(path).exists());
         let text = serde_json::to_string_pretty(&kept).expect("texts by path") + "\n";
         frame::write_atomically(Path::new(RECORD), text.as_bytes())?;
     }

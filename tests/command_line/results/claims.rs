@@ -126,6 +126,15 @@ fn camera_trail(engine: &Engine) -> f64 {
 /// have them.
 fn phrases(engine: &Engine) -> Vec<String> {
     let preset = Preset::new(&engine.shape);
+    [
+        length_phrases(engine, &preset),
+        tap_phrases(engine, &preset),
+    ]
+    .concat()
+}
+
+/// Lists the parts of its sentence about the length of its smear.
+fn length_phrases(engine: &Engine, preset: &Preset) -> Vec<String> {
     let number = |parameter: &str| preset.number(parameter);
     let at_180 = |setting: &Setting| format!("180 degrees are {}", short(setting.at(HALF_FRAME)));
     match engine.shape.as_str() {
@@ -140,7 +149,6 @@ fn phrases(engine: &Engine) -> Vec<String> {
             let taps = word(number("samples"));
             vec![format!("{taps} taps"), format!("{} times", short(longer))]
         }
-        "centred_gather:spartan_2024" => vec![format!("first of {} taps", number("samples"))],
         "jimenez:o3de" => {
             let strength = shipped(engine, "strength");
             let frames = word(2.0 * number("extent") * strength * engine.shipped.exposure);
@@ -160,6 +168,17 @@ fn phrases(engine: &Engine) -> Vec<String> {
                 at_180(&setting),
             ]
         }
+        "jump_flood:paper" => vec![format!("by {}", demo_trail().join(" to "))],
+        "realism_effects:default" => vec![format!("{} degrees as shipped", engine.length)],
+        _ => Vec::new(),
+    }
+}
+
+/// Lists the parts of its sentence about taps, weights and cuts.
+fn tap_phrases(engine: &Engine, preset: &Preset) -> Vec<String> {
+    let number = |parameter: &str| preset.number(parameter);
+    match engine.shape.as_str() {
+        "centred_gather:spartan_2024" => vec![format!("first of {} taps", number("samples"))],
         "three:default" => {
             let samples = number("samples");
             vec![format!(
@@ -182,8 +201,6 @@ fn phrases(engine: &Engine) -> Vec<String> {
                 format!("at {} % of the rows", 2.0 * number("radius_percent")),
             ]
         }
-        "jump_flood:paper" => vec![format!("by {}", demo_trail().join(" to "))],
-        "realism_effects:default" => vec![format!("{} degrees as shipped", engine.length)],
         "dagor:default" => {
             let left = (1.0 - number("vignette")).powi(2);
             vec![
@@ -401,6 +418,40 @@ fn eevee_is_scored_by_a_mean_of_its_samples_which_is_better_than_one() {
     }
 }
 
+/// Lists those of results/findings/dagor.md.
+fn dagor_phrases() -> Vec<String> {
+    let number = |preset: &str, parameter: &str| Preset::new(preset).number(parameter);
+    let vignette = number("dagor:default", "vignette");
+    let left = short((1.0 - vignette).powi(2));
+    let longest = number("dagor:default", "longest");
+    let twice = 2.0 * longest;
+    let pair = format!("`vignette=0.0, longest={twice:.1}`");
+    assert!(read("results/changes/dagor_default.md").contains(&pair));
+    vec![
+        format!("(1 - {vignette})² = {left}"),
+        format!("up to {twice} pixels instead of {longest}"),
+    ]
+}
+
+/// Lists those of results/findings/godot.md.
+fn godot_phrases() -> Vec<String> {
+    let number = |preset: &str, parameter: &str| Preset::new(preset).number(parameter);
+    let tile = number("godot:addon", "tile_size");
+    let tiles = number("godot:addon", "trail_tiles");
+    let [most, fits] = [127.0, (127.0 / tiles).floor()];
+    let own = number("godot:engine", "tile_size");
+    assert_eq!(number("godot:engine", "trail_tiles"), 1.0);
+    vec![
+        format!("after {} tiles of {tile} pixels", word(tiles)),
+        format!("no larger than {tiles} tiles"),
+        format!("A tile has {tile} pixels"),
+        format!("up to {most} either way"),
+        format!("Two tiles of {fits} pixels, {} in all", tiles * fits),
+        "8 bits".to_owned(),
+        format!("one tile of {own} pixels"),
+    ]
+}
+
 /// Lists the parts of a finding that hold numbers which no quoted line has.
 fn finding_phrases(page: &str) -> Vec<String> {
     let engines = list_engines();
@@ -413,34 +464,8 @@ fn finding_phrases(page: &str) -> Vec<String> {
             let trail = short(camera_trail(find("camera_gather:armory")));
             vec![format!("{trail} of the motion"), wide]
         }
-        "dagor" => {
-            let vignette = number("dagor:default", "vignette");
-            let left = short((1.0 - vignette).powi(2));
-            let longest = number("dagor:default", "longest");
-            let twice = 2.0 * longest;
-            let pair = format!("`vignette=0.0, longest={twice:.1}`");
-            assert!(read("results/changes/dagor_default.md").contains(&pair));
-            vec![
-                format!("(1 - {vignette})² = {left}"),
-                format!("up to {twice} pixels instead of {longest}"),
-            ]
-        }
-        "godot" => {
-            let tile = number("godot:addon", "tile_size");
-            let tiles = number("godot:addon", "trail_tiles");
-            let [most, fits] = [127.0, (127.0 / tiles).floor()];
-            let own = number("godot:engine", "tile_size");
-            assert_eq!(number("godot:engine", "trail_tiles"), 1.0);
-            vec![
-                format!("after {} tiles of {tile} pixels", word(tiles)),
-                format!("no larger than {tiles} tiles"),
-                format!("A tile has {tile} pixels"),
-                format!("up to {most} either way"),
-                format!("Two tiles of {fits} pixels, {} in all", tiles * fits),
-                "8 bits".to_owned(),
-                format!("one tile of {own} pixels"),
-            ]
-        }
+        "dagor" => dagor_phrases(),
+        "godot" => godot_phrases(),
         "unity-ppv2" => {
             let [middle, end] = kino_window();
             let percent = number("kino:ppv2", "radius_percent");
