@@ -73,10 +73,10 @@ impl Planes {
             .collect();
         let mut chains = vec![0; samples.len()];
         let mut references = Vec::new();
-        for (number, own) in samples.iter().enumerate() {
+        for (number, sample) in samples.iter().enumerate() {
             let unequal = |other: &usize| {
-                let pairs = own.iter().zip(&samples[*other]);
-                (pairs.filter(|(own, other)| own != other).count(), *other)
+                let pairs = sample.iter().zip(&samples[*other]);
+                (pairs.filter(|(bits, other)| bits != other).count(), *other)
             };
             let short = (0..number)
                 .into_par_iter()
