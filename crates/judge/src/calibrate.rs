@@ -102,10 +102,10 @@ pub fn calibrate<'a>(
         for metric in Metric::all() {
             add(metric, case.scores.get(metric), &case.intervals);
         }
-        if let Some(own) = find_sequence(run, case) {
+        if let Some(sequence) = find_sequence(run, case) {
             for metric in SequenceMetric::ALL {
-                let measured = own.scores.get(metric).clone();
-                add(Metric::Sequence(metric), measured, &own.intervals);
+                let measured = sequence.scores.get(metric).clone();
+                add(Metric::Sequence(metric), measured, &sequence.intervals);
             }
         }
     }
@@ -225,7 +225,7 @@ impl Calibration {
     fn length(&self, metric: Metric) -> String {
         let Frames { count, per_second } = self.frames;
         match metric {
-            Metric::Sequence(own) if own.depends_on_rate() => {
+            Metric::Sequence(metric) if metric.depends_on_rate() => {
                 format!("frames = {count}, fps = {per_second:?}, ")
             }
             Metric::Sequence(_) => format!("frames = {count}, "),

@@ -119,12 +119,13 @@ impl Finding {
         };
         let sequence = sequence.filter(|_| outcome != Outcome::NotJudged);
         let intervals = match metric {
-            Metric::Sequence(_) => sequence.map(|own| &own.intervals),
+            Metric::Sequence(_) => sequence.map(|sequence| &sequence.intervals),
             _ => Some(&case.intervals),
         };
-        let interval = intervals.and_then(|own| own.get(&metric).copied());
-        let worst_frame = sequence.and_then(|own| own.worst_frames.get(&metric).copied());
-        let worst = (sequence.zip(worst_frame)).and_then(|(own, at)| own.frames.get(at as usize));
+        let interval = intervals.and_then(|intervals| intervals.get(&metric).copied());
+        let worst_frame = sequence.and_then(|sequence| sequence.worst_frames.get(&metric).copied());
+        let worst =
+            (sequence.zip(worst_frame)).and_then(|(sequence, at)| sequence.frames.get(at as usize));
         Self {
             outcome,
             level: bound.level,

@@ -164,8 +164,8 @@ mod tests {
             (Ideal::Target(2.0), (0.5, 1.25)),
             (Ideal::Target(0.5), (0.25, 1.0)),
         ] {
-            let found = ideal.badness_within(&interval(0.75, 1.5));
-            assert_eq!(found, expected, "{ideal:?}");
+            let badness = ideal.badness_within(&interval(0.75, 1.5));
+            assert_eq!(badness, expected, "{ideal:?}");
         }
     }
 }
