@@ -219,8 +219,8 @@ fn run_and_judge(args: &CheckArgs, judging: &Judging) -> Result<Judged, Error> {
 fn judge_finished(args: &CheckArgs, path: &Path, judging: &Judging) -> Result<Judged, Error> {
     let side = StoredRun::read(path)?;
     let folder = match side.folder() {
-        own if own.as_os_str().is_empty() => PathBuf::from("."),
-        own => own.to_owned(),
+        folder if folder.as_os_str().is_empty() => PathBuf::from("."),
+        folder => folder.to_owned(),
     };
     let run = side.run;
     refuse_tracked(&folder, "measure it now: shuttertruth check, without a RUN")?;
