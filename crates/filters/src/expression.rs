@@ -50,7 +50,10 @@ impl Expression {
             Self::Name(name) => return value(name),
             Self::Apply(function, arguments) => (*function, arguments),
         };
-        let arguments: Vec<f64> = arguments.iter().map(|it| it.evaluate(value)).collect();
+        let arguments: Vec<f64> = arguments
+            .iter()
+            .map(|argument| argument.evaluate(value))
+            .collect();
         match (function, &arguments[..]) {
             ("-", [a]) => -a,
             ("floor", [a]) => a.floor(),
@@ -76,7 +79,9 @@ impl Expression {
         match self {
             Self::Number(_) => false,
             Self::Name(name) => is_wanted(name),
-            Self::Apply(_, arguments) => arguments.iter().any(|it| it.reads_any(is_wanted)),
+            Self::Apply(_, arguments) => arguments
+                .iter()
+                .any(|argument| argument.reads_any(is_wanted)),
         }
     }
 }

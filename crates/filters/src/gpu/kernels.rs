@@ -97,8 +97,8 @@ impl<'g> Kernels<'g> {
         };
         let mut filter = self.filter.clone();
         let changed = constants.iter().zip(&self.constants);
-        for (pass, (own, cached)) in self.filter.passes.iter().zip(changed) {
-            let Some(shader) = pass.shader.as_ref().filter(|_| own != cached) else {
+        for (pass, (values, cached)) in self.filter.passes.iter().zip(changed) {
+            let Some(shader) = pass.shader.as_ref().filter(|_| values != cached) else {
                 continue;
             };
             for (stage, index) in shader.stages().iter().zip(&pass.shaders) {

@@ -46,14 +46,16 @@ pub(super) fn list_installed(
     path: &Path,
 ) -> Result<Vec<&'static Compiler>, FilterError> {
     let known = language.compilers();
-    let is_chosen = |it: &&Compiler| shader.compiler.as_deref() == Some(it.program);
+    let is_chosen = |compiler: &&Compiler| shader.compiler.as_deref() == Some(compiler.program);
     // A vertex stage may have another language.
     let wanted: Vec<&Compiler> = match known.iter().find(is_chosen) {
         Some(chosen) => vec![chosen],
         None => known.iter().collect(),
     };
     let installed = wanted.iter().copied();
-    let installed: Vec<&Compiler> = installed.filter(|it| is_installed(it.program)).collect();
+    let installed: Vec<&Compiler> = installed
+        .filter(|compiler| is_installed(compiler.program))
+        .collect();
     if !installed.is_empty() {
         return Ok(installed);
     }
@@ -61,7 +63,7 @@ pub(super) fn list_installed(
         Language::Wesl => ("WGSL", "wgsl"),
         _ => ("SPIR-V", "spv"),
     };
-    let programs: Vec<&str> = wanted.iter().map(|it| it.program).collect();
+    let programs: Vec<&str> = wanted.iter().map(|compiler| compiler.program).collect();
     Err(FilterError::in_file(
         path,
         None,

@@ -145,8 +145,8 @@ mod tests {
     #[test]
     fn brackets_within_comments_do_not_count() {
         let text = "textureLoad (depth, /* ) */ at((1)), // )\n 0) + (2)";
-        let found = find_brackets(text, "textureLoad".len()).unwrap();
-        assert_eq!(&text[found], "(depth, /* ) */ at((1)), // )\n 0)");
+        let range = find_brackets(text, "textureLoad".len()).unwrap();
+        assert_eq!(&text[range], "(depth, /* ) */ at((1)), // )\n 0)");
         assert_eq!(find_brackets("textureLoad(depth", 11), None);
     }
 }
