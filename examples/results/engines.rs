@@ -18,13 +18,13 @@ pub struct Engine {
     pub name: String,
     /// Preset that equals the engine's default, but for its length: 180 degrees.
     pub shape: String,
-    /// What its own length needs.
+    /// What the engine's own length needs.
     pub shipped: Shipped,
     /// Measured smear as shipped, in degrees of the frame.
     pub length: u32,
     /// Measured smear of `shape`, in degrees of the frame.
     pub at_180: u32,
-    /// Its own words on that length, with their place; or `none`.
+    /// The engine's own words on its length, with their place; or `none`.
     pub states: String,
     /// Commit that the preset follows.
     pub commit: String,

@@ -22,7 +22,7 @@ const OPERATORS: [[&str; 2]; 2] = [["+", "-"], ["*", "/"]];
 const MAX_CHARACTERS: usize = 200;
 
 impl Expression {
-    /// Parses an expression; `is_known` knows which names there are.
+    /// Parses an expression; `is_known` is true for the names that exist.
     pub fn parse(text: &str, is_known: &dyn Fn(&str) -> bool) -> Result<Self, String> {
         if text.len() > MAX_CHARACTERS {
             return Err(format!(

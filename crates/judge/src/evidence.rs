@@ -41,8 +41,8 @@ fn add_evidence_of_truth(
     let (frame, truth) = first.read_frame_and_truth(folder)?;
     let rung = |count| first.render_path(folder, RenderFile::Rung(truth.alignment, count));
     let file = rung(FEW_SUBFRAMES);
-    // An engine may have drawn too few sub-frames for it, or it is of an earlier truth: a check
-    // renders only the first rung.
+    // A check renders only the first rung: this one may be of an earlier truth, or missing because
+    // an engine drew too few sub-frames.
     let hash = |file: &Path| read_attribute(file, "content_hash");
     let few_subframes = if file.exists() && hash(&file) == hash(&rung(SHARP)) {
         Some(Ladder::read_rung(&file, FEW_SUBFRAMES)?)

@@ -46,8 +46,8 @@ pub struct Finding {
     /// Frames per second that the limit is for; none for a score that does not depend on them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fps: Option<f64>,
-    /// Frame of the sequence with the worst score, from 0; none for a score that single frames have
-    /// no share in.
+    /// Frame of the sequence with the worst score, from 0; none for a score to which single frames
+    /// contribute nothing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub worst_frame: Option<u32>,
     /// Reason for the limit.
@@ -69,8 +69,8 @@ pub struct Finding {
     pub pictures: PathBuf,
 }
 
-/// Estimates the samples per pixel that would settle the score, whose interval excludes the limit
-/// then. Assumes that its middle stays.
+/// Estimates the samples per pixel that would settle the score: its interval would exclude the
+/// limit. Assumes that the middle of the interval stays.
 fn samples_to_settle(
     samples_per_pixel: u32,
     metric: Metric,

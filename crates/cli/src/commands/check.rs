@@ -134,7 +134,8 @@ pub fn execute(args: &CheckArgs) -> Result<Ending, Error> {
     }
     match checked.verdict() {
         Ok(()) => Ok(Ending::Done),
-        // With JSON, only the exit code and standard error report it.
+        // JSON goes to standard output, so the exit code and standard error alone report the
+        // verdict.
         Err(error) if args.json => Err(error),
         Err(error) => Ok(Ending::Failed(error)),
     }

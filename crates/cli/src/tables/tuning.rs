@@ -143,7 +143,7 @@ fn trial_row(trial: &Trial, start: &Trial, chosen: usize) -> String {
         numbers += &format!(" {text:>8}");
     }
     let mut values = String::new();
-    // As far to the right as the numbers are wide.
+    // Every line of values begins where the numbers end.
     push_wrapped(&mut values, VALUES, &changed);
     numbers + values.get(VALUES - 2..).unwrap_or_default()
 }

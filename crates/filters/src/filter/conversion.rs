@@ -145,8 +145,8 @@ impl Convention {
     }
 }
 
-/// Refuses a conversion that makes infinite numbers of finite ones, or of every number 0 or less
-/// than a float has digits for.
+/// Refuses a conversion that makes a finite number infinite, or that leaves only zeros and numbers
+/// too small for all digits of a float.
 fn check_restored<const N: usize>(
     stored: &Raster<[f32; N]>,
     restored: &Raster<[f32; N]>,

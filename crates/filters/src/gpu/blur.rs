@@ -74,8 +74,8 @@ impl<'g> Blur<'g> {
         self.run_after(input, input)
     }
 
-    /// Blurs every colour image of the input as [`Blur::run`] does, for filters with history after
-    /// another frame, which has as many colour images, in the same order.
+    /// Blurs every colour image of the input as [`Blur::run`] does, and gives filters with history
+    /// the frame `before`, which has as many colour images, in the same order.
     pub fn run_after(&mut self, input: &Input, before: &Input) -> Result<Vec<Image>, FilterError> {
         self.check(input)?;
         self.check(before)?;

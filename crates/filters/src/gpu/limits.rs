@@ -27,7 +27,7 @@ impl Limits {
             owner: "the lowest common limits, those that WebGPU promises everywhere".into(),
             limits: wgpu::Limits::default(),
             interpolates_floats: false,
-            // Most of those that WebGPU does not promise are there.
+            // WebGPU promises few of these, but adapters have most of them.
             stored_formats: Format::ALL.to_vec(),
             packs_halves: true,
             has_border: false,

@@ -102,7 +102,7 @@ impl Filter {
         }
     }
 
-    /// Refuses a switch of the camera's motion, if no kernel reads that.
+    /// Refuses a switch of the camera's motion if no kernel reads that motion.
     fn check_switches_of_camera(&self) -> Result<(), FilterError> {
         let reads = self.shaders.iter().any(|shader| shader.reads_reprojection);
         let parameters = self.parameters.iter().zip(&self.lines.parameters);

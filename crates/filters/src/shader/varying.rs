@@ -51,8 +51,8 @@ impl Varying {
     }
 }
 
-/// Interpolates what a vertex stage writes as the fragment shader reads it. Engines need only say
-/// it there; wgpu wants both to agree.
+/// Gives the values that a vertex stage writes the interpolation that the fragment shader declares.
+/// Engines declare it in the fragment shader alone; wgpu wants both to agree.
 pub(crate) fn follow_interpolation(vertex: &mut Module, read: &[Varying]) {
     let result = &vertex.entry_points[0].function.result;
     let Some(ty) = result.as_ref().map(|result| result.ty) else {

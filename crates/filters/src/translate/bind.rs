@@ -197,7 +197,7 @@ impl Binder<'_> {
                 );
             }
         };
-        // What an image that is also written reads of the output is the content before the pass.
+        // An image that is read and written reads the output as it was before the pass.
         if !(is_split && resource == "output") {
             check_texture(self.filter, role, &resource)?;
         }

@@ -201,7 +201,7 @@ fn find_outcome(program: &str, end: &End, output: &Path, memory: u64) -> Option<
         End::TooLarge => format!(
             "{program} wrote more than {MAX_MODULE_BYTES} bytes, the most that a module may have, and was stopped"
         ),
-        // The system kills a program; an allocation that fails ends most compilers like this, too.
+        // No exit code means a signal: the system killed the compiler, or an allocation failed.
         End::Exited(status) if status.code().is_none() => {
             let most = memory >> 20;
             format!(

@@ -76,7 +76,7 @@ pub(super) fn set_constants(
         find_language(shader, path)?,
         Language::Wgsl | Language::Wesl
     ) {
-        // SPIR-V got them before it was read.
+        // SPIR-V got its constants before naga read it.
         return Ok(());
     }
     let mut set = PipelineConstants::default();

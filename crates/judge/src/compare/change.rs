@@ -26,7 +26,8 @@ pub struct Change {
     pub second: f64,
     /// Amount by which the second is worse; negative is better.
     pub worse: f64,
-    /// Both scores as estimated against a truth without noise; as measured without replicates.
+    /// Both scores as estimated against a truth without noise; as measured if there are no
+    /// replicates.
     pub estimates: [f64; 2],
     /// Weight of the scene in a mean over scenes: 1, or for a skill the error that the one-frame
     /// oracle removes.

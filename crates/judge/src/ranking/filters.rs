@@ -22,7 +22,7 @@ pub struct RankedFilter {
     /// Frame rate of the scenes; none for their files' own.
     pub rate: Option<FrameRate>,
     /// Best and worst rank among the filters of its shutter: 1 plus the number of better filters,
-    /// and the number of all filters less the worse ones. None for no blur, a reference.
+    /// and the number of all filters less the worse ones. None for no blur, which is a reference.
     pub ranks: Option<[usize; 2]>,
     /// True if it is clearly better than no blur; none if that is unknown.
     pub beats_no_blur: Option<bool>,

@@ -73,9 +73,9 @@ impl CaseTables {
     }
 }
 
-/// Writes a case, which is visible while open; the script adds the viewer. If scripts run, its
-/// tables are text until then, since a browser needs seconds for all cases' tables. Without
-/// `tables` the script loads them from a file next to the page.
+/// Writes a case, which is visible while open; the script adds the viewer. If scripts run, the
+/// tables are text until the case is open, since a browser needs seconds for all cases' tables.
+/// Without `tables` the script loads them from a file next to the page.
 pub fn case_section(view: &CaseView, live: &Live, tables: Option<&CaseTables>) -> Markup {
     let case = view.case;
     let filter = case.filter_id();

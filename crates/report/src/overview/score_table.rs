@@ -75,7 +75,7 @@ fn rank_rows<'a>(table: &CaseTable<'a>, metric: Metric) -> Vec<Vec<Row<'a>>> {
     groups
 }
 
-/// Writes the table; without means, for a single scene, it has no column for them.
+/// Writes the table. A single scene has no means, and its table no columns for them.
 pub fn score_table(
     table: &CaseTable,
     views: &[CaseView],

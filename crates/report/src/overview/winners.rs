@@ -80,8 +80,8 @@ pub fn sequence_winners(run: &Run) -> Markup {
     }
 }
 
-/// Names the filters that share the first rank, and the first one's weakest scene; before them that
-/// none is better than no blur, if so.
+/// Names the filters that share the first rank, and the first one's weakest scene. If no filter is
+/// better than no blur, says that first.
 fn first_rank(
     group: &[RankedFilter],
     title: &str,

@@ -46,8 +46,8 @@ impl Planes {
         [0, 1, 2].map(|index| self.add(&component(index))).to_vec()
     }
 
-    /// Writes every plane as JSON: a list of texts, each with the number of the plane that it is
-    /// the difference from, or none, a space, and the base64 of a zlib stream.
+    /// Writes every plane as JSON: a list of texts. Each is the number of the plane that it is the
+    /// difference from, if any, then a space, then the base64 of a zlib stream.
     pub fn json(&self) -> String {
         let references = self.choose_references();
         let texts: Vec<String> = (self.planes.par_iter().zip(references))

@@ -50,8 +50,8 @@ pub struct TruthFile {
     pub offset: frame::Vectors,
     /// Regions that scores are pooled over.
     pub regions: Regions,
-    /// Part of the mean squared error against `mean` where anything moves that is the truth's own
-    /// noise, in units of radiance.
+    /// The truth's own noise: its part of the mean squared error against `mean` where anything
+    /// moves, in units of radiance.
     pub noise: f64,
     /// Sides of each moving object's bleed, with the object's index.
     sides: Vec<(usize, frame::Raster<Side>)>,
@@ -229,9 +229,9 @@ impl SceneFiles {
     }
 }
 
-/// Averages the squared noise of a truth where anything moves. Scores of a report are products of
-/// the errors against both halves, which is the squared error against their mean less the square of
-/// half their difference.
+/// Averages the squared noise of a truth where anything moves. A report's score is the product of
+/// the errors against both halves: the squared error against the mean of the halves, less the
+/// square of half their difference.
 fn noise_where_moving(truth: &Truth, regions: &Regions) -> f64 {
     let [first, second] = truth.halves.each_ref().map(|half| &half.color.pixels);
     let square = |at: usize| -> f64 {

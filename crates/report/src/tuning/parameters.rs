@@ -18,8 +18,8 @@ const LOG_FROM: f64 = 30.0;
 /// Largest error in a chart; larger ones are drawn here.
 const MAX_ERROR: f64 = 1.0;
 
-/// Draws one chart per parameter: every trial, and the line with all others at the start, if there
-/// is one.
+/// Draws one chart per parameter: every trial and, if it was studied, the line on which all other
+/// parameters are at the start.
 pub fn slices(folder: &TuneFolder) -> Markup {
     let trials = folder.trials.iter().filter(|trial| trial.error.is_some());
     let studied = folder
