@@ -6,8 +6,8 @@ use suite::Error;
 
 use crate::output::print_note;
 
-/// Refuses a path that is no folder, before anything is rendered. Prints that the truths there decide
-/// the verdict.
+/// Refuses a path that is no folder, before anything is rendered. Prints that the truths there
+/// decide the verdict.
 pub fn check_truths(truths: &Path) -> Result<(), Error> {
     if !truths.is_dir() {
         refuse!(
