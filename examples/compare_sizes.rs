@@ -32,7 +32,7 @@ fn print_tables(paths: &[String]) -> Result<(), Error> {
         .map(|path| read(Path::new(path)))
         .collect::<Result<_, _>>()?;
     let mut results: Vec<&Results> = results.iter().collect();
-    results.sort_by_key(|own| u64::from(own.size[0]) * u64::from(own.size[1]));
+    results.sort_by_key(|results| u64::from(results.size[0]) * u64::from(results.size[1]));
     for metric in [Metric::FLIP, Metric::LABEL] {
         for comparison in compare_sizes(&results, metric)? {
             println!(

@@ -144,8 +144,8 @@ def measure(name, command, allowed):
     _, status, used = os.wait4(process.pid, 0)
     seconds = time.monotonic() - start
     # A new process's count includes its parent's memory.
-    own = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    note = "" if used.ru_maxrss > own else " at most"
+    parent = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    note = "" if used.ru_maxrss > parent else " at most"
     code = os.waitstatus_to_exitcode(status)
     if code not in allowed:
         sys.exit(f"{name} ended with {code}:\n{errors}")

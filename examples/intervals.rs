@@ -89,18 +89,19 @@ fn measure(study: &Study) -> Result<Vec<Subject>, Error> {
     for scene in &study.scenes {
         let run = |samples, seed| run(scene, &choices, (samples, seed), gpu.as_ref());
         let converged = run(study.converged, CONVERGED_SEED)?;
-        let mut own: Vec<Subject> = (converged.cases.iter().filter(|case| !case.is_reference))
-            .map(|case| Subject {
-                name: format!("{scene}, {}", case.filter_id()),
-                scores: (Metric::all().into_iter())
-                    .filter_map(|metric| Some((metric, (case.estimate(metric)?, Vec::new()))))
-                    .collect(),
-            })
-            .collect();
+        let mut scene_subjects: Vec<Subject> =
+            (converged.cases.iter().filter(|case| !case.is_reference))
+                .map(|case| Subject {
+                    name: format!("{scene}, {}", case.filter_id()),
+                    scores: (Metric::all().into_iter())
+                        .filter_map(|metric| Some((metric, (case.estimate(metric)?, Vec::new()))))
+                        .collect(),
+                })
+                .collect();
         for seed in 1..=study.seeds {
-            let found = run(study.samples, seed)?;
-            let cases = found.cases.iter().filter(|case| !case.is_reference);
-            for (subject, case) in own.iter_mut().zip(cases) {
+            let measured = run(study.samples, seed)?;
+            let cases = measured.cases.iter().filter(|case| !case.is_reference);
+            for (subject, case) in scene_subjects.iter_mut().zip(cases) {
                 for (metric, (_, seeds)) in &mut subject.scores {
                     let score = case.scores.get(*metric).value();
                     seeds.extend(score.zip(case.intervals.get(metric).copied()));
@@ -108,7 +109,7 @@ fn measure(study: &Study) -> Result<Vec<Subject>, Error> {
             }
             eprintln!("{scene}: seed {seed} of {}", study.seeds);
         }
-        subjects.extend(own);
+        subjects.extend(scene_subjects);
     }
     Ok(subjects)
 }
@@ -123,7 +124,10 @@ fn run(
     let [width, height] = SIZE;
     let plan = RunPlan {
         scenes: vec![load_scene(Path::new("scenes").join(scene), None)?],
-        filters: choices.iter().map(|own| own.scaled_to(width)).collect(),
+        filters: choices
+            .iter()
+            .map(|choice| choice.scaled_to(width))
+            .collect(),
         render: RenderSettings {
             width,
             height,
@@ -149,7 +153,9 @@ fn count_coverage(study: &Study, subject: &Subject) -> Vec<Coverage> {
     });
     changed
         .map(|(&metric, (converged, seeds))| {
-            let holds = seeds.iter().filter(|(_, own)| own.holds(*converged));
+            let holds = seeds
+                .iter()
+                .filter(|(_, interval)| interval.holds(*converged));
             Coverage {
                 metric,
                 held: holds.count() as f64 / seeds.len() as f64,
@@ -162,11 +168,11 @@ fn count_coverage(study: &Study, subject: &Subject) -> Vec<Coverage> {
 /// Returns the factor on all half widths with which 95 % of the intervals would just contain the
 /// converged score.
 fn needed_width(converged: f64, seeds: &[(f64, Interval)]) -> f64 {
-    let factor = |own: &Interval| {
-        let middle = 0.5 * (own.low + own.high);
-        (converged - middle).abs() / (0.5 * (own.high - own.low)).max(f64::MIN_POSITIVE)
+    let factor = |interval: &Interval| {
+        let middle = 0.5 * (interval.low + interval.high);
+        (converged - middle).abs() / (0.5 * (interval.high - interval.low)).max(f64::MIN_POSITIVE)
     };
-    let mut factors: Vec<f64> = seeds.iter().map(|(_, own)| factor(own)).collect();
+    let mut factors: Vec<f64> = seeds.iter().map(|(_, interval)| factor(interval)).collect();
     factors.sort_by(f64::total_cmp);
     let rank = (0.95 * factors.len() as f64).ceil() as usize;
     factors[rank - 1]
@@ -184,20 +190,22 @@ fn print_study(study: &Study, subjects: &[Subject]) {
     let mut details = String::new();
     let mut all = [0; 5];
     for subject in subjects {
-        let found = count_coverage(study, subject);
-        let count = |is: &dyn Fn(&Coverage) -> bool| found.iter().filter(|own| is(own)).count();
+        let coverages = count_coverage(study, subject);
+        let count = |is: &dyn Fn(&Coverage) -> bool| {
+            coverages.iter().filter(|coverage| is(coverage)).count()
+        };
         let counts = [
-            found.len(),
-            count(&|own| (0.93..=0.97).contains(&own.held)),
-            count(&|own| own.held < 0.9),
-            count(&|own| own.held > 0.97),
-            count(&|own| own.wide > 2.0),
+            coverages.len(),
+            count(&|coverage| (0.93..=0.97).contains(&coverage.held)),
+            count(&|coverage| coverage.held < 0.9),
+            count(&|coverage| coverage.held > 0.97),
+            count(&|coverage| coverage.wide > 2.0),
         ];
         print_row(&subject.name, counts);
         all = std::array::from_fn(|at| all[at] + counts[at]);
-        let low = found.iter().filter(|own| own.held < 0.9);
+        let low = coverages.iter().filter(|coverage| coverage.held < 0.9);
         let low: Vec<String> = low
-            .map(|own| format!("{} {:.0}", own.metric, 100.0 * own.held))
+            .map(|coverage| format!("{} {:.0}", coverage.metric, 100.0 * coverage.held))
             .collect();
         details += &format!("- {}: {}\n", subject.name, list(&low));
     }
@@ -224,11 +232,15 @@ fn print_limits(subjects: &[Subject]) {
     let metric: Metric = "flip_moving".parse().expect("it is a metric");
     let all: Vec<(f64, Interval)> = (subjects.iter())
         .filter_map(|subject| subject.scores.get(&metric))
-        .flat_map(|(converged, seeds)| seeds.iter().map(move |(_, own)| (*converged, *own)))
+        .flat_map(|(converged, seeds)| {
+            seeds
+                .iter()
+                .map(move |(_, interval)| (*converged, *interval))
+        })
         .collect();
     assert_eq!(metric.ideal(), Ideal::Lowest, "limits are highest scores");
     let share = |is: &dyn Fn(&(f64, Interval)) -> bool| {
-        100.0 * all.iter().filter(|own| is(own)).count() as f64 / all.len() as f64
+        100.0 * all.iter().filter(|pair| is(pair)).count() as f64 / all.len() as f64
     };
     let [low, high] = LIMITS;
     println!("| limit on `flip_moving` | verdict | share |");
@@ -237,13 +249,13 @@ fn print_limits(subjects: &[Subject]) {
         println!("| {limit} | {verdict} | {share:.1} % |");
     };
     let [lower, higher] = LIMITS.map(|limit| format!("{limit} times the converged score"));
-    let breaks = |own: &(f64, Interval), limit: f64| own.1.low > limit * own.0;
-    row(&lower, "breaks", share(&|own| breaks(own, low)));
-    let keeps = |(converged, own): &(f64, Interval)| own.high < high * converged;
+    let breaks = |pair: &(f64, Interval), limit: f64| pair.1.low > limit * pair.0;
+    row(&lower, "breaks", share(&|pair| breaks(pair, low)));
+    let keeps = |(converged, interval): &(f64, Interval)| interval.high < high * converged;
     row(&higher, "is kept", share(&keeps));
     row(
         "the converged score",
         "breaks",
-        share(&|own| breaks(own, 1.0)),
+        share(&|pair| breaks(pair, 1.0)),
     );
 }

@@ -177,8 +177,8 @@ fn print_table(rows: &[Row]) {
     );
     println!("| first | second | moving | support |\n|---|---|---|---|");
     let find = |row: &Row, wanted: &str| {
-        let own = row.errors.iter().find(|(name, _)| name == wanted);
-        own.expect("all scenes have all pictures").1
+        let error = row.errors.iter().find(|(name, _)| name == wanted);
+        error.expect("all scenes have all pictures").1
     };
     for second in ["oracle", "half_length", "no_blur"] {
         for first in names.iter().filter(|first| **first != second) {

@@ -36,26 +36,26 @@ fn main() {
 
 /// Lists the bounds of all scenes, and every file of each scene, by path.
 fn find_files(root: &Path) -> Vec<PathBuf> {
-    let mut found = Vec::new();
+    let mut paths = Vec::new();
     for folder in list_folder(root) {
         let name = folder.file_name().unwrap_or_default().to_string_lossy();
         if name.starts_with("bounds") && name.ends_with(".toml") {
-            found.push(folder.clone());
+            paths.push(folder.clone());
         }
         if folder.join("scene.toml").is_file() {
-            collect(&folder, &mut found);
+            collect(&folder, &mut paths);
         }
     }
-    found.sort();
-    found
+    paths.sort();
+    paths
 }
 
-fn collect(folder: &Path, found: &mut Vec<PathBuf>) {
+fn collect(folder: &Path, paths: &mut Vec<PathBuf>) {
     for path in list_folder(folder) {
         if path.is_dir() {
-            collect(&path, found)
+            collect(&path, paths)
         } else {
-            found.push(path)
+            paths.push(path)
         }
     }
 }

@@ -28,8 +28,8 @@ def main():
     manifest = read_manifest(arguments.filter)
     base = written_values(manifest, arguments.preset)
     check_names([*arguments.keep, *arguments.fixed], base, arguments.filter)
-    own = [parse_change(text, manifest) for text in arguments.change]
-    singles = own or [change for change in list_changes(manifest, base) if not set(change) & set(arguments.keep)]
+    given_changes = [parse_change(text, manifest) for text in arguments.change]
+    singles = given_changes or [change for change in list_changes(manifest, base) if not set(change) & set(arguments.keep)]
 
     scores = Scores(arguments, manifest)
     start = scores.measure({})
@@ -41,7 +41,7 @@ def main():
     if not single:
         print("\nsmallest change: none; no gain's CI excludes 0")
         return
-    best = [own for own in ranked if own.gain.mean > 0][: arguments.best]
+    best = [trial for trial in ranked if trial.gain.mean > 0][: arguments.best]
     pair = try_pairs(scores, best, single)
     confirm(Scores(arguments, manifest, ["--seal", str(arguments.seal)]), single, pair)
 
@@ -75,10 +75,10 @@ def read_manifest(folder):
 
 def written_values(manifest, preset):
     """Returns the values of a preset, as written: lengths in pixels of its reference width."""
-    presets = {own["name"]: own for own in manifest["preset"]}
+    presets = {entry["name"]: entry for entry in manifest["preset"]}
     if preset not in presets:
         sys.exit(f"--preset {preset}: {manifest['name']} has {', '.join(presets)}")
-    return {own["name"]: own["default"] for own in manifest["parameter"]} | presets[preset].get("values", {})
+    return {parameter["name"]: parameter["default"] for parameter in manifest["parameter"]} | presets[preset].get("values", {})
 
 
 def check_names(names, base, filter):
@@ -89,7 +89,7 @@ def check_names(names, base, filter):
 
 def parse_change(text, manifest):
     """Reads a change such as `tile_size=63,tile_motion=exact`."""
-    parameters = {own["name"]: own for own in manifest["parameter"]}
+    parameters = {parameter["name"]: parameter for parameter in manifest["parameter"]}
     change = {}
     for part in text.split(","):
         parameter, value = part.split("=") if part.count("=") == 1 else (part, "")
@@ -103,7 +103,7 @@ def list_changes(manifest, base):
     """Lists every change of one parameter: other choices, half and twice the value, and what other presets have."""
     changes = []
     for parameter in manifest["parameter"]:
-        values = [own.get("values", {}).get(parameter["name"]) for own in manifest["preset"]]
+        values = [entry.get("values", {}).get(parameter["name"]) for entry in manifest["preset"]]
         values = [value for value in values if value is not None] + [parameter["default"], *neighbours(parameter, base[parameter["name"]])]
         changes += [{parameter["name"]: value} for value in dict.fromkeys(values) if value != base[parameter["name"]]]
     return changes
@@ -118,8 +118,8 @@ def neighbours(parameter, value):
         tried = [value / 2, value * 2]
     else:
         tried = [low, value - (high - low) / 4, value + (high - low) / 4, high]
-    tried = [min(max(own, low), high) for own in tried]
-    return [round(own) for own in tried] if is_whole else tried
+    tried = [min(max(number, low), high) for number in tried]
+    return [round(number) for number in tried] if is_whole else tried
 
 
 class Gain:
@@ -154,7 +154,7 @@ class Scores:
         self.words = [*words, "--params"]
         self.manifest = manifest
         self.width = int(arguments.size.split("x")[0])
-        presets = {own["name"]: own for own in manifest["preset"]}
+        presets = {entry["name"]: entry for entry in manifest["preset"]}
         self.reference = presets[arguments.preset].get("reference_width", manifest.get("reference_width"))
         self.fixed = {}
         for text in arguments.fixed_values:
@@ -174,7 +174,7 @@ class Scores:
         scores = json.loads(ended.stdout)["scenes"]
         if len(scores) < FEWEST_SCENES:
             sys.exit(f"{len(scores)} scenes: a CI over scenes needs at least {FEWEST_SCENES}; name more with --scenes")
-        return {scene: own["flip"] for scene, own in scores.items()}
+        return {scene: score["flip"] for scene, score in scores.items()}
 
     def scaled(self, change):
         """Converts lengths to pixels of the picture, as the program does for a preset's own values."""
@@ -197,8 +197,8 @@ class Tried:
 def rank(scores, changes, before):
     """Measures changes against scores; the largest gain comes first."""
     measured = [(change, scores.measure(change)) for change in changes]
-    tried = [Tried(change, own, before) for change, own in measured if own]
-    return sorted(tried, key=lambda own: -own.gain.mean)
+    tried = [Tried(change, flips, before) for change, flips in measured if flips]
+    return sorted(tried, key=lambda trial: -trial.gain.mean)
 
 
 def try_pairs(scores, best, single):
@@ -214,7 +214,7 @@ def try_pairs(scores, best, single):
 
 def first_certain(ranked):
     """Returns the largest gain with a CI that excludes 0."""
-    return next((own for own in ranked if own.gain.low > 0), None)
+    return next((trial for trial in ranked if trial.gain.low > 0), None)
 
 
 def confirm(sealed, single, pair):
@@ -235,7 +235,7 @@ def confirm(sealed, single, pair):
 
 def print_head(preset):
     """Prints the heading of a page, and the command without the place of the program."""
-    words = [own for before, own in zip(["", *sys.argv[1:]], sys.argv[1:]) if "--program" not in (before, own)]
+    words = [word for before, word in zip(["", *sys.argv[1:]], sys.argv[1:]) if "--program" not in (before, word)]
     print(f"# The smallest change of {preset}\n\nPrinted by `examples/changes/search.py {shlex.join(words)}`.\n")
 
 
@@ -245,9 +245,9 @@ def name(change):
 
 def print_table(head, rows):
     print(f"| {head} | FLIP | gain (95 % CI) | better on |\n|---|---|---|---|")
-    for own in rows:
-        better = sum(gain > 0 for gain in own.gain.gains)
-        print(f"| `{name(own.change)}` | {fmean(own.scores.values()):.4f} | {own.gain} | {better} of {own.gain.count} |")
+    for trial in rows:
+        better = sum(gain > 0 for gain in trial.gain.gains)
+        print(f"| `{name(trial.change)}` | {fmean(trial.scores.values()):.4f} | {trial.gain} | {better} of {trial.gain.count} |")
 
 
 if __name__ == "__main__":

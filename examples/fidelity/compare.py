@@ -46,10 +46,10 @@ def main():
     for name in compare:
         source, parameters = known[name]
         pictures = [next(blurred) for _ in scenes]
-        found = compared(originals[name], frames, pictures, parameters)
+        difference = compared(originals[name], frames, pictures, parameters)
         listed = compared(as_listed[name], frames, pictures, parameters) if name in as_listed else None
-        verdict = judged(settings["default"] | settings["preset"].get(name, {}), found, listed)
-        rows.append([f"`{name}`", source, *found.cells(), listed.cells()[0] if listed else "", verdict])
+        verdict = judged(settings["default"] | settings["preset"].get(name, {}), difference, listed)
+        rows.append([f"`{name}`", source, *difference.cells(), listed.cells()[0] if listed else "", verdict])
         failures += [name] if verdict != "kept" else []
     print(table(["preset", "original", "largest", "> 0.001", "> 0.02", "largest as listed", "limit"], rows))
     print(f"\n{', '.join(scenes)} at {arguments.size}: {frames[0].depth.size * len(scenes)} pixels.")
@@ -170,10 +170,10 @@ class Difference:
     """Returns the pictures' difference in the largest channel of every pixel."""
 
     def __init__(self, pairs):
-        found = np.concatenate([np.abs(ours - theirs).max(-1).ravel() for ours, theirs in pairs])
-        self.largest = float(found.max()) if np.isfinite(found).all() else float("inf")
-        self.mean = float(found.mean())
-        self.small, self.large = int((~(found <= SMALL)).sum()), int((~(found <= LARGE)).sum())
+        distances = np.concatenate([np.abs(ours - theirs).max(-1).ravel() for ours, theirs in pairs])
+        self.largest = float(distances.max()) if np.isfinite(distances).all() else float("inf")
+        self.mean = float(distances.mean())
+        self.small, self.large = int((~(distances <= SMALL)).sum()), int((~(distances <= LARGE)).sum())
 
     def cells(self):
         return [f"{self.largest:.0e}", str(self.small), str(self.large)]
@@ -189,9 +189,9 @@ def compared(original, frames, pictures, parameters):
     return Difference(zip(pictures, map(blur, frames)))
 
 
-def judged(limits, found, listed):
+def judged(limits, difference, listed):
     """Returns whether there are no more differences than allowed."""
-    few = found.small <= limits["small"] and found.large <= limits["large"]
+    few = difference.small <= limits["small"] and difference.large <= limits["large"]
     near = listed is None or listed.small <= limits["small_as_listed"]
     return "kept" if few and near else "BROKEN"
 

@@ -35,9 +35,9 @@ def main():
             missing.add(repository)
             continue
         compared += 1
-        found = read_line(clone, commit, path, line)
-        if found != code:
-            wrong.append(f"{page}: {repository} at {commit[:7]}, {path}:{line}: quoted `{code}`, found {found!r}")
+        text = read_line(clone, commit, path, line)
+        if text != code:
+            wrong.append(f"{page}: {repository} at {commit[:7]}, {path}:{line}: quoted `{code}`, found {text!r}")
     print(f"{compared} of {len(quotes)} quotes compared")
     if missing:
         print(f"not compared, for want of a clone: {', '.join(sorted(missing))}")

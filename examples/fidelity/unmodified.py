@@ -54,17 +54,17 @@ def main():
         if arguments.only and folder not in arguments.only:
             continue
         scenes = CAMERA_SCENES if folder == "babylon_screen" else SCENES
-        own = lambda name: [value for value in values if value.split(".")[0] == name]
+        values_of = lambda name: [value for value in values if value.split(".")[0] == name]
         filters = {"its formats": HERE.parent / "engine_shaders" / folder}
         filters["32 bits"] = widened(filters["its formats"], arguments.out / "wide" / folder)
         theirs = {
-            kind: [blur_with(arguments, str(path.resolve()), scene, own(name_of(path))) for scene in scenes]
+            kind: [blur_with(arguments, str(path.resolve()), scene, values_of(name_of(path))) for scene in scenes]
             for kind, path in filters.items()
         }
-        ours = [blur_with(arguments, preset, scene, own(preset.split(":")[0])) for scene in scenes]
+        ours = [blur_with(arguments, preset, scene, values_of(preset.split(":")[0])) for scene in scenes]
         moved = Difference(zip(ours, [frames[scene].color for scene in scenes]))
         differences = [Difference(zip(ours, theirs[kind])) for kind in filters]
-        cells = [cell for found in differences for cell in (f"{found.largest:.0e}", f"{found.mean:.1e}", str(found.large))]
+        cells = [cell for difference in differences for cell in (f"{difference.largest:.0e}", f"{difference.mean:.1e}", str(difference.large))]
         with_values = "".join(f" {value.split('.', 1)[1]}" for value in values)
         rows.append([f"`{folder}`", f"`{preset}`{with_values}", *cells, f"{moved.mean:.4f}"])
     head = ["shader", "preset", "largest", "mean", "> 0.02", "largest, 32 bits", "mean", "> 0.02", "mean of the blur"]
@@ -74,11 +74,11 @@ def main():
     for folder, samples in {"kino": kino.SAMPLES, "ppv2": kino.SAMPLES_PPV2}.items():
         if arguments.only and folder not in arguments.only:
             continue
-        found = explained_kino(arguments, frames, folder, samples)
-        print(f"\n{folder} and its transcription on what the driver packed: largest {found.largest:.0e}, {found.small} pixels above 0.001.")
+        difference = explained_kino(arguments, frames, folder, samples)
+        print(f"\n{folder} and its transcription on what the driver packed: largest {difference.largest:.0e}, {difference.small} pixels above 0.001.")
     if not arguments.only or "three" in arguments.only:
-        found = transcribed_three(arguments, frames)
-        print(f"\nthree and its transcription: largest {found.largest:.0e}.")
+        difference = transcribed_three(arguments, frames)
+        print(f"\nthree and its transcription: largest {difference.largest:.0e}.")
 
 
 def explained_kino(arguments, frames, folder, samples):

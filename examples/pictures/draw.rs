@@ -112,7 +112,7 @@ fn read_caption(folder: &Path, stem: &str) -> Option<String> {
     let page = fs::read_to_string(folder.join("README.md")).ok()?;
     let section = page
         .split("\n## ")
-        .find(|own| own.lines().next() == Some(stem))?;
+        .find(|section| section.lines().next() == Some(stem))?;
     let mut lines = section.lines();
     lines
         .find(|line| line.starts_with("Shutter "))
@@ -124,7 +124,7 @@ fn find_case(path: &Path) -> Result<(Case, PathBuf), Error> {
     let none = || Error::Usage(format!("{} is of no case", path.display()));
     let mut above = path.ancestors();
     let folder = above
-        .find(|own| own.join("run.json").is_file())
+        .find(|folder| folder.join("run.json").is_file())
         .ok_or_else(none)?;
     let run = Run::read(&folder.join("run.json"))?;
     let mut cases = run.cases.into_iter();

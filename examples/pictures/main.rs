@@ -87,8 +87,8 @@ fn make(names: &[String]) -> Result<usize, Error> {
 
 /// Runs the commands of a run with this build's programs.
 fn run_commands(run: &PictureRun) -> Result<(), Error> {
-    let own = env::current_exe().expect("a program has a path");
-    let examples = own.parent().expect("a program is in a folder");
+    let program = env::current_exe().expect("a program has a path");
+    let examples = program.parent().expect("a program is in a folder");
     let programs = [examples.to_owned(), examples.join("..")].into_iter();
     let before = env::var_os("PATH").unwrap_or_default();
     let path = env::join_paths(programs.chain(env::split_paths(&before)));

@@ -18,13 +18,13 @@ pub struct Engine {
     pub name: String,
     /// Preset that equals the engine's default, but for its length: 180 degrees.
     pub shape: String,
-    /// What its own length needs.
+    /// What the engine's own length needs.
     pub shipped: Shipped,
     /// Measured smear as shipped, in degrees of the frame.
     pub length: u32,
     /// Measured smear of `shape`, in degrees of the frame.
     pub at_180: u32,
-    /// Its own words on that length, with their place; or `none`.
+    /// The engine's own words on its length, with their place; or `none`.
     pub states: String,
     /// Commit that the preset follows.
     pub commit: String,
@@ -127,11 +127,11 @@ pub struct Shape<'a> {
 
 /// Finds the scores of the engines, the worst against no blur first, and those without at the end.
 pub fn measured(groups: &[Vec<RankedFilter>]) -> Vec<Measured<'_>> {
-    let find = |name: &str| groups.iter().flatten().find(|own| own.name == name);
+    let find = |name: &str| groups.iter().flatten().find(|filter| filter.name == name);
     let score = |engine: &Engine| {
         let ranked = find(&engine.shape)?;
         let group = (groups.iter()).find(|group| group[0].alignment == ranked.alignment)?;
-        let none = group.iter().find(|own| own.filter == IDENTITY)?.mean;
+        let none = group.iter().find(|filter| filter.filter == IDENTITY)?.mean;
         Some(Shape { ranked, none })
     };
     let measure = |engine: Engine| Measured {
@@ -140,8 +140,8 @@ pub fn measured(groups: &[Vec<RankedFilter>]) -> Vec<Measured<'_>> {
         engine,
     };
     let mut all: Vec<Measured> = list_engines().into_iter().map(measure).collect();
-    let badness = |own: &Measured| {
-        let shape = own.shape.as_ref();
+    let badness = |measured: &Measured| {
+        let shape = measured.shape.as_ref();
         shape.map_or(f64::NEG_INFINITY, |shape| shape.ranked.mean / shape.none)
     };
     all.sort_by(|a, b| badness(b).total_cmp(&badness(a)));

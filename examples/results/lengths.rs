@@ -50,14 +50,15 @@ impl Panels {
         let (filter, preset) = (engine.shape.split_once(':')).expect("a preset has a filter");
         let filter = Filter::builtin(filter).expect("engines.toml names built-in filters");
         let settings = (filter.settings(Some(preset))).expect("engines.toml names presets");
-        let mut own = settings.clone();
+        let mut shipped_settings = settings.clone();
         for (name, value) in &shipped.values {
-            own.set(&filter, name, value)
+            shipped_settings
+                .set(&filter, name, value)
                 .expect("engines.toml has values of parameters");
         }
         let exposure = factor * shipped.exposure;
         Lengths {
-            shipped: smear_degrees(shot, &filter, &own, exposure),
+            shipped: smear_degrees(shot, &filter, &shipped_settings, exposure),
             at_180: smear_degrees(shot, &filter, &settings, factor * HALF_FRAME),
         }
     }

@@ -116,7 +116,7 @@ fn write_pictures(all: &[Results], run: &Run, path: &Path) -> Result<(), Error> 
     let folder = path.parent().unwrap_or(Path::new(""));
     let engines = list_engines().into_iter();
     for worst in engines.filter_map(|engine| results.worst_of(&engine.shape)) {
-        let is_worst = |own: &&Case| own.name() == worst.name && own.scene == worst.scene;
+        let is_worst = |case: &&Case| case.name() == worst.name && case.scene == worst.scene;
         if let Some(case) = run.cases.iter().find(is_worst) {
             let path = Path::new(FOLDER).join("pictures").join(picture_name(worst));
             write_case_strip(case, folder, &path)?;
@@ -136,16 +136,16 @@ fn write_site(folder: &Path, path: &Path) -> Result<(), Error> {
         .collect();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
     Site::collect(Path::new("."), &names)?.write(Path::new("."), folder)?;
-    let [own, live] = [
+    let [run_folder, live] = [
         path.parent().unwrap_or(Path::new("")),
         &folder.join("src/live"),
     ];
     for name in names {
-        let picture = read(&own.join(name).join("frame.png"))?;
+        let picture = read(&run_folder.join(name).join("frame.png"))?;
         frame::write_atomically(&live.join(format!("{name}.png")), &picture)?;
     }
     // Pictures and tables are files of their own, which the page loads when someone opens a case.
-    write_report(&run, &[], None, own, &live.join("report.html"), 0)?;
+    write_report(&run, &[], None, run_folder, &live.join("report.html"), 0)?;
     println!("{}", folder.display());
     Ok(())
 }

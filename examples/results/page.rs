@@ -20,8 +20,8 @@ const WIDTH: usize = 135;
 
 /// Finds the results for the page: those with most scenes, without seals.
 pub fn main_results(all: &[Results]) -> Option<&Results> {
-    let catalogues = all.iter().filter(|own| own.seal.is_none());
-    catalogues.max_by_key(|own| own.scenes().len())
+    let catalogues = all.iter().filter(|results| results.seal.is_none());
+    catalogues.max_by_key(|results| results.scenes().len())
 }
 
 /// Makes the page from files of results: engines' shipped presets, and each shutter's presets next
@@ -35,10 +35,10 @@ pub fn results_page(all: &[Results], cards: &[Bench]) -> Result<String, Error> {
 pub fn site_pages(all: &[Results], cards: &[Bench]) -> Result<Vec<(String, String)>, Error> {
     let kept = Kept::new(all, cards, true)?;
     let mut pages = vec![("README.md".to_owned(), kept.page()?)];
-    for own in measured(&kept.groups) {
-        let section = kept.section(&own);
-        let table = kept.engine_table(std::slice::from_ref(&own));
-        let shape = &own.engine.shape;
+    for entry in measured(&kept.groups) {
+        let section = kept.section(&entry);
+        let table = kept.engine_table(std::slice::from_ref(&entry));
+        let shape = &entry.engine.shape;
         let text = format!(
             "{section}\n{table}\n[Try it on five scenes](../../live/report.html#fan/{shape}) · [All results](../README.md)\n"
         );
@@ -47,7 +47,7 @@ pub fn site_pages(all: &[Results], cards: &[Bench]) -> Result<Vec<(String, Strin
             text.replace(&format!("]({folder}/"), &format!("](../{folder}/"))
         };
         let text = (["findings", "changes", "pictures"].into_iter()).fold(text, from_below);
-        pages.push((own.engine.page_name(), text.replace("](engines/", "](")));
+        pages.push((entry.engine.page_name(), text.replace("](engines/", "](")));
     }
     Ok(pages)
 }
@@ -69,12 +69,14 @@ struct Kept<'a> {
 impl<'a> Kept<'a> {
     fn new(all: &'a [Results], cards: &'a [Bench], is_site: bool) -> Result<Self, Error> {
         let (of_browsers, benches): (Vec<&Bench>, Vec<&Bench>) =
-            (cards.iter()).partition(|own| own.scene.is_some());
-        let longest = benches.into_iter().max_by_key(|own| own.cases.len());
+            (cards.iter()).partition(|card| card.scene.is_some());
+        let longest = benches.into_iter().max_by_key(|bench| bench.cases.len());
         let results =
             main_results(all).ok_or_else(|| Error::Usage("no file of results".to_owned()))?;
-        let sealed = all.iter().find(|own| {
-            own.seal.is_some() && own.size == results.size && own.adapter == results.adapter
+        let sealed = all.iter().find(|candidate| {
+            candidate.seal.is_some()
+                && candidate.size == results.size
+                && candidate.adapter == results.adapter
         });
         Ok(Self {
             results,
@@ -129,30 +131,30 @@ impl<'a> Kept<'a> {
     fn engines(&self) -> String {
         let all = measured(&self.groups);
         let mut text = self.engine_table(&all);
-        let is_worse = |own: &&Measured| {
-            let shape = own.shape.as_ref();
+        let is_worse = |entry: &&Measured| {
+            let shape = entry.shape.as_ref();
             shape.is_some_and(|shape| shape.ranked.mean > shape.none)
         };
         let worse: Vec<&str> = (all.iter())
             .filter(is_worse)
-            .map(|own| own.engine.name.as_str())
+            .map(|entry| entry.engine.name.as_str())
             .collect();
         if !worse.is_empty() {
             text += &format!("\nWorse than no blur: {}.\n", worse.join(", "));
         }
         text += &unscored(&all);
         if !self.is_site {
-            text.extend(all.iter().map(|own| self.section(own)));
+            text.extend(all.iter().map(|entry| self.section(entry)));
         }
         text
     }
 
     fn engine_table(&self, engines: &[Measured]) -> String {
         let number = |value: f64| Metric::FLIP.number(value);
-        let row = |own: &Measured| -> Vec<String> {
-            let engine = &own.engine;
+        let row = |entry: &Measured| -> Vec<String> {
+            let engine = &entry.engine;
             let scored = |of: &dyn Fn(&Shape) -> Option<String>| {
-                let shape = own.shape.as_ref();
+                let shape = entry.shape.as_ref();
                 shape.and_then(of).unwrap_or("-".to_owned())
             };
             vec![
@@ -163,7 +165,7 @@ impl<'a> Kept<'a> {
                 engine.at_180.to_string(),
                 scored(&|shape| Some(number(shape.ranked.mean))),
                 scored(&|shape| Some(number(shape.none))),
-                (own.gain.as_ref()).map_or("-".to_owned(), |gain| gain.mean().to_owned()),
+                (entry.gain.as_ref()).map_or("-".to_owned(), |gain| gain.mean().to_owned()),
                 find_time(self.bench, &engine.shape),
                 engine.default.text().to_owned(),
             ]
@@ -197,10 +199,10 @@ impl<'a> Kept<'a> {
     }
 
     /// Describes an engine below a heading, with its worst picture.
-    fn section(&self, own: &Measured) -> String {
-        let engine = &own.engine;
+    fn section(&self, entry: &Measured) -> String {
+        let engine = &entry.engine;
         let mut text = format!("\n### {}\n\n{}", engine.name, engine.wrong);
-        if let (Some(Change { by, set }), Some(gain)) = (&engine.change, &own.gain) {
+        if let (Some(Change { by, set }), Some(gain)) = (&engine.change, &entry.gain) {
             text += &format!(
                 " {by}: `{set}` alone gains {} in FLIP over {}. [The search](changes/{}).",
                 gain.text, gain.over, gain.page
@@ -226,8 +228,8 @@ impl<'a> Kept<'a> {
         let row = |ranked: &RankedFilter| {
             let other = sealed.iter().find(|other| other.name == ranked.name);
             let (scene, worst) = self.worst(ranked);
-            let own = engines.iter().filter(|own| own.shape == ranked.name);
-            let links: Vec<String> = own.map(|own| self.link(own)).collect();
+            let linked = engines.iter().filter(|engine| engine.shape == ranked.name);
+            let links: Vec<String> = linked.map(|engine| self.link(engine)).collect();
             let bold = if self.is_site && !links.is_empty() {
                 "**"
             } else {
@@ -267,8 +269,8 @@ impl<'a> Kept<'a> {
     /// else where its FLIP is worst.
     fn worst<'r>(&'r self, ranked: &'r RankedFilter) -> (&'r SceneId, f64) {
         let gained = (self.results.worst_of(&ranked.name))
-            .filter(|own| own.score(Metric::SKILL).is_some())
-            .and_then(|own| Some((&own.scene, own.score(Metric::FLIP)?)));
+            .filter(|score| score.score(Metric::SKILL).is_some())
+            .and_then(|score| Some((&score.scene, score.score(Metric::FLIP)?)));
         gained.unwrap_or((&ranked.worst.0, ranked.worst.1))
     }
 
@@ -288,8 +290,11 @@ impl<'a> Kept<'a> {
     /// Returns the mean bleed of a preset over the scenes that have one.
     fn bleed(&self, ranked: &RankedFilter) -> String {
         let scores = self.results.scores.iter();
-        let own = scores.filter(|own| own.name == ranked.name && own.alignment == ranked.alignment);
-        let scores: Vec<f64> = own.filter_map(|own| own.score(Metric::Bleed)).collect();
+        let of_preset =
+            scores.filter(|score| score.name == ranked.name && score.alignment == ranked.alignment);
+        let scores: Vec<f64> = of_preset
+            .filter_map(|score| score.score(Metric::Bleed))
+            .collect();
         match scores.len() {
             0 => "-".to_owned(),
             count => Metric::Bleed.number(scores.iter().sum::<f64>() / count as f64),
@@ -300,8 +305,8 @@ impl<'a> Kept<'a> {
 /// Returns whether results have changes where nothing moves, and grain; those of older runs have
 /// none.
 fn has_effects(group: &[RankedFilter]) -> bool {
-    let mut own = group.iter();
-    own.any(|own| own.side_effects != SideEffects::default())
+    let mut filters = group.iter();
+    filters.any(|filter| filter.side_effects != SideEffects::default())
 }
 
 /// Fills the lines of paragraphs; leaves tables, pictures, headings and commands unchanged.
@@ -371,8 +376,8 @@ score, and [one in bench](bench/1920x1080_nvidia_h100_80gb_hbm3.json) the times;
 
 /// Names the engines whose shapes have no scores, and how to make them; nothing if all have.
 fn unscored(all: &[Measured]) -> String {
-    let without = all.iter().filter(|own| own.shape.is_none());
-    let shapes: Vec<&str> = without.map(|own| own.engine.shape.as_str()).collect();
+    let without = all.iter().filter(|entry| entry.shape.is_none());
+    let shapes: Vec<&str> = without.map(|entry| entry.engine.shape.as_str()).collect();
     if shapes.is_empty() {
         return String::new();
     }
@@ -414,12 +419,12 @@ fn times(cards: &[&Bench]) -> String {
     let titles = ["card", "picture", "preset", "time"];
     let rows = cards
         .iter()
-        .flat_map(|own| own.cases.iter().map(move |case| (own, case)));
-    let rows = rows.map(|(own, case)| {
-        let picture = format!("{}x{}, {}", own.width, own.height, own.frame_text());
+        .flat_map(|bench| bench.cases.iter().map(move |case| (bench, case)));
+    let rows = rows.map(|(bench, case)| {
+        let picture = format!("{}x{}, {}", bench.width, bench.height, bench.frame_text());
         let name = format!("{}:{}", case.filter, case.preset);
-        let time = find_time(own, &name);
-        let [card, picture] = [&own.adapter.name, &picture].map(|text| escape_markdown(text));
+        let time = find_time(bench, &name);
+        let [card, picture] = [&bench.adapter.name, &picture].map(|text| escape_markdown(text));
         vec![card, picture, markdown_code(&name), time]
     });
     if cards.is_empty() {
@@ -434,9 +439,9 @@ fn times(cards: &[&Bench]) -> String {
 /// Finds the time of a preset in milliseconds; a dash if it was not timed.
 fn find_time(bench: &Bench, name: &str) -> String {
     let mut cases = bench.cases.iter();
-    let timed = cases.find(|own| format!("{}:{}", own.filter, own.preset) == name);
-    timed.map_or("-".to_owned(), |own| {
-        format!("{:.2}", 1e3 * own.seconds.median)
+    let timed = cases.find(|case| format!("{}:{}", case.filter, case.preset) == name);
+    timed.map_or("-".to_owned(), |case| {
+        format!("{:.2}", 1e3 * case.seconds.median)
     })
 }
 
@@ -456,21 +461,23 @@ fn mean(ranked: &RankedFilter) -> String {
 /// States whether the sealed variants order the filters like the catalogue.
 fn agreement(results: &Results, sealed: &Results, alignment: Alignment) -> Result<String, Error> {
     let compared = compare_sizes(&[results, sealed], Metric::FLIP)?;
-    let mut of_shutter = compared.iter().filter(|own| own.alignment == alignment);
+    let mut of_shutter = compared
+        .iter()
+        .filter(|comparison| comparison.alignment == alignment);
     let Some(SizeComparison { agreement, .. }) = of_shutter.next() else {
         return Ok(String::new());
     };
-    let own = &agreement[0];
-    let interval = (own.interval)
+    let order = &agreement[0];
+    let interval = (order.interval)
         .map(|[low, high]| format!(" (95 % CI {low:.2} to {high:.2})"))
         .unwrap_or_default();
     let mut text = format!(
         "\nThe scenes and their sealed variants order {} pairs of presets alike and {} differently. Kendall's tau is {:.2}{interval}.\n",
-        own.alike,
-        own.reversed.len(),
-        own.tau,
+        order.alike,
+        order.reversed.len(),
+        order.tau,
     );
-    for turned in &own.reversed {
+    for turned in &order.reversed {
         text += &format!(
             "{} is better than {} on the scenes, and worse on the variants.\n",
             markdown_code(&turned.better_here),

@@ -69,8 +69,8 @@ def compare_vectors(folder, rendered):
     print(f"  velocity of all objects: {spread(error[ids > 0])} px")
     names = json.loads((folder / "manifest.json").read_text())["objects"]
     masks = [(name, ids == at) for at, name in enumerate(names)]
-    found = [(np.percentile(error[mask], 95), name, mask) for name, mask in masks if mask.sum() >= 8]
-    worst = [one for one in found if one[0] > 0.01]
+    errors = [(np.percentile(error[mask], 95), name, mask) for name, mask in masks if mask.sum() >= 8]
+    worst = [one for one in errors if one[0] > 0.01]
     for most, name, mask in sorted(worst, key=lambda one: -one[0])[:4]:
         length = [np.linalg.norm(one[mask], axis=-1).mean() for one in (velocity, expected)]
         print(f"    {name}: {spread(error[mask])} px; length {length[0]:.2f} px, expected {length[1]:.2f} px")

@@ -1,10 +1,10 @@
 //! Environment variables that the program needs.
 
-/// Restarts the program with the variables that it needs, if they are unset: a place for Mesa to
-/// look for a display, since Mesa otherwise complains at every start, though this program needs
-/// none; and the size of blocks that glibc gives back. Only a new process's environment can be
-/// changed without harm to threads. If that fails, the driver complains, pictures need more memory,
-/// and all else works. `loud` lets the driver complain.
+/// Restarts the program with two variables, if they are unset: the place where Mesa looks for a
+/// display, and the size of blocks that glibc gives back. The program needs no display, but without
+/// a place Mesa complains at every start; `loud` lets it complain. The restart is there because
+/// only a new process's environment can be changed without harm to threads. If it fails, Mesa
+/// complains, pictures need more memory, and all else works.
 #[cfg(unix)]
 pub fn set_environment(loud: bool) {
     use std::os::unix::process::CommandExt;
@@ -28,7 +28,7 @@ pub fn set_environment(loud: bool) {
         (std::env::current_exe(), words.next(), missing.is_empty())
     {
         let mut command = std::process::Command::new(program);
-        // It only returns if it fails.
+        // `exec` returns only if it fails.
         let _ = command.arg0(name).args(words).envs(missing).exec();
     }
 }

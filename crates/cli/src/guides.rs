@@ -108,16 +108,16 @@ const SHARED: [(&str, Group); 9] = [
 fn commands_page(written: &str) -> String {
     let program = Cli::command_line();
     let mut text = written.split("\n## ").next().unwrap().to_owned();
-    let below = (program.get_subcommands()).filter(|own| own.get_name() != "help");
-    let below = below.flat_map(|own| once(own).chain(own.get_subcommands()));
+    let below = (program.get_subcommands()).filter(|command| command.get_name() != "help");
+    let below = below.flat_map(|command| once(command).chain(command.get_subcommands()));
     let all: Vec<&Command> = once(&program).chain(below).collect();
     for command in &all {
         text += &describe(command);
     }
     for (title, _) in SHARED {
-        let mut shared = all.iter().flat_map(|own| {
-            let groups = list_shared(own).into_iter();
-            groups.map(move |(group, ids)| (own, group, ids))
+        let mut shared = all.iter().flat_map(|command| {
+            let groups = list_shared(command).into_iter();
+            groups.map(move |(group, ids)| (command, group, ids))
         });
         let (command, _, ids) = shared.find(|(_, group, _)| *group == title).expect(title);
         text += &format!("\n## {title}\n\n{}", help(command, "{options}", &ids));
@@ -128,21 +128,22 @@ fn commands_page(written: &str) -> String {
 /// Lists the complete groups of a command, each with the arguments that no earlier group has.
 fn list_shared(command: &Command) -> Vec<(&'static str, Vec<Id>)> {
     let has = |arg: &Arg| {
-        let is_same = |own: &Arg| own.get_id() == arg.get_id() && own.get_help() == arg.get_help();
+        let is_same =
+            |other: &Arg| other.get_id() == arg.get_id() && other.get_help() == arg.get_help();
         command.get_arguments().any(is_same)
     };
     let mut taken = Vec::new();
-    let mut found = Vec::new();
+    let mut groups = Vec::new();
     for (title, group) in SHARED {
         let group = group(Command::new("group"));
         if group.get_arguments().all(has) {
             let ids = group.get_arguments().map(|arg| arg.get_id().clone());
             let ids: Vec<Id> = ids.filter(|id| !taken.contains(id)).collect();
             taken.extend(ids.iter().cloned());
-            found.push((title, ids));
+            groups.push((title, ids));
         }
     }
-    found
+    groups
 }
 
 /// Describes a command: its purpose, its own arguments, and links to shared ones.
@@ -154,8 +155,8 @@ fn describe(command: &Command) -> String {
     }
     let shared = list_shared(command);
     let is_own = |id: &Id| *id != "help" && !shared.iter().any(|(_, ids)| ids.contains(id));
-    let own = command.get_arguments().map(|arg| arg.get_id().clone());
-    let own: Vec<Id> = own.filter(is_own).collect();
+    let listed = command.get_arguments().map(|arg| arg.get_id().clone());
+    let listed: Vec<Id> = listed.filter(is_own).collect();
     let titles = shared.iter().map(|(title, _)| title);
     let links: Vec<String> = (titles.skip(1))
         .map(|title| format!("[{title}](#{})", title.to_lowercase().replace(' ', "-")))
@@ -166,14 +167,14 @@ fn describe(command: &Command) -> String {
     };
     let usage = command.clone().render_usage().to_string();
     let template = usage.replace("Usage: ", "") + "\n\n{all-args}";
-    format!("{heading}\n{}{links}", help(command, &template, &own))
+    format!("{heading}\n{}{links}", help(command, &template, &listed))
 }
 
 /// Renders the help of some arguments of a command as a block.
 fn help(command: &Command, template: &str, listed: &[Id]) -> String {
-    let hide = |own: Arg| {
-        let is_hidden = own.is_hide_set() || !listed.contains(own.get_id());
-        own.hide(is_hidden)
+    let hide = |argument: Arg| {
+        let is_hidden = argument.is_hide_set() || !listed.contains(argument.get_id());
+        argument.hide(is_hidden)
     };
     let command = command.clone().term_width(WIDTH).mut_args(hide);
     let help = command

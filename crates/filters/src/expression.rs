@@ -22,7 +22,7 @@ const OPERATORS: [[&str; 2]; 2] = [["+", "-"], ["*", "/"]];
 const MAX_CHARACTERS: usize = 200;
 
 impl Expression {
-    /// Parses an expression; `is_known` knows which names there are.
+    /// Parses an expression; `is_known` is true for the names that exist.
     pub fn parse(text: &str, is_known: &dyn Fn(&str) -> bool) -> Result<Self, String> {
         if text.len() > MAX_CHARACTERS {
             return Err(format!(
@@ -50,7 +50,10 @@ impl Expression {
             Self::Name(name) => return value(name),
             Self::Apply(function, arguments) => (*function, arguments),
         };
-        let arguments: Vec<f64> = arguments.iter().map(|it| it.evaluate(value)).collect();
+        let arguments: Vec<f64> = arguments
+            .iter()
+            .map(|argument| argument.evaluate(value))
+            .collect();
         match (function, &arguments[..]) {
             ("-", [a]) => -a,
             ("floor", [a]) => a.floor(),
@@ -76,7 +79,9 @@ impl Expression {
         match self {
             Self::Number(_) => false,
             Self::Name(name) => is_wanted(name),
-            Self::Apply(_, arguments) => arguments.iter().any(|it| it.reads_any(is_wanted)),
+            Self::Apply(_, arguments) => arguments
+                .iter()
+                .any(|argument| argument.reads_any(is_wanted)),
         }
     }
 }

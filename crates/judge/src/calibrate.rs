@@ -22,9 +22,9 @@ const LEAST_PART: f64 = 0.05;
 /// Factor above the strictest limit that the truth's noise allows, since that varies too.
 const ABOVE_STRICTEST: f64 = 1.2;
 
-/// Metrics that react to small changes of a kernel. Only the first has a default bound, which
-/// allows far more than a filter changes that leaves still pixels alone; the others have none,
-/// since a good filter's scores differ from scene to scene.
+/// Metrics that react to small changes of a kernel. Only the first has a default bound, and that is
+/// loose: a filter that leaves still pixels alone stays far below it. The others have none, since a
+/// good filter's scores differ from scene to scene.
 const SENSITIVE: [Metric; 4] = [
     Metric::StaticContamination,
     Metric::Probe(ProbeMetric::GatherSpread),
@@ -102,18 +102,18 @@ pub fn calibrate<'a>(
         for metric in Metric::all() {
             add(metric, case.scores.get(metric), &case.intervals);
         }
-        if let Some(own) = find_sequence(run, case) {
+        if let Some(sequence) = find_sequence(run, case) {
             for metric in SequenceMetric::ALL {
-                let measured = own.scores.get(metric).clone();
-                add(Metric::Sequence(metric), measured, &own.intervals);
+                let measured = sequence.scores.get(metric).clone();
+                add(Metric::Sequence(metric), measured, &sequence.intervals);
             }
         }
     }
     calibration
 }
 
-/// Lists the metrics to limit for a filter preset if none are named: the scene's bounded ones, and
-/// those that react to kernel changes which these let pass.
+/// Lists the metrics to limit for a filter preset if none are named: those that the scene bounds,
+/// and those that react to changes of a kernel which the bounds let pass.
 pub fn default_metrics(bounds: &SceneBounds, filter: &str, preset: &str) -> Vec<Metric> {
     let bounded = bounds.of(filter, preset).into_keys();
     let metrics: BTreeSet<Metric> = bounded.chain(SENSITIVE).collect();
@@ -225,7 +225,7 @@ impl Calibration {
     fn length(&self, metric: Metric) -> String {
         let Frames { count, per_second } = self.frames;
         match metric {
-            Metric::Sequence(own) if own.depends_on_rate() => {
+            Metric::Sequence(metric) if metric.depends_on_rate() => {
                 format!("frames = {count}, fps = {per_second:?}, ")
             }
             Metric::Sequence(_) => format!("frames = {count}, "),

@@ -115,7 +115,7 @@ impl Check {
     }
 }
 
-/// Says that one or several things are so; none for none.
+/// Words a count: `one` for 1, the number before `many` for more, none for 0.
 fn counted(count: usize, one: &str, many: &str) -> Option<String> {
     match count {
         0 => None,

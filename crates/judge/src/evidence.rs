@@ -16,9 +16,10 @@ use crate::worst::{Worst, worst_block, write_crop};
 /// `folder`, and writes a picture of each worst place into its case's folder.
 pub fn add_evidence(run: &Run, findings: &mut [Finding], folder: &Path) -> Result<(), Error> {
     let is_of_one = |a: &Finding, b: &Finding| a.scene == b.scene && a.filter == b.filter;
-    let cases = findings.chunk_by_mut(is_of_one).filter_map(|own| {
-        let is_notable = |it: &&mut Finding| it.outcome.is_notable() && !it.is_of_sequence();
-        let notable: Vec<&mut Finding> = own.iter_mut().filter(is_notable).collect();
+    let cases = findings.chunk_by_mut(is_of_one).filter_map(|group| {
+        let is_notable =
+            |finding: &&mut Finding| finding.outcome.is_notable() && !finding.is_of_sequence();
+        let notable: Vec<&mut Finding> = group.iter_mut().filter(is_notable).collect();
         let is_own = |case: &&Case| !case.is_reference && notable[0].is_of(case);
         let case = (!notable.is_empty()).then(|| run.cases.iter().find(is_own))?;
         Some((case.expect("a finding is about a case"), notable))
@@ -40,8 +41,8 @@ fn add_evidence_of_truth(
     let (frame, truth) = first.read_frame_and_truth(folder)?;
     let rung = |count| first.render_path(folder, RenderFile::Rung(truth.alignment, count));
     let file = rung(FEW_SUBFRAMES);
-    // An engine may have drawn too few sub-frames for it, or it is of an earlier truth: a check
-    // renders only the first rung.
+    // A check renders only the first rung: this one may be of an earlier truth, or missing because
+    // an engine drew too few sub-frames.
     let hash = |file: &Path| read_attribute(file, "content_hash");
     let few_subframes = if file.exists() && hash(&file) == hash(&rung(SHARP)) {
         Some(Ladder::read_rung(&file, FEW_SUBFRAMES)?)

@@ -46,8 +46,8 @@ pub struct Finding {
     /// Frames per second that the limit is for; none for a score that does not depend on them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fps: Option<f64>,
-    /// Frame of the sequence with the worst score, from 0; none for a score that single frames have
-    /// no share in.
+    /// Frame of the sequence with the worst score, from 0; none for a score to which single frames
+    /// contribute nothing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub worst_frame: Option<u32>,
     /// Reason for the limit.
@@ -69,8 +69,8 @@ pub struct Finding {
     pub pictures: PathBuf,
 }
 
-/// Estimates the samples per pixel that would settle the score, whose interval excludes the limit
-/// then. Assumes that its middle stays.
+/// Estimates the samples per pixel that would settle the score: its interval would exclude the
+/// limit. Assumes that the middle of the interval stays.
 fn samples_to_settle(
     samples_per_pixel: u32,
     metric: Metric,
@@ -119,12 +119,13 @@ impl Finding {
         };
         let sequence = sequence.filter(|_| outcome != Outcome::NotJudged);
         let intervals = match metric {
-            Metric::Sequence(_) => sequence.map(|own| &own.intervals),
+            Metric::Sequence(_) => sequence.map(|sequence| &sequence.intervals),
             _ => Some(&case.intervals),
         };
-        let interval = intervals.and_then(|own| own.get(&metric).copied());
-        let worst_frame = sequence.and_then(|own| own.worst_frames.get(&metric).copied());
-        let worst = (sequence.zip(worst_frame)).and_then(|(own, at)| own.frames.get(at as usize));
+        let interval = intervals.and_then(|intervals| intervals.get(&metric).copied());
+        let worst_frame = sequence.and_then(|sequence| sequence.worst_frames.get(&metric).copied());
+        let worst =
+            (sequence.zip(worst_frame)).and_then(|(sequence, at)| sequence.frames.get(at as usize));
         Self {
             outcome,
             level: bound.level,

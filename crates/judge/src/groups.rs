@@ -7,7 +7,7 @@ pub fn group_by<T, K: PartialEq>(
 ) -> Vec<Vec<T>> {
     let mut groups: Vec<Vec<T>> = Vec::new();
     for item in items {
-        match groups.iter_mut().find(|own| key(&own[0]) == key(&item)) {
+        match groups.iter_mut().find(|group| key(&group[0]) == key(&item)) {
             Some(group) => group.push(item),
             None => groups.push(vec![item]),
         }

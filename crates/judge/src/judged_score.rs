@@ -63,10 +63,10 @@ pub(crate) fn judge_sequence(
     bounds: &Bounds,
 ) -> Vec<JudgedScore> {
     // A run with intervals has some in every sequence.
-    let intervals = sequence.map(|own| &own.intervals);
+    let intervals = sequence.map(|sequence| &sequence.intervals);
     let intervals = intervals.filter(|intervals| !intervals.is_empty());
     let judged = bounds.iter().filter_map(|(metric, bound)| {
-        let Metric::Sequence(own) = *metric else {
+        let Metric::Sequence(sequence_metric) = *metric else {
             return None;
         };
         let length = bound.length.expect("a limit on a sequence has a length");
@@ -76,7 +76,7 @@ pub(crate) fn judge_sequence(
                 outcome: Outcome::NotJudged,
                 ..judge(Measured::not_applicable(not_judged(length.text(), frames)))
             },
-            Some(sequence) => judge(sequence.scores.get(own).clone()),
+            Some(sequence) => judge(sequence.scores.get(sequence_metric).clone()),
             None => judge(Measured::not_applicable(NO_SEQUENCE)),
         })
     });

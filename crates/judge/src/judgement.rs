@@ -84,8 +84,8 @@ impl Judgement {
         let judgement: Self = serde_json::from_str(&text)
             .map_err(|error| refuse(format!("is no judgement: {error}")))?;
         if judgement.format != JUDGEMENT_FORMAT {
-            let found = judgement.format;
-            let reason = format!("has format {found}; allowed: {JUDGEMENT_FORMAT}");
+            let format = judgement.format;
+            let reason = format!("has format {format}; allowed: {JUDGEMENT_FORMAT}");
             return Err(refuse(reason));
         }
         if judgement.run != hash_of_run(folder)? {

@@ -80,5 +80,5 @@ pub fn judge(run: &Run, bounds: &RunBounds) -> Vec<Finding> {
 
 /// Finds the sequence that starts with a case.
 pub(crate) fn find_sequence<'a>(run: &'a Run, case: &Case) -> Option<&'a Sequence> {
-    run.sequences.iter().find(|own| own.is_of(case))
+    run.sequences.iter().find(|sequence| sequence.is_of(case))
 }

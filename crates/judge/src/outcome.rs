@@ -74,7 +74,7 @@ pub fn judge_score(
     let limit = limit_as_badness(ideal, limit);
     let is_within_noise = limit < limit_as_badness(ideal, metric.strictest_bound(score.floor));
     let (best, worst) = match interval {
-        // Of a value alone, nobody knows what noise gave to it.
+        // Noise may have made any part of a value that has no interval.
         None | Some(None) if is_within_noise => return Outcome::TooNoisy,
         None => [ideal.badness(score.value); 2].into(),
         Some(Some(interval)) => ideal.badness_within(interval),
@@ -164,8 +164,8 @@ mod tests {
             (Ideal::Target(2.0), (0.5, 1.25)),
             (Ideal::Target(0.5), (0.25, 1.0)),
         ] {
-            let found = ideal.badness_within(&interval(0.75, 1.5));
-            assert_eq!(found, expected, "{ideal:?}");
+            let badness = ideal.badness_within(&interval(0.75, 1.5));
+            assert_eq!(badness, expected, "{ideal:?}");
         }
     }
 }

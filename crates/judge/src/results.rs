@@ -80,8 +80,8 @@ impl Results {
         for run in runs {
             refuse_failures(&run.failures)?;
             for case in &run.cases {
-                let own = Self::without_scores(run, case.scene.seal);
-                results.refuse_other(&own, &case.scene)?;
+                let header = Self::without_scores(run, case.scene.seal);
+                results.refuse_other(&header, &case.scene)?;
                 let is_plain = case.input == InputFormat::default() && case.rate.is_none();
                 if case.is_reference || !is_plain {
                     continue;
@@ -103,7 +103,7 @@ impl Results {
         Self {
             format: RESULTS_FORMAT,
             program: run.program.clone(),
-            adapter: run.adapter.as_ref().map(|own| own.name.clone()),
+            adapter: run.adapter.as_ref().map(|adapter| adapter.name.clone()),
             size: [run.render.width, run.render.height],
             samples_per_pixel: run.render.samples_per_pixel,
             common_alignment: run.common_alignment,
@@ -114,21 +114,27 @@ impl Results {
 
     /// Refuses scores on a scene that were measured with other settings.
     fn refuse_other(&self, other: &Self, scene: &SceneId) -> Result<(), Error> {
-        let settings = |own: &Self| {
+        let settings = |results: &Self| {
             let none = || "none".to_owned();
             [
-                ("pictures", format!("{}x{}", own.size[0], own.size[1])),
-                ("samples per pixel", own.samples_per_pixel.to_string()),
-                ("shutter in common", own.common_alignment.to_string()),
-                ("adapter", own.adapter.clone().unwrap_or_else(none)),
-                ("seal", own.seal.map_or_else(none, |seed| seed.to_string())),
+                (
+                    "pictures",
+                    format!("{}x{}", results.size[0], results.size[1]),
+                ),
+                ("samples per pixel", results.samples_per_pixel.to_string()),
+                ("shutter in common", results.common_alignment.to_string()),
+                ("adapter", results.adapter.clone().unwrap_or_else(none)),
+                (
+                    "seal",
+                    results.seal.map_or_else(none, |seed| seed.to_string()),
+                ),
             ]
         };
         let mut both = std::iter::zip(settings(other), settings(self));
-        match both.find(|(own, first)| own != first) {
+        match both.find(|(value, first)| value != first) {
             None => Ok(()),
-            Some(((what, own), (_, first))) => Err(Error::Usage(format!(
-                "{scene}: {what}: {own}, and the first run has {first}; allowed: runs that differ in their scenes and filters alone"
+            Some(((what, value), (_, first))) => Err(Error::Usage(format!(
+                "{scene}: {what}: {value}, and the first run has {first}; allowed: runs that differ in their scenes and filters alone"
             ))),
         }
     }
@@ -139,17 +145,17 @@ impl Results {
     /// The newer results have another size, adapter or seal, truths with other samples, or a FLIP*
     /// against another shutter.
     pub fn update(&mut self, newer: Self) -> Result<(), Error> {
-        let settings = |own: &Self| (own.file_name(), own.samples_per_pixel);
-        let [(own, samples), (other, others)] = [settings(self), settings(&newer)];
-        if (&own, samples) != (&other, others) {
+        let settings = |results: &Self| (results.file_name(), results.samples_per_pixel);
+        let [(file, samples), (other, others)] = [settings(self), settings(&newer)];
+        if (&file, samples) != (&other, others) {
             return Err(Error::Usage(format!(
-                "{other} with {others} samples per pixel cannot go into {own} with {samples}; measure with the same settings, or \
+                "{other} with {others} samples per pixel cannot go into {file} with {samples}; measure with the same settings, or \
                  all filters anew"
             )));
         }
         if self.common_alignment != newer.common_alignment {
             return Err(Error::Usage(format!(
-                "FLIP* of the run is against a {} shutter and that of {own} against a {} one; measure a filter of that shutter too, in \
+                "FLIP* of the run is against a {} shutter and that of {file} against a {} one; measure a filter of that shutter too, in \
                  an empty folder",
                 newer.common_alignment, self.common_alignment
             )));
@@ -157,12 +163,13 @@ impl Results {
         self.program = newer.program;
         self.adapter = newer.adapter;
         for score in newer.scores {
-            let is_same = |own: &ResultScores| own.scene == score.scene && own.name == score.name;
-            if let Some(own) = self.scores.iter_mut().find(|own| is_same(own)) {
-                *own = score;
+            let is_same =
+                |known: &ResultScores| known.scene == score.scene && known.name == score.name;
+            if let Some(known) = self.scores.iter_mut().find(|known| is_same(known)) {
+                *known = score;
                 continue;
             }
-            let last = (self.scores.iter()).rposition(|own| own.scene == score.scene);
+            let last = (self.scores.iter()).rposition(|known| known.scene == score.scene);
             let place = last.map_or(self.scores.len(), |last| last + 1);
             self.scores.insert(place, score);
         }
@@ -188,7 +195,10 @@ impl Results {
         let mut files = Vec::new();
         for entry in std::fs::read_dir(folder).map_err(refuse)? {
             let path = entry.map_err(refuse)?.path();
-            if path.extension().is_some_and(|own| own == "json") {
+            if path
+                .extension()
+                .is_some_and(|extension| extension == "json")
+            {
                 files.push(path);
             }
         }
@@ -213,7 +223,7 @@ impl Results {
 
     /// Lists the scenes in their order.
     pub fn scenes(&self) -> Vec<&SceneId> {
-        let scenes = group_by(&self.scores, |own| &own.scene).into_iter();
+        let scenes = group_by(&self.scores, |score| &score.scene).into_iter();
         scenes.map(|scores| &scores[0].scene).collect()
     }
 
@@ -221,13 +231,13 @@ impl Results {
     /// skill. A scene that no blur of one frame can mend has none. Without any skill, the scene of
     /// the worst FLIP; none if no FLIP is known.
     pub fn worst_of(&self, name: &str) -> Option<&ResultScores> {
-        let error = |own: &&ResultScores| {
-            let flip = own.score(Metric::FLIP)?;
-            let skill = own.score(Metric::SKILL);
+        let error = |score: &&ResultScores| {
+            let flip = score.score(Metric::FLIP)?;
+            let skill = score.score(Metric::SKILL);
             Some((skill.is_some(), skill.map_or(flip, |skill| -skill)))
         };
         (self.scores.iter())
-            .filter(|own| own.name == name && error(own).is_some())
+            .filter(|score| score.name == name && error(score).is_some())
             .max_by(|a, b| error(a).partial_cmp(&error(b)).expect("scores are numbers"))
     }
 
@@ -237,10 +247,10 @@ impl Results {
         let centred = Alignment::Centred;
         let has_centred = self.common_alignment == centred;
         let unblurred = (self.scores.iter())
-            .filter(|own| has_centred && own.filter == IDENTITY && own.alignment != centred)
-            .filter_map(|own| own.ranked(centred, Metric::CommonFlip));
+            .filter(|score| has_centred && score.filter == IDENTITY && score.alignment != centred)
+            .filter_map(|score| score.ranked(centred, Metric::CommonFlip));
         let scores: Vec<RankedScore> = (self.scores.iter())
-            .filter_map(|own| own.ranked(own.alignment, Metric::FLIP))
+            .filter_map(|score| score.ranked(score.alignment, Metric::FLIP))
             .chain(unblurred)
             .collect();
         rank_by_score(&scores, &[], false)

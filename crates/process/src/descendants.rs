@@ -55,13 +55,13 @@ impl Descendants {
 
 /// Lists the children of this process in /proc; empty if it cannot be read.
 fn list_children() -> BTreeSet<i32> {
-    let own = getpid().as_raw_nonzero().get();
+    let pid = getpid().as_raw_nonzero().get();
     let entries = std::fs::read_dir("/proc").into_iter().flatten().flatten();
     let children = entries.filter_map(|entry| {
         let id = entry.file_name().to_str()?.parse().ok()?;
         // A process may have ended since the folder was listed.
         let stat = std::fs::read(entry.path().join("stat")).ok()?;
-        (parse_parent(&stat)? == own).then_some(id)
+        (parse_parent(&stat)? == pid).then_some(id)
     });
     children.collect()
 }

@@ -26,7 +26,7 @@ pub enum End {
 const PAUSE: Duration = Duration::from_millis(20);
 
 /// Lock that lets one program run at a time: every process that appears below this one meanwhile
-/// belongs to it.
+/// belongs to that program.
 static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
 
 /// Whether [`stop`] has been called.

@@ -32,9 +32,10 @@ pub fn filter_section(table: &CaseTable, filter: &FilterId, thumbnails: &[String
         return html! {};
     };
     // A folder of the same name with other parameters is not the built-in filter.
-    let own = Filter::builtin(&first.filter).ok();
-    let own = own.filter(|own| {
-        own.parameters
+    let builtin = Filter::builtin(&first.filter).ok();
+    let builtin = builtin.filter(|builtin| {
+        builtin
+            .parameters
             .iter()
             .all(|parameter| first.parameters.contains_key(&parameter.name))
     });
@@ -45,16 +46,16 @@ pub fn filter_section(table: &CaseTable, filter: &FilterId, thumbnails: &[String
                     h2 tabindex="-1" { (filter.name) }
                     nav.neighbours { a href="#overview" data-key="o" { "Overview" } }
                 }
-                @if let Some(own) = &own { p.lead { (own.summary) } }
+                @if let Some(builtin) = &builtin { p.lead { (builtin.summary) } }
                 dl.facts {
-                    @if let Some(own) = &own { (about(own, first)) }
+                    @if let Some(builtin) = &builtin { (about(builtin, first)) }
                     div { dt { "shutter" } dd { (filter.alignment) } }
                     @if table.bench.is_some() { div { dt { "cost" } dd { (cost_text(cost_of(table, filter))) " ms" } } }
                     @if let Some(change) = first.input.change() { div { dt { "input" } dd { (change) } } }
                     @if let Some(command) = &first.command { div { dt { "command" } dd { code { (command.join(" ")) } } } }
                 }
                 (weakest(table, &cases, thumbnails))
-                (parameters(own.as_ref(), first))
+                (parameters(builtin.as_ref(), first))
             }
         }
     }
@@ -62,11 +63,14 @@ pub fn filter_section(table: &CaseTable, filter: &FilterId, thumbnails: &[String
 
 /// Describes a built-in filter and the preset of a case.
 fn about(filter: &Filter, case: &Case) -> Markup {
-    let preset = filter.presets.iter().find(|own| own.name == case.preset);
+    let preset = filter
+        .presets
+        .iter()
+        .find(|preset| preset.name == case.preset);
     html! {
         @if let Some(preset) = preset { div { dt { "preset" } dd { (preset.doc) } } }
         div { dt { "published" } dd { (filter.source) } }
-        @if let Some(source) = preset.and_then(|own| own.source.as_ref()) { (source_rows(source)) }
+        @if let Some(source) = preset.and_then(|preset| preset.source.as_ref()) { (source_rows(source)) }
         div { dt { "reach" } dd { (filter.reach) } }
         div { dt { "limits" } dd { (filter.cannot) } }
     }
@@ -115,7 +119,8 @@ fn weakest(table: &CaseTable, cases: &[&Case], thumbnails: &[String]) -> Markup 
 fn parameters(filter: Option<&Filter>, case: &Case) -> Markup {
     let doc = |name: &str| {
         let mut all = filter?.parameters.iter();
-        all.find(|own| own.name == name).map(|own| own.doc.as_str())
+        all.find(|parameter| parameter.name == name)
+            .map(|parameter| parameter.doc.as_str())
     };
     let rows = html! {
         @for (name, value) in &case.parameters {

@@ -57,7 +57,10 @@ impl Tally {
     /// Counts the findings of a level.
     pub fn of<'a>(findings: impl IntoIterator<Item = &'a &'a Finding>, level: Level) -> Self {
         let mut tally = Self::default();
-        for finding in findings.into_iter().filter(|own| own.level == level) {
+        for finding in findings
+            .into_iter()
+            .filter(|finding| finding.level == level)
+        {
             tally.all += 1;
             match finding.outcome {
                 Outcome::Kept => tally.met += 1,
@@ -105,7 +108,7 @@ pub fn finding_score(finding: &Finding) -> String {
     let mut text = finding.metric.name();
     text.extend(length_text(finding).map(|length| format!(" over {length}")));
     if let Some(value) = finding.value {
-        let estimate = finding.interval.map_or(value, |own| own.center);
+        let estimate = finding.interval.map_or(value, |interval| interval.center);
         text += &format!(" {}", limited(estimate));
     }
     if let Some(interval) = &finding.interval {

@@ -107,15 +107,15 @@ fn introduction(run: &Run, folder: &Path, out: &Path) -> String {
 fn section(shutters: &[Extremes]) -> String {
     let scene = &shutters[0].best.scene;
     let exposes = &shutters[0].best.exposes;
-    let text = |own: &Extremes| {
-        let [best, worst] = [own.best, own.worst].map(|case| {
+    let text = |extremes: &Extremes| {
+        let [best, worst] = [extremes.best, extremes.worst].map(|case| {
             format!(
                 "{} {}",
                 markdown_code(&case.name()),
                 case.score_text(Metric::FLIP)
             )
         });
-        format!("{}: {best}, {worst}", own.best.alignment)
+        format!("{}: {best}, {worst}", extremes.best.alignment)
     };
     let texts: Vec<String> = shutters.iter().map(text).collect();
     let [scene, exposes] = [scene.to_string(), exposes.clone()].map(|text| escape_markdown(&text));

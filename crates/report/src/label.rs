@@ -32,8 +32,8 @@ pub fn label(picture: &Image, text: &str) -> Image {
 /// Returns whether a dot of a bar belongs to a letter.
 fn is_ink(text: &str, x: u32, y: u32) -> bool {
     let sign = text.chars().nth((x / PITCH[0]) as usize);
-    let found = sign.and_then(|sign| SIGNS.chars().position(|own| own == sign));
-    let (Some(index), Some(row)) = (found, y.checked_sub(1)) else {
+    let index = sign.and_then(|sign| SIGNS.chars().position(|letter| letter == sign));
+    let (Some(index), Some(row)) = (index, y.checked_sub(1)) else {
         return false;
     };
     let column = (x % PITCH[0]) as usize;

@@ -143,7 +143,10 @@ impl<'a> Parts<'a> {
         let id = table.scenes[scene];
         let cases: Vec<&Case> = table.cases_on(id).map(|(_, case)| case).collect();
         let mut files = SceneFiles::read(table.run, &cases, folder)?;
-        let findings: Vec<&Finding> = findings.iter().filter(|own| own.scene == *id).collect();
+        let findings: Vec<&Finding> = findings
+            .iter()
+            .filter(|finding| finding.scene == *id)
+            .collect();
         let mut is_live = false;
         let mut texts: BTreeMap<String, [String; 2]> = BTreeMap::new();
         for (index, _) in table.cases_on(id) {

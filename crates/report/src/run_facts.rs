@@ -34,7 +34,7 @@ pub fn provenance(table: &CaseTable) -> Markup {
 /// Lists term and text of all that a run's scores depend on.
 pub fn facts(run: &Run) -> Vec<(&'static str, String)> {
     let adapter = match &run.adapter {
-        Some(own) => adapter_text(own),
+        Some(adapter) => adapter_text(adapter),
         None => "none: every filter is a program".to_owned(),
     };
     let render = &run.render;
@@ -71,7 +71,7 @@ pub fn facts(run: &Run) -> Vec<(&'static str, String)> {
 /// Formats the same in one line, for every case.
 pub fn provenance_line(run: &Run) -> String {
     let adapter = match &run.adapter {
-        Some(own) => format!("{}, driver {}", own.name, own.driver),
+        Some(adapter) => format!("{}, driver {}", adapter.name, adapter.driver),
         None => "no adapter".to_owned(),
     };
     format!(
@@ -124,7 +124,7 @@ fn truths(table: &CaseTable) -> Markup {
     let mut shown: HashSet<(&SceneId, Alignment)> = HashSet::new();
     let cases = table.scenes.iter().flat_map(|scene| table.cases_on(scene));
     html! {
-        @for (_, case) in cases.filter(|(_, own)| shown.insert((&own.scene, own.alignment))) {
+        @for (_, case) in cases.filter(|(_, case)| shown.insert((&case.scene, case.alignment))) {
             tr {
                 th scope="row" { (case.scene) }
                 td.text { (case.family.map_or("", |family| family.name())) }

@@ -15,7 +15,7 @@ use crate::trial::Trial;
 /// through ablation", Journal of Heuristics 22, 2016).
 ///
 /// A search moves a parameter without effect at random, and the trial nearest to the start still
-/// has some of that. The trials here depend on the choice alone and are not in the journal: a
+/// has some such moves. The trials here depend on the choice alone and are not in the journal: a
 /// search that goes on is not disturbed, and one that was interrupted repeats them.
 pub fn ablate_choice(
     options: &TuneOptions,

@@ -26,8 +26,11 @@ impl Tuning {
         if self.choice.trial == 0 {
             return Advice::NoneIsBetter;
         }
-        if let Some(own) = self.compare_with_start().filter(|own| !is_better(own)) {
-            return Advice::CannotTell(own);
+        if let Some(difference) = self
+            .compare_with_start()
+            .filter(|difference| !is_better(difference))
+        {
+            return Advice::CannotTell(difference);
         }
         let held_out = self.held_out.last().map(|result| &result.paired.flip);
         match held_out.filter(|flip| flip.verdict == Preference::First) {

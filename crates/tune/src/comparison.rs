@@ -63,12 +63,12 @@ impl Difference {
 
     /// Averages at least one paired difference.
     pub fn new(differences: &[f64]) -> Self {
-        let found = plain_mean(differences, ONE_SIDED);
+        let average = plain_mean(differences, ONE_SIDED);
         Self {
-            mean: found.mean,
-            interval: found.interval,
-            scenes: found.scenes,
-            verdict: match found.side_of_zero() {
+            mean: average.mean,
+            interval: average.interval,
+            scenes: average.scenes,
+            verdict: match average.side_of_zero() {
                 Some(Ordering::Greater) => Preference::First,
                 Some(Ordering::Less) => Preference::Second,
                 _ => Preference::Undecided,

@@ -99,13 +99,13 @@ impl<'a> Evaluator<'a> {
             let named = (measured.into_iter()).map(|(scene, score)| (name(scene).clone(), score));
             scores.extend(named);
         }
-        let found = scenes.iter().map(|scene| {
+        let selected = scenes.iter().map(|scene| {
             let name = name(*scene);
             Some((name.clone(), *scores.get(name)?))
         });
-        let found: Option<SceneScores> = found.collect();
+        let selected: Option<SceneScores> = selected.collect();
         self.memory.insert(key, scores);
-        found.ok_or(TraceError::Cancelled.into())
+        selected.ok_or(TraceError::Cancelled.into())
     }
 
     /// Blurs the scenes in turn while earlier pictures are being scored.
@@ -116,7 +116,7 @@ impl<'a> Evaluator<'a> {
         on_score: &mut impl FnMut(usize, &SceneScore) -> bool,
     ) -> Result<Vec<(usize, SceneScore)>, Error> {
         let (sender, receiver) = mpsc::channel();
-        let mut found = Vec::new();
+        let mut measured = Vec::new();
         // All scenes are rendered at one size.
         let size = self.targets[scenes[0]].scene.frame.size();
         let kernels = self.kernels.as_ref();
@@ -134,7 +134,7 @@ impl<'a> Evaluator<'a> {
                 });
                 let ready: Vec<_> = receiver.try_iter().collect();
                 let goes_on = ready.iter().all(|(scene, score)| on_score(*scene, score));
-                found.extend(ready);
+                measured.extend(ready);
                 if !goes_on {
                     break;
                 }
@@ -144,9 +144,9 @@ impl<'a> Evaluator<'a> {
         drop(sender);
         for (scene, score) in receiver {
             on_score(scene, &score);
-            found.push((scene, score));
+            measured.push((scene, score));
         }
-        Ok(found)
+        Ok(measured)
     }
 
     /// Times all passes of a candidate and of the start alternately on one scene, by its index, and
@@ -169,11 +169,11 @@ impl<'a> Evaluator<'a> {
         let (start, candidate) = (start.load(&input)?, candidate.load(&input)?);
         let mut ratios = Vec::new();
         for round in 0..=ROUNDS {
-            let [before, own] = [&start, &candidate].map(|it| {
-                let passes = it.time()?;
+            let [before, after] = [&start, &candidate].map(|loaded| {
+                let passes = loaded.time()?;
                 Ok::<f64, FilterError>(passes.iter().map(|pass| pass.seconds).sum())
             });
-            let ratio = own? / before?;
+            let ratio = after? / before?;
             ratios.extend((round > 0).then_some(ratio));
         }
         ratios.sort_by(f64::total_cmp);
@@ -227,7 +227,10 @@ fn memory_key(settings: &Settings) -> String {
 
 /// Refuses a picture that cannot be scored.
 fn check_finite(scene: &str, color: &Image, mattes: Option<&[Plane]>) -> Result<(), Error> {
-    let mattes = mattes.unwrap_or_default().iter().flat_map(|it| &it.pixels);
+    let mattes = mattes
+        .unwrap_or_default()
+        .iter()
+        .flat_map(|matte| &matte.pixels);
     let mut values = color.pixels.as_flattened().iter().chain(mattes);
     if values.all(|value| value.is_finite()) {
         Ok(())

@@ -53,9 +53,9 @@ pub fn record_held_out_result(
     paired: PairedComparison,
 ) -> Result<Vec<HeldOutResult>, Error> {
     let mut all = read_held_out_results(path)?;
-    let known = all
-        .iter()
-        .any(|it| it.values == *values && it.render == render && it.paired.scenes == paired.scenes);
+    let known = all.iter().any(|result| {
+        result.values == *values && result.render == render && result.paired.scenes == paired.scenes
+    });
     if !known {
         all.push(HeldOutResult {
             number: all.len() + 1,

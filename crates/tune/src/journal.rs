@@ -139,30 +139,33 @@ pub fn journal_error(path: &Path, index: usize, reason: &str) -> Error {
 /// Refuses a header that differs from the expected one; names the first differing setting, and how
 /// to continue the journal.
 fn check_header(path: &Path, line: &str, expected: &JournalHeader) -> Result<(), Error> {
-    let found: Value = serde_json::from_str(line)
+    let header: Value = serde_json::from_str(line)
         .map_err(|error| journal_error(path, 0, &format!("is no journal of a tuning: {error}")))?;
     let expected = serde_json::to_value(expected).expect("a header is plain data");
     let fields = expected.as_object().expect("a header is a table");
     let mut names: Vec<&String> = fields.keys().collect();
     // The search's first points follow from all other settings.
     names.sort_by_key(|name| *name == "design");
-    let Some(name) = names.into_iter().find(|name| found[*name] != fields[*name]) else {
+    let Some(name) = names
+        .into_iter()
+        .find(|name| header[*name] != fields[*name])
+    else {
         return Ok(());
     };
-    let (found, expected) = first_difference(&found[name], &fields[name]);
+    let (value, expected) = first_difference(&header[name], &fields[name]);
     let way_out = match name.as_str() {
-        "seed" => format!("; to go on with it, search with the seed {found}"),
+        "seed" => format!("; to go on with it, search with the seed {value}"),
         _ => "; to go on with it, run the command that began it".to_owned(),
     };
     let reason = format!(
-        "it was begun with another {name}: found {found}, this command has {expected}{way_out}"
+        "it was begun with another {name}: found {value}, this command has {expected}{way_out}"
     );
     Err(journal_error(path, 0, &reason))
 }
 
 /// Finds the first differing part of two values, as short texts.
-fn first_difference(found: &Value, expected: &Value) -> (String, String) {
-    let inner = match (found, expected) {
+fn first_difference(value: &Value, expected: &Value) -> (String, String) {
+    let inner = match (value, expected) {
         (Value::Array(one), Value::Array(other)) if one.len() == other.len() => {
             let mut pairs = one.iter().zip(other);
             let differs = pairs.find(|(one, other)| one != other);
@@ -178,7 +181,7 @@ fn first_difference(found: &Value, expected: &Value) -> (String, String) {
         }
         _ => None,
     };
-    inner.unwrap_or_else(|| (short_text(found), short_text(expected)))
+    inner.unwrap_or_else(|| (short_text(value), short_text(expected)))
 }
 
 /// Formats a value, shortened to fit a line.
@@ -198,7 +201,7 @@ mod tests {
 
     #[test]
     fn the_first_difference_is_short_and_names_its_place() {
-        let texts = |found, expected| first_difference(&found, &expected);
+        let texts = |value, expected| first_difference(&value, &expected);
         let pair = |one: &str, other: &str| (one.to_owned(), other.to_owned());
         assert_eq!(texts(json!(1), json!(2)), pair("1", "2"));
         assert_eq!(
@@ -212,7 +215,7 @@ mod tests {
             texts(json!({"a": 1, "taps": 2}), json!({"a": 1, "taps": 3})),
             pair("taps 2", "taps 3")
         );
-        let (found, _) = texts(json!(vec![1; 5000]), json!([]));
-        assert!(found.ends_with("...") && found.len() < 100, "{found}");
+        let (text, _) = texts(json!(vec![1; 5000]), json!([]));
+        assert!(text.ends_with("...") && text.len() < 100, "{text}");
     }
 }

@@ -18,7 +18,7 @@ use crate::wilcoxon::signed_rank_p_value;
 const RACE_FROM: usize = 6;
 /// Scenes between later checks, the number processed at once.
 const RACE_STEP: usize = 2;
-/// A candidate is dropped if chance alone would make it look this bad less often than this.
+/// Probability that chance alone makes a candidate look so bad; below it, the candidate is dropped.
 const RACE_LEVEL: f64 = 0.1;
 
 /// Asks the search for the next candidate and runs it.

@@ -76,7 +76,9 @@ impl Search {
             }
             None => {
                 let mut asked = asked.borrow_mut();
-                asked.get_or_insert_with(|| point.iter().map(|it| mirror(*it)).collect());
+                asked.get_or_insert_with(|| {
+                    point.iter().map(|coordinate| mirror(*coordinate)).collect()
+                });
                 // Never used: this run ends before it could continue with it.
                 0.0
             }

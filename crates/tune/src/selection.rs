@@ -80,8 +80,8 @@ impl Loss {
     /// Returns true if the scenes do not tell the trial from the best: its loss is within one
     /// standard error of 0.
     ///
-    /// No trial that is worse on all of several scenes is: numbers above 0 have a mean above its
-    /// standard error. Among equals, a loss is beyond one standard error about as often on few
+    /// A trial that is worse on all of several scenes never is: the mean of numbers above 0 exceeds
+    /// its standard error. Among equals, a loss is beyond one standard error about as often on few
     /// scenes as on many (25 % of the time on two, 18 % on six, 16 % on hundreds, by Student's t).
     /// A test at 5 % would let pass whatever few scenes cannot exclude: on two scenes, losses of up
     /// to six standard errors.
@@ -89,9 +89,9 @@ impl Loss {
         self.mean <= self.standard_error
     }
 
-    /// Returns true if a trial can replace the best: the scenes do not tell them apart, and it
-    /// gives away at most [`LARGEST_LOSS`] even so, since few or unlike scenes have a large
-    /// standard error.
+    /// Returns true if a trial can replace the best: the scenes do not tell them apart, and its
+    /// loss is at most [`LARGEST_LOSS`]. The second condition is for few or unlike scenes, whose
+    /// standard error is large.
     pub fn is_acceptable(&self) -> bool {
         self.is_within_noise() && self.mean <= LARGEST_LOSS
     }
@@ -105,8 +105,8 @@ impl Loss {
 /// (Breiman, Friedman, Olshen and Stone, "Classification and Regression Trees", 1984, section
 /// 3.4.3) with the standard error of the difference to the best (Yates, Aandahl, Richards and
 /// Brook, "Cross validation for model selection", Ecological Monographs 93, 2023). The standard
-/// error of the best one's own mean would include how much scenes differ in what there is to gain,
-/// which all candidates share.
+/// error of the best trial's mean would be larger: on some scenes there is more to gain than on
+/// others, for all candidates alike.
 pub fn choose_trial(
     trials: &[Trial],
     space: &Space,

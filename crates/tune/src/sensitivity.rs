@@ -103,12 +103,12 @@ pub fn analyze_sensitivity(
     for (index, (axis, indices)) in space.axes.iter().zip(indices).enumerate() {
         let points = slice_points(space, index).into_iter();
         let slice = points.map(|(value, point)| Ok((value, error(&point)?)));
-        let found = ParameterSensitivity {
+        let parameter = ParameterSensitivity {
             indices,
             constant: indices.total.high < CONSTANT_TOTAL,
             slice: slice.collect::<Result<_, Error>>()?,
         };
-        parameters.insert(axis.name.clone(), found);
+        parameters.insert(axis.name.clone(), parameter);
     }
     Ok(Sensitivity {
         candidates,

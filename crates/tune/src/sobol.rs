@@ -97,7 +97,7 @@ impl<'a> Sample<'a> {
         let values = || rows.iter().flat_map(|row| [row.a, row.b]);
         let count = 2.0 * rows.len() as f64;
         let mean = values().sum::<f64>() / count;
-        let variance = values().map(|it| (it - mean).powi(2)).sum::<f64>() / count;
+        let variance = values().map(|value| (value - mean).powi(2)).sum::<f64>() / count;
         Self { rows, variance }
     }
 

@@ -17,9 +17,15 @@ impl Space {
     /// Makes an axis from each parameter that `vary` names, as `name` or `name=low..high`; from
     /// every tunable one if it names none.
     pub fn new(filter: &Filter, start: Settings, vary: &[String]) -> Result<Self, Error> {
-        let tunable = filter.parameters.iter().filter(|it| it.tunable);
+        let tunable = filter
+            .parameters
+            .iter()
+            .filter(|parameter| parameter.tunable);
         let tunable: Vec<&Parameter> = tunable.collect();
-        let names: Vec<&str> = tunable.iter().map(|it| it.name.as_str()).collect();
+        let names: Vec<&str> = tunable
+            .iter()
+            .map(|parameter| parameter.name.as_str())
+            .collect();
         if names.is_empty() {
             return Err(Error::Usage(format!(
                 "filter {} has no tunable parameter: there is nothing to tune",
@@ -33,7 +39,11 @@ impl Space {
                 Some((name, range)) => (name, Some(range)),
                 None => (word.as_str(), None),
             };
-            let Some(parameter) = filter.parameters.iter().find(|it| it.name == name) else {
+            let Some(parameter) = filter
+                .parameters
+                .iter()
+                .find(|parameter| parameter.name == name)
+            else {
                 return Err(refuse(format!(
                     "filter {} has no parameter \"{name}\"; allowed: {}",
                     filter.name,

@@ -99,7 +99,8 @@ impl<'a> Target<'a> {
         let moving = &self.reference.regions.moving.pixels;
         let inside = errors.pixels.iter().zip(moving);
         let inside = inside.filter_map(|(error, moves)| moves.then_some(f64::from(*error)));
-        let (sum, count) = inside.fold((0.0, 0.0), |(sum, count), it| (sum + it, count + 1.0));
+        let (sum, count) =
+            inside.fold((0.0, 0.0), |(sum, count), error| (sum + error, count + 1.0));
         SceneScore {
             flip: sum / count,
             bleed: mattes.and_then(|mattes| self.reference.measure_bleed_lateral(mattes)),
@@ -119,6 +120,6 @@ impl<'a> Target<'a> {
             let limit = bound.limit.max(start?);
             Some((value? / limit - 1.0).max(0.0))
         });
-        excess.filter(|it| it.is_finite()).sum()
+        excess.filter(|value| value.is_finite()).sum()
     }
 }

@@ -180,10 +180,11 @@ fn conclude(
             }
         })
         .collect();
-    let measured = |it: &&Trial| [it.error, it.bleed.map(round_bleed), it.cost].into_iter();
+    let measured =
+        |trial: &&Trial| [trial.error, trial.bleed.map(round_bleed), trial.cost].into_iter();
     let rows: Vec<Vec<f64>> = done
         .iter()
-        .map(|it| measured(it).flatten().collect())
+        .map(|trial| measured(trial).flatten().collect())
         .collect();
     let mut front: Vec<Trial> = (pareto_front(&rows).into_iter())
         .map(|index| done[index].clone())

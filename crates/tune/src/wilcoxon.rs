@@ -10,7 +10,7 @@ pub fn signed_rank_p_value(differences: &[f64]) -> f64 {
     let mut sizes: Vec<f64> = differences
         .iter()
         .copied()
-        .filter(|it| *it != 0.0)
+        .filter(|difference| *difference != 0.0)
         .collect();
     sizes.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
     let mut doubled_ranks = Vec::new();

@@ -107,11 +107,11 @@ def touched(x, y, motion, columns, rows):
 
 
 def look_up(tiles, table, tile):
-    found = []
+    motions = []
     for step, half in enumerate((slice(0, 2), slice(2, 4))):
         entry = table[step, tile[..., 1], tile[..., 0]]
-        found.append(tiles[entry & 0x1FF, entry >> 9 & 0x1FF, half])
-    return np.concatenate(found, -1)
+        motions.append(tiles[entry & 0x1FF, entry >> 9 & 0x1FF, half])
+    return np.concatenate(motions, -1)
 
 
 def gather(color, depth, motion, near, noise, samples, read, depth_scale):
@@ -122,11 +122,11 @@ def gather(color, depth, motion, near, noise, samples, read, depth_scale):
     total = np.zeros((height, width, 3), F)
     total[..., 2] = 1
     for half in (slice(0, 2), slice(2, 4)):
-        own, longest = motion(uv)[..., half], near[..., half]
-        own_length = length(own)
-        longest = np.where((length(longest) < own_length)[..., None], own, longest)
+        pixel_motion, longest = motion(uv)[..., half], near[..., half]
+        own_length = length(pixel_motion)
+        longest = np.where((length(longest) < own_length)[..., None], pixel_motion, longest)
         moves = length(longest) >= 0.5
-        for line, runs in ((longest, moves), (own, moves & (own_length >= 0.5))):
+        for line, runs in ((longest, moves), (pixel_motion, moves & (own_length >= 0.5))):
             t = noise / F(samples)
             for _ in range(samples):
                 offset = line * t[..., None]

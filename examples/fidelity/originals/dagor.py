@@ -156,9 +156,9 @@ def sample_counts(longest):
     """As many as the pixel of its group of threads needs that needs most."""
     height, width = longest.shape
     desired = longest / MAX_VEL_PX * MAX_SAMPLES
-    own = np.clip(np.ceil(desired / 4) * 4, 4, MAX_SAMPLES)
+    counts = np.clip(np.ceil(desired / 4) * 4, 4, MAX_SAMPLES)
     # Threads off the picture ask for tiles inside, as those at its border do; their noise is their own.
-    groups = own.reshape(height // 16, 16, width // 16, 16).max((1, 3))
+    groups = counts.reshape(height // 16, 16, width // 16, 16).max((1, 3))
     return np.repeat(np.repeat(groups, 16, 0), 16, 1)
 
 

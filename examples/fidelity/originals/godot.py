@@ -69,11 +69,11 @@ def neighbor_max(tiles, can_reach):
     longest = np.zeros_like(tiles)
     for i in (-1, 0, 1):
         for j in (-1, 0, 1):
-            found = edge[1 + j : 1 + j + rows, 1 + i : 1 + i + columns]
-            counts = dot(found, found) > dot(longest, longest)
+            neighbor = edge[1 + j : 1 + j + rows, 1 + i : 1 + i + columns]
+            counts = dot(neighbor, neighbor) > dot(longest, longest)
             if i != 0 and j != 0:
-                counts &= can_reach(found, i, j)
-            longest = np.where(counts[..., None], found, longest)
+                counts &= can_reach(neighbor, i, j)
+            longest = np.where(counts[..., None], neighbor, longest)
     return longest
 
 

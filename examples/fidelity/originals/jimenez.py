@@ -383,11 +383,11 @@ def wicked(color, velocity, depth, exposure, frame_index, parameters):
 
     walk = F(5.588238) * F(frame_index % 64)
     random = gradient_noise(x.astype(F) + walk, y.astype(F) + walk)
-    own = vec * strength
-    own_len = length(own)
+    motion = vec * strength
+    own_len = length(motion)
     steps = F(parameters.get("screen_extent", 7.5))
     pixel = steps / F(7.5) / size
-    direction = np.where((sort == 1)[..., None], own, near) * random[..., None] * pixel
+    direction = np.where((sort == 1)[..., None], motion, near) * random[..., None] * pixel
     uv = np.stack([x + F(0.5), y + F(0.5)], -1).astype(F) / size
     low, high = F(0.5) / size, (size - F(0.5)) / size
     at = uv - F(7.5) * direction

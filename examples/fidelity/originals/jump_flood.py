@@ -185,8 +185,8 @@ def dilate(demo, frame, exposure, step_multiplier):
             frames, valid = fitness(demo, exposure, offset, back)
             # Without the impossible case, the shader's comparison reduces to this.
             better = inside & valid & (~best["valid"] | (distance < best["distance"]))
-            found = {"place": place, "back": back, "distance": distance, "frames": frames, "valid": valid}
-            for name, values in found.items():
+            candidate = {"place": place, "back": back, "distance": distance, "frames": frames, "valid": valid}
+            for name, values in candidate.items():
                 mask = better[..., None] if values.ndim == 3 else better
                 best[name] = np.where(mask, values, best[name])
         stored = halved(best["place"]) if demo.half_map else best["place"]
@@ -268,8 +268,8 @@ def gather(demo, frame, exposure, sources, frame_index, step_multiplier):
         step = step * (np.float32(1) + (dither - np.float32(0.5)))[..., None]
     step = np.where(moves[..., None], step, 0)
 
-    own = frame.color.at(frame.uv)
-    total, weights = own.copy(), np.ones(moves.shape, np.float32)
+    center = frame.color.at(frame.uv)
+    total, weights = center.copy(), np.ones(moves.shape, np.float32)
     # The comparisons of the shader: device depth for the pixel, metres for the taps.
     depth = np.maximum(SMALLEST, frame.depth(sources))
     own_depth = np.maximum(SMALLEST, frame.depth(frame.uv))
@@ -299,7 +299,7 @@ def gather(demo, frame, exposure, sources, frame_index, step_multiplier):
             place = at * (np.float32(1) - share) + frame.uv * share
         total = total + frame.color.at(place) * weight[..., None]
         weights = weights + weight
-    return np.where(moves[..., None], total / weights[..., None], own)
+    return np.where(moves[..., None], total / weights[..., None], center)
 
 
 def blur(demo, color, velocity, depth, exposure, frame_index, step_multiplier):

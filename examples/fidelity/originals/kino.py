@@ -76,8 +76,8 @@ def neighbors(tiles):
     rows, columns = tiles.shape[:2]
     at = lambda x, y: edge[1 + y : 1 + y + rows, 1 + x : 1 + x + columns]
     line = lambda y, middle: longer(at(-1, y), longer(middle, at(1, y)))
-    own = at(0, 0) * F(1.01)
-    return longer(line(-1, at(0, -1)), longer(line(0, own), line(1, at(0, 1)))) / F(1.01)
+    center = at(0, 0) * F(1.01)
+    return longer(line(-1, at(0, -1)), longer(line(0, center), line(1, at(0, 1)))) / F(1.01)
 
 
 def gradient_noise(x, y):

@@ -87,8 +87,8 @@ def demo(color, velocity, depth, exposure, stored):
     still = length(longest) <= 0.5
     hashed = np.sin((uv * np.array([12.9898, 78.233], F)).sum(-1, dtype=F) * F(43758.5453), dtype=F)
     jitter = (hashed - np.floor(hashed)) * 2 - 1
-    own = length(linear(motion, uv)) + F(1e-8)
-    weight = 1 / np.maximum(own, F(0.5))
+    speed = length(linear(motion, uv)) + F(1e-8)
+    weight = 1 / np.maximum(speed, F(0.5))
     total = color * weight[..., None]
 
     front = lambda a, b: saturate(1 - (a - b) / np.minimum(a, b))
@@ -107,8 +107,8 @@ def demo(color, velocity, depth, exposure, stored):
         tap_z = linear(z[..., None], at, repeats=True)[..., 0]
         tap = length(linear(motion, at))
         distance = length(offset)
-        a = front(z, tap_z) * cone(distance, tap) + front(tap_z, z) * cone(distance, own)
-        a = a + cylinder(distance, tap) * cylinder(distance, own) * 2
+        a = front(z, tap_z) * cone(distance, tap) + front(tap_z, z) * cone(distance, speed)
+        a = a + cylinder(distance, tap) * cylinder(distance, speed) * 2
         weight = weight + a
         total = total + a[..., None] * tap_color
     return np.where(still[..., None], color, total / weight[..., None])

@@ -60,14 +60,14 @@ impl FrameRateArgs {
         };
         let mut all = Vec::new();
         for name in names {
-            let own = name.trim_end_matches(['/', '\\']);
-            if split_scene(own).1.rate.is_some() {
+            let scene = name.trim_end_matches(['/', '\\']);
+            if split_scene(scene).1.rate.is_some() {
                 refuse!(
                     "--frame-rate: {name} has a frame rate of its own; allowed: scenes and variants without one"
                 );
             }
             all.push(name.clone());
-            all.extend((rates.iter()).map(|rate| format!("{own}@{}", rate.word())));
+            all.extend((rates.iter()).map(|rate| format!("{scene}@{}", rate.word())));
         }
         Ok(all)
     }

@@ -60,8 +60,8 @@ fn find_named<'a, T>(
     name: &str,
     what: &str,
 ) -> Result<&'a T, String> {
-    (all.iter().find(|own| name_of(own) == name)).ok_or_else(|| {
-        let known: Vec<String> = all.iter().map(|own| name_of(own).to_owned()).collect();
+    (all.iter().find(|form| name_of(form) == name)).ok_or_else(|| {
+        let known: Vec<String> = all.iter().map(|form| name_of(form).to_owned()).collect();
         format!("no {what}; {}", suggest_names(name, &known))
     })
 }

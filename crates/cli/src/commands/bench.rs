@@ -59,7 +59,10 @@ const SECONDS_PER_PIXEL: f64 = 1.4e-6;
 pub fn execute(args: &BenchArgs) -> Result<(), Error> {
     // Programs are refused below, for another reason.
     let filters = select_filters(&args.filters, None, &[], Programs::Allowed)?;
-    if let Some(choice) = filters.iter().find(|it| it.filter.command.is_some()) {
+    if let Some(choice) = filters
+        .iter()
+        .find(|choice| choice.filter.command.is_some())
+    {
         refuse!(
             "filter {} is a program, which has no passes to time; leave it out of --filter",
             choice.filter.name

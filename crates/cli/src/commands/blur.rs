@@ -86,7 +86,7 @@ pub fn execute(args: &BlurArgs) -> Result<(), Error> {
     // The first frame has no previous one; it serves as its own.
     let mut before = first;
     for frame in 0..args.frames {
-        let own = match frame {
+        let current = match frame {
             0 => None,
             _ => Some(Buffers::read(
                 frame_file(args, frame),
@@ -94,7 +94,7 @@ pub fn execute(args: &BlurArgs) -> Result<(), Error> {
                 &convention,
             )?),
         };
-        let now = own.as_ref().unwrap_or(&before);
+        let now = current.as_ref().unwrap_or(&before);
         check_same_size(now, &first_path, size)?;
         let index = args.frame_index + frame;
         let colors = [[&now.color], [&before.color]];
@@ -118,7 +118,7 @@ pub fn execute(args: &BlurArgs) -> Result<(), Error> {
         for name in &args.show {
             show_texture(&runner, &choice.filter, name, &path)?;
         }
-        before = own.unwrap_or(before);
+        before = current.unwrap_or(before);
     }
     Ok(())
 }

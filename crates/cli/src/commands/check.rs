@@ -134,7 +134,8 @@ pub fn execute(args: &CheckArgs) -> Result<Ending, Error> {
     }
     match checked.verdict() {
         Ok(()) => Ok(Ending::Done),
-        // With JSON, only the exit code and standard error report it.
+        // JSON goes to standard output, so the exit code and standard error alone report the
+        // verdict.
         Err(error) if args.json => Err(error),
         Err(error) => Ok(Ending::Failed(error)),
     }
@@ -219,8 +220,8 @@ fn run_and_judge(args: &CheckArgs, judging: &Judging) -> Result<Judged, Error> {
 fn judge_finished(args: &CheckArgs, path: &Path, judging: &Judging) -> Result<Judged, Error> {
     let side = StoredRun::read(path)?;
     let folder = match side.folder() {
-        own if own.as_os_str().is_empty() => PathBuf::from("."),
-        own => own.to_owned(),
+        folder if folder.as_os_str().is_empty() => PathBuf::from("."),
+        folder => folder.to_owned(),
     };
     let run = side.run;
     refuse_tracked(&folder, "measure it now: shuttertruth check, without a RUN")?;

@@ -14,9 +14,11 @@ use crate::selection::choose_names;
 pub fn copy_scenes(names: &[String], out: &Path) -> Result<(), Error> {
     let names: &[String] = if names == ["scenes"] { &[] } else { names };
     let listings = list_scenes(Location::of_bundle(&catalogue::SCENES))?;
-    let known: Vec<String> = listings.into_iter().map(|own| own.name).collect();
+    let known: Vec<String> = listings.into_iter().map(|listing| listing.name).collect();
     let scenes = choose_names("--copy-to", names, &known)?;
-    if let Some(folder) = (scenes.iter().map(|own| out.join(own))).find(|own| own.exists()) {
+    if let Some(folder) =
+        (scenes.iter().map(|scene| out.join(scene))).find(|folder| folder.exists())
+    {
         refuse!(
             "--copy-to: {} exists; allowed: new scenes; name other scenes or another folder",
             folder.display()
@@ -34,7 +36,7 @@ pub fn copy_scenes(names: &[String], out: &Path) -> Result<(), Error> {
     for path in (catalogue::SCENES.list)() {
         let unpack = || (catalogue::SCENES.unpack)(path).expect("the bundle lists its files");
         match path.split_once('/') {
-            Some((scene, _)) if scenes.iter().any(|own| own == scene) => {
+            Some((scene, _)) if scenes.iter().any(|chosen| chosen == scene) => {
                 write_atomically(&whole.path().join(path), &unpack())?;
             }
             Some(_) => {}

@@ -26,8 +26,8 @@ pub fn execute(args: &EvaluateArgs) -> Result<(), Error> {
     let candidate = &args.candidate;
     let choice = candidate.select()?;
     let settings = read_params(&args.params, &choice)?;
-    let [bleed, cost] =
-        [Objective::Bleed, Objective::Cost].map(|own| candidate.objective.contains(&own));
+    let [bleed, cost] = [Objective::Bleed, Objective::Cost]
+        .map(|objective| candidate.objective.contains(&objective));
     let scores = candidate.score(&choice, bleed, None, |evaluator| {
         let all: Vec<usize> = (0..evaluator.targets.len()).collect();
         evaluate_candidate(evaluator, &settings, &all, cost, |_, _| true)
@@ -53,8 +53,12 @@ fn change_settings(
     let mut settings = choice.settings.clone();
     for (name, value) in values {
         // JSON may write 2.0 as 2.
-        let kind = choice.filter.parameters.iter().find(|it| it.name == name);
-        let value = match (kind.map(|it| &it.kind), value) {
+        let kind = choice
+            .filter
+            .parameters
+            .iter()
+            .find(|parameter| parameter.name == name);
+        let value = match (kind.map(|parameter| &parameter.kind), value) {
             (Some(filters::Kind::Real { .. }), Value::Integer(whole)) => {
                 Value::Real(f64::from(whole))
             }

@@ -74,15 +74,15 @@ fn choose_folder(args: &IngestArgs) -> Result<PathBuf, Error> {
 /// Loads the scene that the capture names; none if it names none, or there is no such scene.
 fn find_scene(capture: &Capture, scenes: &Location) -> Option<Scene> {
     let name = capture.description.scene.as_ref()?.to_string();
-    let found = load_drawn_scene(scenes, &name).ok();
-    if found.is_none() {
+    let scene = load_drawn_scene(scenes, &name).ok();
+    if scene.is_none() {
         print_note(&format!(
             "{} has no scene {name}, whose display exposure the pictures would have; name the folder of scenes with \
              --scenes-dir",
             scenes
         ));
     }
-    found
+    scene
 }
 
 /// Describes the truth, the picture, and what is wrong with them.

@@ -6,7 +6,8 @@ use suite::Error;
 
 use crate::output::print_note;
 
-/// Refuses what is no folder before anything is rendered, and says whom the run believes.
+/// Refuses a path that is no folder, before anything is rendered. Prints that the truths there
+/// decide the verdict.
 pub fn check_truths(truths: &Path) -> Result<(), Error> {
     if !truths.is_dir() {
         refuse!(

@@ -124,7 +124,10 @@ fn find_named(args: &ListArgs) -> Result<(Vec<SceneListing>, Vec<Filter>), Error
         }
         _ => Vec::new(),
     };
-    let scene_names: Vec<String> = known_scenes.iter().map(|it| it.name.clone()).collect();
+    let scene_names: Vec<String> = known_scenes
+        .iter()
+        .map(|listing| listing.name.clone())
+        .collect();
     let known = [&scene_names[..], &builtin].concat();
     let (mut scenes, mut filters) = (Vec::new(), Vec::new());
     for what in &asked {
@@ -141,7 +144,9 @@ fn find_named(args: &ListArgs) -> Result<(Vec<SceneListing>, Vec<Filter>), Error
                 "list: no scene and no filter \"{what}\"; {suggestion} A filter of your own is listed by --filter FOLDER"
             );
         }
-        let named = known_scenes.iter().filter(|it| names.contains(&it.name));
+        let named = known_scenes
+            .iter()
+            .filter(|listing| names.contains(&listing.name));
         scenes.extend(named.cloned());
         for name in names.iter().filter(|name| builtin.contains(name)) {
             filters.push(Filter::builtin(name)?);
@@ -151,8 +156,8 @@ fn find_named(args: &ListArgs) -> Result<(Vec<SceneListing>, Vec<Filter>), Error
         filters.extend(load_filters(name)?);
     }
     let is_own = |filter: &&Filter| !builtin.contains(&filter.name);
-    let own: Vec<&Filter> = filters.iter().filter(is_own).collect();
-    try_filters(&own, args.adapter.adapter.as_deref())?;
+    let user_filters: Vec<&Filter> = filters.iter().filter(is_own).collect();
+    try_filters(&user_filters, args.adapter.adapter.as_deref())?;
     Ok((scenes, filters))
 }
 
@@ -176,7 +181,7 @@ fn try_filters(filters: &[&Filter], adapter: Option<&str>) -> Result<(), Error> 
     }
     let gpu = match open_adapter(adapter, make_monitor().without_progress()) {
         Err(FilterError::NoAdapter) => None,
-        found => Some(found?),
+        gpu => Some(gpu?),
     };
     for filter in filters {
         gpu.as_ref()

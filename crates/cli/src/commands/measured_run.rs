@@ -47,7 +47,7 @@ fn choose_folder(plan: &mut RunPlan) -> Result<(), Error> {
     let size = (plan.render.width, plan.render.height);
     let folder = match folder_for_size(&plan.out, size) {
         Err(_) if plan.no_cache => return Ok(()),
-        found => found.map_err(name_options)?,
+        folder => folder.map_err(name_options)?,
     };
     if folder != plan.out {
         print_note(&format!(

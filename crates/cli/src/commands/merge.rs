@@ -51,7 +51,7 @@ fn join_runs(args: &MergeArgs) -> Result<(), Error> {
         words => words.to_vec(),
     };
     let (run, _lock) = merge_runs(&args.parts, command, &args.out)?;
-    // It would describe another run.json.
+    // An earlier judgement there is about another run.json.
     let _ = std::fs::remove_file(args.out.join(JUDGEMENT_FILE));
     write_run(&run, &args.out)?;
     let mut text = failures_text(&run.failures);

@@ -100,7 +100,11 @@ pub fn write_page(page: &str, html: &Path) -> Result<WrittenFile, Error> {
 
 /// Formats one line per page, and one for all files that a page loads.
 pub fn page_lines(label: &str, files: &[WrittenFile]) -> String {
-    let is_loaded = |file: &&WrittenFile| file.path.extension().is_some_and(|own| own == "js");
+    let is_loaded = |file: &&WrittenFile| {
+        file.path
+            .extension()
+            .is_some_and(|extension| extension == "js")
+    };
     let (loaded, pages): (Vec<_>, Vec<_>) = files.iter().partition(is_loaded);
     let mut text: String = pages.iter().map(|page| page.line(label)).collect();
     if let Some(folder) = loaded.first().and_then(|file| file.path.parent()) {

@@ -79,13 +79,13 @@ pub fn execute(args: &RenderArgs) -> Result<(), Error> {
     let mut seconds = 0.0;
     let mut settings = Vec::new();
     for scene in &scenes {
-        let own = scene_settings(args, scene)?;
+        let full = scene_settings(args, scene)?;
         let timed = match &args.replicates {
-            Replicates::All(_) => own,
-            Replicates::Part(some) => own.with_replicates((some.len() as u32).next_multiple_of(2)),
+            Replicates::All(_) => full,
+            Replicates::Part(some) => full.with_replicates((some.len() as u32).next_multiple_of(2)),
         };
         seconds += f64::from(args.frames) * estimate_render_seconds(&timed, args.alignments.len());
-        settings.push(own);
+        settings.push(full);
     }
     print_expected_time(seconds, &count_text(scenes.len(), "scene", "scenes"));
     let mut noisy = Vec::new();
@@ -99,12 +99,12 @@ pub fn execute(args: &RenderArgs) -> Result<(), Error> {
                 out: &args.scenes.out,
                 monitor: make_monitor(),
             };
-            let found = match &args.replicates {
+            let text = match &args.replicates {
                 Replicates::All(_) => render_whole(args, rendering, &mut noisy)?,
                 Replicates::Part(indices) => render_some(args, rendering, indices)?,
             };
             let folder = printable_path(&scene_folder(&args.scenes.out, &scene));
-            print(&format!("{folder}\n{found}"))?;
+            print(&format!("{folder}\n{text}"))?;
         }
     }
     match noisy.as_slice() {

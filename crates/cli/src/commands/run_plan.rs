@@ -179,14 +179,14 @@ pub fn add_bounds(bounds: &mut RunBounds, run: &Run, root: &Location) -> Result<
         }
         let folder = root.join(&case.scene.name);
         let drawn = (folder.on_disk()).filter(|folder| EngineScene::is_in(folder));
-        let found = match (case.drawn.is_some(), drawn) {
+        let scene_bounds = match (case.drawn.is_some(), drawn) {
             (true, Some(folder)) => read_engine_bounds(folder)?,
             (false, _) if folder.is_dir() => {
                 read_scene_bounds(root, &folder, &case.scene, Some(size))?
             }
             _ => continue,
         };
-        bounds.insert(case.scene.clone(), found.at(size));
+        bounds.insert(case.scene.clone(), scene_bounds.at(size));
     }
     Ok(())
 }

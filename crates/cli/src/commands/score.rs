@@ -74,12 +74,12 @@ pub fn execute(args: &ScoreArgs) -> Result<(), Error> {
 
 /// Refuses a file of a different scene than the truth's.
 pub fn check_scene(path: &Path, provenance: &Provenance, truth: &Truth) -> Result<(), Error> {
-    let (own, scene) = (&provenance.scene, &truth.provenance.scene);
-    if own == scene {
+    let (rendered, scene) = (&provenance.scene, &truth.provenance.scene);
+    if rendered == scene {
         Ok(())
     } else {
         refuse!(
-            "{}: was rendered from the scene {own}, the truth from {scene}; render both from one",
+            "{}: was rendered from the scene {rendered}, the truth from {scene}; render both from one",
             path.display()
         )
     }

@@ -26,8 +26,8 @@ pub fn execute(args: &ScoreArgs) -> Result<(), Error> {
     let convention = read_convention(args.convention.as_deref())?;
     let mut notes: Vec<String> = Vec::new();
     let mut pictures: Vec<Image> = Vec::new();
-    for (file, own) in files.iter().zip(&truths) {
-        let picture = read_finished_picture(file, &convention, &own.frame, &own.truth)?;
+    for (file, truth) in files.iter().zip(&truths) {
+        let picture = read_finished_picture(file, &convention, &truth.frame, &truth.truth)?;
         notes.extend(picture.notes);
         pictures.push(picture.color);
     }
@@ -50,9 +50,9 @@ pub fn execute(args: &ScoreArgs) -> Result<(), Error> {
 fn read_truth(args: &ScoreArgs, frame: u32) -> Result<SequenceTruth, Error> {
     let path = file_at_frame(&args.truth, frame);
     let truth = Truth::read(&path)?;
-    let own = file_at_frame(&args.frame, frame);
-    let frame = Frame::read(&own)?;
-    check_scene(&own, &frame.provenance, &truth)?;
+    let frame_path = file_at_frame(&args.frame, frame);
+    let frame = Frame::read(&frame_path)?;
+    check_scene(&frame_path, &frame.provenance, &truth)?;
     Ok(SequenceTruth { frame, truth, path })
 }
 
@@ -120,9 +120,9 @@ fn scores_json(
 ) -> serde_json::Value {
     let first = &truths[0].truth;
     let frames = truths.iter().zip(&scored.errors).zip(&scored.flickers);
-    let frames = frames.map(|((own, error), flicker)| {
+    let frames = frames.map(|((truth, error), flicker)| {
         serde_json::json!({
-            "truth_hash": own.truth.provenance.content_hash,
+            "truth_hash": truth.truth.provenance.content_hash,
             "error": error,
             "flicker": flicker,
         })

@@ -40,11 +40,16 @@ pub fn execute(args: &SensitivityArgs) -> Result<(), Error> {
     let space = Space::new(&choice.filter, choice.settings.clone(), &args.vary)?;
     let count = count_candidates(&space, args.rows);
     let label = format!("parameters of {}", choice.filter.name);
-    let found = candidate.score(&choice, false, Some(count), |evaluator| {
+    let sensitivity = candidate.score(&choice, false, Some(count), |evaluator| {
         make_monitor().watch(&label, |watch| {
             analyze_sensitivity(evaluator, &space, args.rows, args.search_seed, watch)
         })
     })?;
     let path = candidate.scenes.out.join("sensitivity.json");
-    write_result(&path, &found, &sensitivity_table(&found), args.json)
+    write_result(
+        &path,
+        &sensitivity,
+        &sensitivity_table(&sensitivity),
+        args.json,
+    )
 }

@@ -20,8 +20,8 @@ pub fn check_shown(filter: &Filter, names: &[String]) -> Result<(), Error> {
             filter.name
         );
     }
-    let own = filter.textures.iter().map(|texture| &texture.name[..]);
-    let known = own.chain(BUILT_IN).chain(filter.further_inputs());
+    let declared = filter.textures.iter().map(|texture| &texture.name[..]);
+    let known = declared.chain(BUILT_IN).chain(filter.further_inputs());
     let known: Vec<&str> = known.collect();
     match names.iter().find(|name| !known.contains(&&name[..])) {
         None => Ok(()),

@@ -131,7 +131,9 @@ fn make_options(args: &TuneArgs, choice: FilterChoice) -> Result<TuneOptions, Er
         cost_at_most: args.cost_at_most,
         bleed_at_most: args.bleed_at_most,
         budget: args.budget,
-        time: args.minutes.map(|it| Duration::from_secs_f64(60.0 * it)),
+        time: args
+            .minutes
+            .map(|minutes| Duration::from_secs_f64(60.0 * minutes)),
         race: !args.no_race,
         seed: args.search_seed,
         out: scene_args.out.clone(),

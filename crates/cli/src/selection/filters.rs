@@ -99,7 +99,10 @@ fn find_presets(filter: &Filter, text: Option<&str>) -> Result<Vec<String>, Erro
 }
 
 fn refuse_programs(choices: &[FilterChoice]) -> Result<(), Error> {
-    match choices.iter().find_map(|it| it.filter.command.as_ref()) {
+    match choices
+        .iter()
+        .find_map(|choice| choice.filter.command.as_ref())
+    {
         None => Ok(()),
         Some(command) => refuse!(
             "{}:{}: the filter is a program and would run `{}`; read what that does, and allow it with --allow-commands",
@@ -134,7 +137,7 @@ fn apply_override(choices: &mut [FilterChoice], text: &str) -> Result<(), Error>
     let mut names: Vec<String> = (choices.iter())
         .map(|choice| choice.filter.name.clone())
         .collect();
-    if !names.iter().any(|own| own == name) {
+    if !names.iter().any(|known| known == name) {
         names.dedup();
         refuse!(
             "--set {text}: no filter \"{name}\" is in the run; allowed: {}",

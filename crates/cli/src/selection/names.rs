@@ -56,8 +56,8 @@ pub fn choose_names(
 
 /// Finds the first duplicate.
 pub fn find_twin<T: PartialEq>(all: &[T]) -> Option<&T> {
-    let is_twin = |(index, own): &(usize, &T)| all[..*index].contains(own);
-    all.iter().enumerate().find(is_twin).map(|(_, own)| own)
+    let is_twin = |(index, item): &(usize, &T)| all[..*index].contains(item);
+    all.iter().enumerate().find(is_twin).map(|(_, item)| item)
 }
 
 /// Refuses a list with an empty name, from a superfluous comma.

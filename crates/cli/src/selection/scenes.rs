@@ -39,7 +39,7 @@ pub fn select_scenes(
             .map(|listing| load_choice(&listing.folder, &SceneId::default()))
             .collect();
     }
-    let known: Vec<String> = listings.into_iter().map(|own| own.name).collect();
+    let known: Vec<String> = listings.into_iter().map(|listing| listing.name).collect();
     let mut scenes: Vec<SceneChoice> = Vec::new();
     for text in names {
         let (name, id) = split_scene(text);
@@ -50,7 +50,7 @@ pub fn select_scenes(
             }
         }
     }
-    refuse_twins((scenes.iter()).map(|own| (&own.scene.id, own.folder.clone())))?;
+    refuse_twins((scenes.iter()).map(|scene| (&scene.scene.id, scene.folder.clone())))?;
     Ok(scenes)
 }
 
@@ -70,7 +70,7 @@ pub fn select_engine_scenes(
     refuse_twins(
         scenes
             .iter()
-            .map(|own| (&own.id, Location::from(&own.folder))),
+            .map(|scene| (&scene.id, Location::from(&scene.folder))),
     )?;
     Ok((scenes, others.into_iter().cloned().collect()))
 }
@@ -109,13 +109,13 @@ fn suggest_built_in(root: &Location, name: &str) -> &'static str {
 /// their names.
 pub fn split_scene(text: &str) -> (&str, SceneId) {
     let name = text.trim_end_matches(['/', '\\']);
-    let own = name.rfind(['/', '\\']).map_or(0, |separator| separator + 1);
-    match name[own..].split_once('@') {
+    let start = name.rfind(['/', '\\']).map_or(0, |separator| separator + 1);
+    match name[start..].split_once('@') {
         Some((folder, choice)) => (
-            &name[..own + folder.len()],
+            &name[..start + folder.len()],
             SceneId::new(folder, Some(choice)),
         ),
-        None => (text, SceneId::new(&name[own..], None)),
+        None => (text, SceneId::new(&name[start..], None)),
     }
 }
 
@@ -153,12 +153,12 @@ fn refuse_twins<'a>(scenes: impl Iterator<Item = (&'a SceneId, Location)>) -> Re
 }
 
 fn load_choice(folder: &Location, id: &SceneId) -> Result<SceneChoice, Error> {
-    let own = folder
+    let name = folder
         .path
         .file_name()
         .unwrap_or_default()
         .to_string_lossy();
-    if own.contains('@') {
+    if name.contains('@') {
         refuse!(
             "--scenes: the folder {folder} cannot name a scene; allowed: names without @, which begins a variant; rename it"
         );

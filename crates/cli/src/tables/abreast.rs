@@ -48,11 +48,11 @@ pub fn input_forms_text(cases: &[Case]) -> String {
     // Over the scenes that have both scores.
     let cost = |change: &String, name: &String| {
         let changed = format!("{name} {change}");
-        let own = full.iter().filter(|case| case.name() == *name);
-        let costs = own.filter_map(|own| {
-            let mut others = cases.iter().filter(|case| case.scene == own.scene);
-            let other = others.find(|case| case.name() == changed)?;
-            Some(other.estimate(Metric::FLIP)? - own.estimate(Metric::FLIP)?)
+        let measured = full.iter().filter(|case| case.name() == *name);
+        let costs = measured.filter_map(|case| {
+            let mut others = cases.iter().filter(|other| other.scene == case.scene);
+            let other = others.find(|other| other.name() == changed)?;
+            Some(other.estimate(Metric::FLIP)? - case.estimate(Metric::FLIP)?)
         });
         mean_text(costs, |cost| format!("{cost:+.3}"))
     };
@@ -77,8 +77,8 @@ pub fn frame_rates_text(cases: &[Case]) -> String {
     let columns = list_once(cases.iter().filter_map(column));
     let flip = |row: &Row, name: &String| {
         let of_row = cases.iter().filter(|case| row.holds(case));
-        let own = of_row.filter(|case| column(case).as_ref() == Some(name));
-        let flips = own.filter_map(|case| case.estimate(Metric::FLIP));
+        let measured = of_row.filter(|case| column(case).as_ref() == Some(name));
+        let flips = measured.filter_map(|case| case.estimate(Metric::FLIP));
         mean_text(flips, |mean| Metric::FLIP.number(mean))
     };
     let legend = "Mean FLIP at each frame rate, against the truths of that rate. [identity] is doing nothing. Compare the filters of one \
@@ -114,7 +114,7 @@ pub fn twins_text(cases: &[Case], ranked: &[Vec<RankedFilter>]) -> String {
         if case.is_reference {
             case.filter == suite::IDENTITY
         } else {
-            (ranked.iter().flatten()).any(|own| own.name == case.name())
+            (ranked.iter().flatten()).any(|filter| filter.name == case.name())
         }
     };
     let mut rows = list_once((drawn().filter(|case| is_row(case))).map(|case| case.filter_id()));
@@ -129,9 +129,11 @@ pub fn twins_text(cases: &[Case], ranked: &[Vec<RankedFilter>]) -> String {
                 twin(case).is_some() && case.scene.variant.as_ref() == Some(column)
             }
         };
-        let own = full.iter().filter(|case| is_in(case));
-        let own = own.filter(|case| case.filter_id() == *row);
-        let flips: Vec<f64> = own.filter_map(|it| it.estimate(Metric::FLIP)).collect();
+        let measured = full.iter().filter(|case| is_in(case));
+        let measured = measured.filter(|case| case.filter_id() == *row);
+        let flips: Vec<f64> = measured
+            .filter_map(|case| case.estimate(Metric::FLIP))
+            .collect();
         (!flips.is_empty()).then(|| flips.iter().sum::<f64>() / flips.len() as f64)
     };
     let best = |row: &FilterId| {

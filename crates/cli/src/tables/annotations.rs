@@ -89,7 +89,7 @@ pub fn summary(check: &Check) -> String {
 fn summary_row(finding: &Finding) -> Vec<String> {
     let value = finding.value.map(|value| finding.with_unit(value));
     let interval = finding.interval.as_ref();
-    let interval = interval.map(|own| range_text([own.low, own.high], number));
+    let interval = interval.map(|interval| range_text([interval.low, interval.high], number));
     let worst = match (&finding.worst, finding.worst_frame) {
         (Some(worst), _) => Some(format!("({}, {})", worst.x, worst.y)),
         (None, frame) => frame.map(|frame| format!("frame {frame}")),

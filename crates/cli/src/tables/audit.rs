@@ -16,16 +16,19 @@ pub fn audit_table(audit: &CaptureAudit) -> String {
     ];
     let mut table = Table::new("object", columns);
     let mut compared = 0;
-    for own in &audit.objects {
-        let velocity = audit.velocity.iter().find(|it| it.object == own.object);
-        compared += velocity.map_or(0, |own| own.pixels);
+    for object in &audit.objects {
+        let velocity = audit
+            .velocity
+            .iter()
+            .find(|velocity| velocity.object == object.object);
+        compared += velocity.map_or(0, |velocity| velocity.pixels);
         let none = || ["0", "n/a", "n/a", "n/a", "n/a", "n/a", "n/a"].map(str::to_owned);
         let errors = velocity.map_or_else(none, list_errors);
         let shown = [
-            own.pixels.to_string(),
-            format!("{:.1} %", 100.0 * own.shown),
+            object.pixels.to_string(),
+            format!("{:.1} %", 100.0 * object.shown),
         ];
-        table.push(&own.object, shown.into_iter().chain(errors));
+        table.push(&object.object, shown.into_iter().chain(errors));
     }
     let pixels = f64::from(width) * f64::from(height);
     let basis = if audit.has_ids {

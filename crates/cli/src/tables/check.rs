@@ -22,10 +22,10 @@ pub fn check_text(check: &Check, out: &Path, targets: bool) -> String {
         if !finding.outcome.is_notable() || !is_listed {
             continue;
         }
-        let own = format!("{} / {}", finding.scene, finding.filter);
-        if case.as_ref() != Some(&own) {
-            text += &format!("{}\n", heading(&own));
-            case = Some(own);
+        let name = format!("{} / {}", finding.scene, finding.filter);
+        if case.as_ref() != Some(&name) {
+            text += &format!("{}\n", heading(&name));
+            case = Some(name);
         }
         push_finding(&mut text, finding, out);
     }
@@ -61,7 +61,8 @@ pub fn verdict_text(check: &Check) -> String {
 
 /// Returns a check's verdict for its page.
 pub fn page_verdict(check: &Check) -> Verdict {
-    let open = (check.comparisons.iter()).filter(|own| own.decision() != Decision::Pass);
+    let open =
+        (check.comparisons.iter()).filter(|comparison| comparison.decision() != Decision::Pass);
     Verdict {
         decision: check.decision,
         reason: check.verdict().err().map(|error| error.to_string()),
@@ -158,7 +159,7 @@ fn decision_text(comparison: &BaselineComparison) -> String {
 pub fn count_lines(check: &Check) -> Vec<String> {
     let line = |level: Level, one: &str, [kept, broken]: [&str; 2], note: &str| {
         let findings = check.findings.iter();
-        let own: Vec<&Finding> = findings.filter(|own| own.level == level).collect();
+        let findings: Vec<&Finding> = findings.filter(|finding| finding.level == level).collect();
         let words = [
             (Outcome::Kept, kept),
             (Outcome::Broken, broken),
@@ -168,12 +169,15 @@ pub fn count_lines(check: &Check) -> Vec<String> {
             (Outcome::NotJudged, "not judged"),
         ];
         let counts = words.iter().filter_map(|(outcome, word)| {
-            let count = own.iter().filter(|own| own.outcome == *outcome).count();
+            let count = findings
+                .iter()
+                .filter(|finding| finding.outcome == *outcome)
+                .count();
             (count > 0).then(|| format!("{count} {word}"))
         });
         let counts = counts.collect::<Vec<_>>().join(", ");
-        let all = count_text(own.len(), one, &format!("{one}s"));
-        (!own.is_empty()).then(|| format!("{all}: {counts}{note}"))
+        let all = count_text(findings.len(), one, &format!("{one}s"));
+        (!findings.is_empty()).then(|| format!("{all}: {counts}{note}"))
     };
     let note = " (a missed target fails nothing; -v lists them)";
     let required = line(Level::Required, "required bound", ["met", "broken"], "");
@@ -190,8 +194,11 @@ pub fn count_lines(check: &Check) -> Vec<String> {
 /// Counts comparisons with a baseline by their verdict; none without a baseline.
 fn comparisons_line(check: &Check) -> Option<String> {
     let count = |kind| {
-        let own = check.comparisons.iter().filter(|own| own.kind == kind);
-        own.count()
+        let comparisons = check
+            .comparisons
+            .iter()
+            .filter(|comparison| comparison.kind == kind);
+        comparisons.count()
     };
     let words = [
         (ComparisonKind::NoWorse, "no worse"),
@@ -216,7 +223,7 @@ fn comparisons_line(check: &Check) -> Option<String> {
 /// to judge them; none if all were judged.
 fn not_judged_line(check: &Check) -> Option<String> {
     let mut lengths: Vec<(String, String)> = Vec::new();
-    for finding in (check.findings.iter()).filter(|own| own.outcome == Outcome::NotJudged) {
+    for finding in (check.findings.iter()).filter(|finding| finding.outcome == Outcome::NotJudged) {
         let fps = finding.fps.map(|fps| format!(" --fps {fps}"));
         let options = format!("--frames {}{}", finding.frames?, fps.unwrap_or_default());
         lengths.push((length_text(finding)?, options));

@@ -59,8 +59,8 @@ fn means_table(means: &[MeanChange]) -> String {
     };
     let mut same = list_once(means.iter().map(|mean| mean.filter.as_str()));
     same.retain(|filter| {
-        let mut own = means.iter().filter(|mean| mean.filter == *filter);
-        own.all(|mean| mean.kind == ChangeKind::Same)
+        let mut changes = means.iter().filter(|mean| mean.filter == *filter);
+        changes.all(|mean| mean.kind == ChangeKind::Same)
     });
     if !same.is_empty() {
         let line = format!("nothing changed of: {}", same.join(", "));
@@ -78,9 +78,9 @@ fn changes_table(changes: &[Change]) -> String {
     let mut table = change_table("scene / filter");
     for (scene, filter) in ranked.iter().take(CASES) {
         table.push_text(format!("{scene} / {filter}"));
-        let own =
+        let of_case =
             (changes.iter()).filter(|change| change.scene == **scene && change.filter == **filter);
-        for change in own.filter(|change| change.kind.is_decided()) {
+        for change in of_case.filter(|change| change.kind.is_decided()) {
             push_change(&mut table, change.metric, change.kind, change.into());
         }
     }

@@ -14,7 +14,9 @@ pub fn junit(check: &Check) -> String {
     let mut add = |suite: &str, filter: &str, what: &str, status: TestCaseStatus| {
         let mut case = TestCase::new(format!("{filter} {what}"), status);
         case.set_classname(format!("{suite}.{filter}"));
-        let known = suites.iter().position(|own| own.name.as_str() == suite);
+        let known = suites
+            .iter()
+            .position(|earlier| earlier.name.as_str() == suite);
         let index = known.unwrap_or_else(|| {
             suites.push(TestSuite::new(suite));
             suites.len() - 1

@@ -110,9 +110,9 @@ impl Table {
         widths: &[usize],
     ) -> String {
         let mut text = " ".repeat(indent) + &cells[0];
-        let own = width(&cells[0]);
-        if own <= name {
-            text += &" ".repeat(name - own)
+        let columns = width(&cells[0]);
+        if columns <= name {
+            text += &" ".repeat(name - columns)
         } else {
             text += &format!("\n{}", " ".repeat(indent + name))
         }

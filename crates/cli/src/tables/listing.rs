@@ -142,7 +142,7 @@ fn push_filter(text: &mut String, filter: &Filter) {
     }
 }
 
-/// Describes a preset: its source, and its differences from it.
+/// Describes a preset: its source, and where it differs from that source.
 fn push_preset(text: &mut String, preset: &Preset) {
     push_wrapped(text, 4, &format!(":{}  {}", preset.name, preset.doc));
     let mut line = |words: String| push_wrapped(text, 8, &words);

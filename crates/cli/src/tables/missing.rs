@@ -38,7 +38,7 @@ impl Missing {
         let known = &mut self.0[index];
         let lists = [&mut known.titles, &mut known.groups, &mut known.rows];
         for (names, name) in lists.into_iter().zip([title, group, row]) {
-            if !names.iter().any(|own| own == name) {
+            if !names.iter().any(|known| known == name) {
                 names.push(name.to_owned());
             }
         }

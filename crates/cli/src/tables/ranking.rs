@@ -133,8 +133,8 @@ fn references_text(cases: &[Case], groups: &[Vec<RankedFilter>]) -> String {
     let mut table = Table::new("references", columns);
     let of_shutters: Vec<Vec<&Case>> = shutters
         .map(|shutter| {
-            let own = references().filter(|case| (case.alignment, case.rate) == shutter);
-            own.collect()
+            let cases = references().filter(|case| (case.alignment, case.rate) == shutter);
+            cases.collect()
         })
         .collect();
     let number = |value| Metric::FLIP.number(value);
@@ -142,13 +142,13 @@ fn references_text(cases: &[Case], groups: &[Vec<RankedFilter>]) -> String {
         table.push_row(true, format!("     {name}"), cells);
     };
     for name in names {
-        let mean = |own: &Vec<&Case>| {
-            let own = own.iter().filter(|case| case.name() == name);
-            mean_text(own.filter_map(|case| case.estimate(Metric::FLIP)), number)
+        let mean = |cases: &Vec<&Case>| {
+            let cases = cases.iter().filter(|case| case.name() == name);
+            mean_text(cases.filter_map(|case| case.estimate(Metric::FLIP)), number)
         };
         push(&name, of_shutters.iter().map(mean).collect());
     }
-    let lags: Vec<Option<f64>> = of_shutters.iter().map(|own| mean_lag(own)).collect();
+    let lags: Vec<Option<f64>> = of_shutters.iter().map(|cases| mean_lag(cases)).collect();
     if lags.iter().any(Option::is_some) {
         let text = |lag: &Option<f64>| lag.map_or("-".to_owned(), number);
         push("lag behind the frame", lags.iter().map(text).collect());

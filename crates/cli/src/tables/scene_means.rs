@@ -64,9 +64,9 @@ pub fn means_table(overall: &[Overall]) -> String {
 /// Notes the shutters where skill applies to fewer scenes than FLIP.
 fn fewer_scenes_note(overall: &[Overall]) -> String {
     let count = |metric: Metric, alignment: Alignment| {
-        let mut own = overall.iter();
-        let own = own.find(|mean| mean.metric == metric && mean.alignment == alignment);
-        own.map_or(0, |mean| mean.scenes)
+        let mut means = overall.iter();
+        let mean = means.find(|mean| mean.metric == metric && mean.alignment == alignment);
+        mean.map_or(0, |mean| mean.scenes)
     };
     let alignments = list_once(overall.iter().map(|mean| mean.alignment));
     let counted = alignments.into_iter().filter_map(|alignment| {
@@ -104,8 +104,8 @@ fn push_mean(
     let number = |value| by.number(value);
     let mut cells = vec![number(row.mean), range_text(row.interval, number)];
     for (_, metric) in &columns[1..] {
-        let mut own = overall.iter().filter(|mean| mean.is_of_same(row));
-        let mean = own.find(|mean| mean.metric == *metric);
+        let mut means = overall.iter().filter(|mean| mean.is_of_same(row));
+        let mean = means.find(|mean| mean.metric == *metric);
         cells.push(cell(mean, |mean| metric.number(mean.mean)));
     }
     cells.extend(last.map(str::to_owned));

@@ -32,7 +32,7 @@ const KEY: &str = "roots of squared errors, in thousandths of display white. Fli
 /// Makes the text about a run's sequences; empty without any. One scene gets its table of scores;
 /// several get a ranking of means over the scenes, and with `all` the scenes' tables after it.
 pub fn sequences_text(run: &Run, all: bool) -> String {
-    let scenes = list_once(run.sequences.iter().map(|own| &own.scene));
+    let scenes = list_once(run.sequences.iter().map(|sequence| &sequence.scene));
     match scenes.len() {
         0 => String::new(),
         1 => sequence_table(run, &scenes),
@@ -50,23 +50,27 @@ fn ranking_table(run: &Run, scenes: usize) -> String {
     for group in &groups {
         let first = &group[0].ranked;
         table.push_text(shutter_text(first.alignment, first.rate));
-        for own in group {
+        for sequence in group {
             let number = |value| RANKED_BY.shown_text(value);
-            let [jod, interval, worst] = ranking_cells(&own.ranked, scenes, number);
+            let [jod, interval, worst] = ranking_cells(&sequence.ranked, scenes, number);
             let mean = |metric: SequenceMetric| {
-                let mut means = own.means.iter();
+                let mut means = sequence.means.iter();
                 let mean = means.find_map(|(known, mean)| (*known == metric).then_some(*mean)?);
                 cell(mean, |mean| metric.shown_text(mean.mean))
             };
             let [error, along] = [SequenceMetric::Error, SequenceMetric::FlickerAlong].map(mean);
             let cells = [jod, interval, error, along, worst];
-            table.push(ranked_name(&own.ranked), cells);
+            table.push(ranked_name(&sequence.ranked), cells);
         }
     }
     let mut notes = "Sequences, ranked by JOD: quality by ColorVideoVDP, 10 at most, higher is better. Error: of single frames; along: of \
                      the change along the motion; both as roots, in thousandths of display white, lower is better."
         .to_owned();
-    if groups.iter().flatten().any(|own| own.ranked.is_tied()) {
+    if groups
+        .iter()
+        .flatten()
+        .any(|sequence| sequence.ranked.is_tied())
+    {
         notes += &format!(" {RANK_RULE}");
     }
     notes += " --table shows each scene.";
@@ -78,17 +82,21 @@ fn ranking_table(run: &Run, scenes: usize) -> String {
 fn sequence_table(run: &Run, scenes: &[&SceneId]) -> String {
     let mut table = score_columns(run.sequences[0].frames.len());
     for scene in scenes {
-        let of_scene = || run.sequences.iter().filter(|own| own.scene == **scene);
+        let of_scene = || {
+            run.sequences
+                .iter()
+                .filter(|sequence| sequence.scene == **scene)
+        };
         let groups = rank_sequences_on(run, scene);
-        for alignment in list_once(of_scene().map(|own| own.alignment)) {
+        for alignment in list_once(of_scene().map(|sequence| sequence.alignment)) {
             table.push_text(heading(&format!("{scene}, {alignment} shutter")));
-            let of_shutter = of_scene().filter(|own| own.alignment == alignment);
+            let of_shutter = of_scene().filter(|sequence| sequence.alignment == alignment);
             let ranked = groups.iter().flatten();
-            let ranked = ranked.filter(|own| own.ranked.alignment == alignment);
-            for (name, own) in
+            let ranked = ranked.filter(|sequence| sequence.ranked.alignment == alignment);
+            for (name, sequence) in
                 order_rows(&of_shutter.collect::<Vec<_>>(), &ranked.collect::<Vec<_>>())
             {
-                table.push_row(own.is_reference, name, score_cells(&own.scores));
+                table.push_row(sequence.is_reference, name, score_cells(&sequence.scores));
             }
         }
     }
@@ -123,16 +131,23 @@ fn order_rows<'a>(
     ranked: &[&RankedSequence],
 ) -> Vec<(String, &'a Sequence)> {
     let mut rows = Vec::new();
-    for own in sequences.iter().filter(|own| own.is_reference) {
-        rows.push((format!("    {}", bracket_name(&own.name, true)), *own));
+    for sequence in sequences.iter().filter(|sequence| sequence.is_reference) {
+        rows.push((
+            format!("    {}", bracket_name(&sequence.name, true)),
+            *sequence,
+        ));
     }
-    let filters = || sequences.iter().filter(|own| !own.is_reference);
+    let filters = || sequences.iter().filter(|sequence| !sequence.is_reference);
     for RankedSequence { ranked, .. } in ranked {
-        let own = filters().find(|own| own.name == ranked.name);
-        rows.extend(own.map(|own| (ranked_name(ranked), *own)));
+        let sequence = filters().find(|sequence| sequence.name == ranked.name);
+        rows.extend(sequence.map(|sequence| (ranked_name(ranked), *sequence)));
     }
-    for own in filters().filter(|own| !ranked.iter().any(|it| it.ranked.name == own.name)) {
-        rows.push((format!("    {}", own.name), *own));
+    for sequence in filters().filter(|sequence| {
+        !ranked
+            .iter()
+            .any(|entry| entry.ranked.name == sequence.name)
+    }) {
+        rows.push((format!("    {}", sequence.name), *sequence));
     }
     rows
 }

@@ -108,13 +108,13 @@ pub fn advice_text(tuning: &Tuning) -> String {
             return "the choice: params.json and preset.toml next to tune.json\n".to_owned();
         }
         Advice::NoneIsBetter => "no trial beats it by more than the scenes can show".to_owned(),
-        Advice::CannotTell(own) if own.scenes < MIN_SCENES => format!(
+        Advice::CannotTell(difference) if difference.scenes < MIN_SCENES => format!(
             "{} cannot separate trial {trial} from it, and {MIN_SCENES} or more may",
-            count_text(own.scenes, "scene", "scenes")
+            count_text(difference.scenes, "scene", "scenes")
         ),
-        Advice::CannotTell(own) => format!(
+        Advice::CannotTell(difference) => format!(
             "the scenes cannot separate trial {trial} from it ({})",
-            own.text(percent)
+            difference.text(percent)
         ),
         Advice::StartIsBetter(flip) => format!(
             "on the {} held-out scenes trial {trial} is worse ({})",
@@ -143,7 +143,7 @@ fn trial_row(trial: &Trial, start: &Trial, chosen: usize) -> String {
         numbers += &format!(" {text:>8}");
     }
     let mut values = String::new();
-    // As far to the right as the numbers are wide.
+    // Every line of values begins where the numbers end.
     push_wrapped(&mut values, VALUES, &changed);
     numbers + values.get(VALUES - 2..).unwrap_or_default()
 }
@@ -159,8 +159,8 @@ pub fn paired_table(paired: &PairedComparison, names: [&str; 2]) -> String {
     ];
     let mut table = Table::new("scene", titles);
     for (scene, both) in &paired.scenes {
-        let flips = both.map(|own| format!("{:.4}", own.flip));
-        let bleeds = both.map(|own| cell(own.bleed, |bleed| format!("{bleed:.3}")));
+        let flips = both.map(|scores| format!("{:.4}", scores.flip));
+        let bleeds = both.map(|scores| cell(scores.bleed, |bleed| format!("{bleed:.3}")));
         table.push(scene, flips.into_iter().chain(bleeds));
     }
     let mut text = table.text();
@@ -186,16 +186,16 @@ pub fn paired_table(paired: &PairedComparison, names: [&str; 2]) -> String {
 }
 
 /// Makes the table of parameters, most important first.
-pub fn sensitivity_table(found: &Sensitivity) -> String {
-    let mut rows: Vec<(&String, &ParameterSensitivity)> = found.parameters.iter().collect();
+pub fn sensitivity_table(sensitivity: &Sensitivity) -> String {
+    let mut rows: Vec<(&String, &ParameterSensitivity)> = sensitivity.parameters.iter().collect();
     rows.sort_by(|(_, a), (_, b)| b.indices.total.value.total_cmp(&a.indices.total.value));
     let mut table = Table::new(
         "parameter",
         ["first order", "total", "95 % CI", "constant?"],
     );
-    for (name, own) in rows {
-        let SobolIndices { first, total } = own.indices;
-        let constant = if own.constant { "yes" } else { "no" };
+    for (name, parameter) in rows {
+        let SobolIndices { first, total } = parameter.indices;
+        let constant = if parameter.constant { "yes" } else { "no" };
         let cells = [
             format!("{:.3}", first.value),
             format!("{:.3}", total.value),
@@ -204,7 +204,11 @@ pub fn sensitivity_table(found: &Sensitivity) -> String {
         ];
         table.push(name, cells);
     }
-    table.text() + &format!("{} candidates, {} failed\n", found.candidates, found.failed)
+    table.text()
+        + &format!(
+            "{} candidates, {} failed\n",
+            sensitivity.candidates, sensitivity.failed
+        )
 }
 
 /// Formats a mean of logs as a change of the error.

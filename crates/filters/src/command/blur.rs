@@ -167,19 +167,19 @@ impl CommandBlur {
     /// Refuses anything but a regular file of bounded size. The program has ended, so nothing can
     /// replace the file.
     fn check_file(&self, out: &Path) -> Result<(), String> {
-        let Ok(found) = std::fs::symlink_metadata(out) else {
+        let Ok(metadata) = std::fs::symlink_metadata(out) else {
             return Err(
                 "ended well, but wrote no {out}; it must write an OpenEXR file of that very name"
                     .into(),
             );
         };
-        if !found.is_file() {
+        if !metadata.is_file() {
             return Err(format!(
                 "left {} in the place of {{out}}; it must write a regular file there",
-                kind_of(&found)
+                kind_of(&metadata)
             ));
         }
-        if found.len() <= self.max_bytes() {
+        if metadata.len() <= self.max_bytes() {
             Ok(())
         } else {
             Err(self.describe_too_large())
@@ -247,11 +247,11 @@ fn create_private_folder() -> std::io::Result<tempfile::TempDir> {
 }
 
 /// Names the kind of a file that is not regular.
-fn kind_of(found: &std::fs::Metadata) -> &'static str {
-    if found.is_dir() {
+fn kind_of(metadata: &std::fs::Metadata) -> &'static str {
+    if metadata.is_dir() {
         return "a folder";
     }
-    if found.is_symlink() {
+    if metadata.is_symlink() {
         return "a link";
     }
     "a pipe or a device"

@@ -163,7 +163,7 @@ impl Convention {
         }
         if let Some(scale) = self
             .velocity_scale
-            .filter(|it| !it.is_finite() || *it == 0.0)
+            .filter(|scale| !scale.is_finite() || *scale == 0.0)
         {
             return Err(format!(
                 "velocity_scale = {scale}; allowed: a finite number other than 0"
@@ -196,7 +196,7 @@ impl Convention {
         ];
         for (name, format, allowed) in formats {
             if let Some(format) = format.filter(|format| !allowed.contains(format)) {
-                let allowed: Vec<&str> = allowed.iter().map(|it| it.name()).collect();
+                let allowed: Vec<&str> = allowed.iter().map(|format| format.name()).collect();
                 return Err(format!(
                     "{name} = \"{}\"; allowed: {}",
                     format.name(),

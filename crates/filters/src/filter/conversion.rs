@@ -145,8 +145,8 @@ impl Convention {
     }
 }
 
-/// Refuses a conversion that makes infinite numbers of finite ones, or of every number 0 or less
-/// than a float has digits for.
+/// Refuses a conversion that makes a finite number infinite, or that leaves only zeros and numbers
+/// too small for all digits of a float.
 fn check_restored<const N: usize>(
     stored: &Raster<[f32; N]>,
     restored: &Raster<[f32; N]>,
@@ -191,9 +191,9 @@ mod tests {
         let stored = form.convert_velocity(&velocity, 1.0);
         assert_eq!(stored.pixels[0], [0.5, 0.5]);
         let restored = form.restore_velocity(&stored, 1.0).unwrap();
-        for (found, due) in restored.pixels.iter().zip(&velocity.pixels) {
-            assert!((found[0] - due[0]).abs() < 1e-4, "{:?}", restored.pixels);
-            assert!((found[1] - due[1]).abs() < 1e-4, "{:?}", restored.pixels);
+        for (velocity, due) in restored.pixels.iter().zip(&velocity.pixels) {
+            assert!((velocity[0] - due[0]).abs() < 1e-4, "{:?}", restored.pixels);
+            assert!((velocity[1] - due[1]).abs() < 1e-4, "{:?}", restored.pixels);
         }
     }
 
@@ -228,9 +228,9 @@ mod tests {
         for (kind, far, expected) in cases {
             let form = planes(kind, far);
             let converted = form.convert_depth(&metres);
-            for (found, expected) in converted.pixels.iter().zip(expected) {
+            for (depth, expected) in converted.pixels.iter().zip(expected) {
                 assert!(
-                    (found - expected).abs() < 1e-6,
+                    (depth - expected).abs() < 1e-6,
                     "{form:?}: {:?}",
                     converted.pixels
                 );
@@ -238,8 +238,8 @@ mod tests {
             let back = form.restore_depth(&converted).unwrap();
             // A surface at the far plane looks like the background.
             let last = if far.is_some() { FAR_DEPTH } else { 8.0 };
-            for (found, expected) in back.pixels.iter().zip([0.5, 1.0, last, FAR_DEPTH]) {
-                let error = (found / expected - 1.0).abs();
+            for (depth, expected) in back.pixels.iter().zip([0.5, 1.0, last, FAR_DEPTH]) {
+                let error = (depth / expected - 1.0).abs();
                 assert!(error < 1e-5, "{form:?}: {:?}", back.pixels);
             }
         }

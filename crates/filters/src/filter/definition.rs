@@ -112,8 +112,8 @@ impl Filter {
     pub(crate) fn stages(&self, pass: &Pass) -> Vec<(&Shader, &EntryPoint)> {
         let corners = pass.shaders[1..].iter().map(|index| &self.shaders[*index]);
         let corners = corners.map(|shader| (shader, &shader.entry_points[0]));
-        let own = (self.shader(pass), self.entry_point(pass));
-        [own].into_iter().chain(corners).collect()
+        let main = (self.shader(pass), self.entry_point(pass));
+        [main].into_iter().chain(corners).collect()
     }
 
     /// Lists the inputs that its shaders read and few frames have: `velocity_next`, `velocity_z`

@@ -201,13 +201,13 @@ fn find_parameter<'f>(filter: &'f Filter, name: &str) -> Result<&'f Parameter, F
         })
 }
 
-fn refuse(filter: &Filter, parameter: &Parameter, found: &str) -> FilterError {
+fn refuse(filter: &Filter, parameter: &Parameter, value: &str) -> FilterError {
     FilterError::Parameter {
         filter: filter.name.clone(),
         parameter: parameter.name.clone(),
         reason: format!(
             "found {}; allowed: {}",
-            escape_controls(found),
+            escape_controls(value),
             parameter.kind.allowed()
         ),
     }

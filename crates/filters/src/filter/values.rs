@@ -107,11 +107,11 @@ impl Filter {
 
 /// Finds a matrix by name: its index in [`MATRICES`], and whether it belongs to the frame before.
 pub(crate) fn find_matrix(name: &str) -> Option<(usize, bool)> {
-    let (own, is_previous) = match name.strip_prefix(PREVIOUS) {
-        Some(own) => (own, true),
+    let (matrix, is_previous) = match name.strip_prefix(PREVIOUS) {
+        Some(matrix) => (matrix, true),
         None => (name, false),
     };
-    let index = MATRICES.iter().position(|known| *known == own)?;
+    let index = MATRICES.iter().position(|known| *known == matrix)?;
     Some((index, is_previous))
 }
 

@@ -26,7 +26,8 @@ impl Gpu {
         };
         let chosen = chosen.ok_or_else(|| {
             let names = adapters.iter().enumerate();
-            let names = names.map(|(index, it)| format!("{index}: {}", it.get_info().name));
+            let names =
+                names.map(|(index, candidate)| format!("{index}: {}", candidate.get_info().name));
             FilterError::Refused(format!(
                 "no adapter is called \"{}\"; found: {}",
                 adapter.unwrap_or_default(),
@@ -99,8 +100,8 @@ const KINDS: [(wgpu::DeviceType, &str); 5] = [
 ];
 
 fn rank(adapter: &wgpu::Adapter) -> usize {
-    let own = adapter.get_info().device_type;
-    let rank = KINDS.iter().position(|(kind, _)| *kind == own);
+    let device_type = adapter.get_info().device_type;
+    let rank = KINDS.iter().position(|(kind, _)| *kind == device_type);
     rank.expect("every kind of device has a name")
 }
 

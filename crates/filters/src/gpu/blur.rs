@@ -74,8 +74,8 @@ impl<'g> Blur<'g> {
         self.run_after(input, input)
     }
 
-    /// Blurs every colour image of the input as [`Blur::run`] does, for filters with history after
-    /// another frame, which has as many colour images, in the same order.
+    /// Blurs every colour image of the input as [`Blur::run`] does, and gives filters with history
+    /// the frame `before`, which has as many colour images, in the same order.
     pub fn run_after(&mut self, input: &Input, before: &Input) -> Result<Vec<Image>, FilterError> {
         self.check(input)?;
         self.check(before)?;
@@ -129,7 +129,12 @@ impl<'g> Blur<'g> {
     fn blur(&self, is_wanted: impl Fn(&Dispatch) -> bool) -> Result<Image, FilterError> {
         let place = self.place("upload");
         (self.gpu).catch_errors(place, || self.passes.mark_output(self.gpu, &is_wanted))?;
-        for dispatch in self.passes.dispatches.iter().filter(|it| is_wanted(it)) {
+        for dispatch in self
+            .passes
+            .dispatches
+            .iter()
+            .filter(|dispatch| is_wanted(dispatch))
+        {
             self.run_dispatch(dispatch)?;
         }
         self.read_output()
@@ -158,7 +163,10 @@ impl<'g> Blur<'g> {
         let writer = dispatches.rfind(|dispatch| dispatch.writes("output"));
         let place = self.place(writer.map_or("output", |dispatch| &dispatch.entry));
         let mark = mark_of(self.passes.target("output").format);
-        if [r, g, b].iter().any(|it| it.to_bits() == mark.to_bits()) {
+        if [r, g, b]
+            .iter()
+            .any(|component| component.to_bits() == mark.to_bits())
+        {
             let [width, height] = self.size;
             return place.refuse(format!(
                 "leaves pixel ({x}, {y}) of the output unwritten; every pixel of {width}x{height} must be written"
@@ -231,7 +239,7 @@ impl<'g> Blur<'g> {
     fn upload_layers(&self, input: &Input, before: &Input) -> Result<(), FilterError> {
         let convention = &self.filter().convention;
         let texels = |layer: &str, input: &Input| {
-            let velocity = |own| velocity_texels(convention, input, own);
+            let velocity = |image| velocity_texels(convention, input, image);
             let is_there = "a checked frame has what the filter reads";
             match layer {
                 "velocity" => velocity(input.velocity),
@@ -245,15 +253,15 @@ impl<'g> Blur<'g> {
             .filter()
             .history
             .iter()
-            .filter(|it| **it != History::Color);
-        let history = history.map(|it| (it.texture(), it.input(), before));
+            .filter(|history| **history != History::Color);
+        let history = history.map(|history| (history.texture(), history.input(), before));
         let further = self.filter().further_inputs();
-        let own = ["velocity", "depth"].into_iter().chain(further);
-        let own = own.map(|layer| (layer, layer, input));
+        let current = ["velocity", "depth"].into_iter().chain(further);
+        let current = current.map(|layer| (layer, layer, input));
         self.gpu.catch_errors(self.place("upload"), || {
             let frame = FrameValues::of(input, convention);
             self.passes.upload_frame(self.gpu, frame);
-            for (texture, layer, input) in own.chain(history) {
+            for (texture, layer, input) in current.chain(history) {
                 let target = self.passes.target(texture);
                 let texels = self.origin().order_rows(texels(layer, input), self.size[1]);
                 self.gpu.upload(target, &texels);

@@ -80,7 +80,7 @@ impl BoundPasses {
     /// Copies the mark to the output if every dispatch that writes it is wanted. Pixels that keep
     /// the mark were not written.
     pub fn mark_output(&self, gpu: &Gpu, is_wanted: impl Fn(&Dispatch) -> bool) {
-        let mut writers = (self.dispatches.iter()).filter(|it| it.writes("output"));
+        let mut writers = (self.dispatches.iter()).filter(|dispatch| dispatch.writes("output"));
         if writers.all(is_wanted) {
             gpu.copy(&self.mark, &self.first_output);
         }

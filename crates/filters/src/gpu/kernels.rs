@@ -28,7 +28,7 @@ pub struct Kernels<'g> {
     /// Values of specialisation constants that the filter's shaders have: those of the first
     /// preset.
     constants: Vec<Constants>,
-    /// Kernels for those, then for other values of specialisation constants.
+    /// Kernels for these constants, then for other values of them.
     specialised: Mutex<Vec<Arc<Specialised>>>,
 }
 
@@ -68,7 +68,7 @@ impl<'g> Kernels<'g> {
                 reason: "it is a command and has no kernels that an adapter could run".into(),
             });
         }
-        // An earlier filter may have lost it.
+        // An earlier filter may have lost the device.
         gpu.reopen_if_lost()?;
         let constants = list_all_constants(filter, &filter.settings(None)?);
         let first = compile(gpu, filter.clone(), constants.clone(), None)?;
@@ -97,8 +97,8 @@ impl<'g> Kernels<'g> {
         };
         let mut filter = self.filter.clone();
         let changed = constants.iter().zip(&self.constants);
-        for (pass, (own, cached)) in self.filter.passes.iter().zip(changed) {
-            let Some(shader) = pass.shader.as_ref().filter(|_| own != cached) else {
+        for (pass, (values, cached)) in self.filter.passes.iter().zip(changed) {
+            let Some(shader) = pass.shader.as_ref().filter(|_| values != cached) else {
                 continue;
             };
             for (stage, index) in shader.stages().iter().zip(&pass.shaders) {

@@ -29,8 +29,8 @@ impl<'a> Levels<'a> {
     ) -> Result<Self, String> {
         let (shader, entry) = (filter.shader(pass), filter.entry_point(pass));
         let evaluate = |level: &Expression| match level.evaluate(value).round() {
-            found if (0.0..=f64::from(u16::MAX)).contains(&found) => Ok(found as u32),
-            found => Err(format!("level = {found}; allowed: from 0")),
+            level if (0.0..=f64::from(u16::MAX)).contains(&level) => Ok(level as u32),
+            level => Err(format!("level = {level}; allowed: from 0")),
         };
         let mut variables = BTreeMap::new();
         let mut written = Vec::new();

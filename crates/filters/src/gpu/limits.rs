@@ -27,7 +27,7 @@ impl Limits {
             owner: "the lowest common limits, those that WebGPU promises everywhere".into(),
             limits: wgpu::Limits::default(),
             interpolates_floats: false,
-            // Most of those that WebGPU does not promise are there.
+            // WebGPU promises few of these, but adapters have most of them.
             stored_formats: Format::ALL.to_vec(),
             packs_halves: true,
             has_border: false,
@@ -92,7 +92,7 @@ impl Limits {
             .variables
             .iter()
             .map(|index| shader.variables[*index].binding);
-        let found = [
+        let reasons = [
             self.find_broken_size(entry.workgroup_size),
             self.find_unstored(shader, entry),
             self.find_lacking(shader, entry),
@@ -121,7 +121,7 @@ impl Limits {
                 "number the bindings from 1",
             ),
         ];
-        found.into_iter().flatten().next()
+        reasons.into_iter().flatten().next()
     }
 
     /// Describes the first texture that a shader stores in a format that the adapter cannot store.
@@ -138,7 +138,7 @@ impl Limits {
         let allowed = self
             .stored_formats
             .iter()
-            .filter(|it| it.kind() == format.kind());
+            .filter(|candidate| candidate.kind() == format.kind());
         let allowed: Vec<&str> = allowed.map(|format| format.name()).collect();
         Some(format!(
             "stores \"{name}\" as {}, not allowed by {}; give the texture one of {}",
@@ -176,7 +176,7 @@ impl Limits {
         let limits = &self.limits;
         let [along_x, along_y, along_z] = [x, y, z].map(u64::from);
         let all = along_x * along_y * along_z;
-        let mut found = [
+        let mut counts = [
             (
                 all,
                 limits.max_compute_invocations_per_workgroup,
@@ -187,18 +187,18 @@ impl Limits {
             (along_z, limits.max_compute_workgroup_size_z, "along z"),
         ]
         .into_iter();
-        let broken = found.find_map(|(found, allowed, place)| {
+        let broken = counts.find_map(|(count, allowed, place)| {
             let what = format!("invocations {place}");
-            self.exceed(found, allowed, &what, "make @workgroup_size smaller")
+            self.exceed(count, allowed, &what, "make @workgroup_size smaller")
         });
         broken.map(|reason| format!("@workgroup_size({x}, {y}, {z}): {reason}"))
     }
 
     /// Describes a number above its limit.
-    fn exceed(&self, found: u64, allowed: u32, what: &str, way_out: &str) -> Option<String> {
+    fn exceed(&self, count: u64, allowed: u32, what: &str, way_out: &str) -> Option<String> {
         let owner = &self.owner;
-        (found > u64::from(allowed))
-            .then(|| format!("{found} {what}; allowed: at most {allowed} by {owner}; {way_out}"))
+        (count > u64::from(allowed))
+            .then(|| format!("{count} {what}; allowed: at most {allowed} by {owner}; {way_out}"))
     }
 }
 

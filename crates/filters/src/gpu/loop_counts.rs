@@ -61,7 +61,7 @@ impl LoopCounts {
     fn refuse(&self, gpu: &Gpu, place: Place, count: u32) -> FilterError {
         let LoopLimit { iterations, lanes } = self.limit;
         let adapter = &gpu.adapter.name;
-        let found = if count >= iterations {
+        let reason = if count >= iterations {
             "its loops were ended early, so the picture is wrong".to_owned()
         } else {
             format!(
@@ -70,7 +70,7 @@ impl LoopCounts {
             )
         };
         place.refuse(format!(
-            "{found}: adapter \"{adapter}\" ends all loops of an invocation after {iterations} iterations in total; \
+            "{reason}: adapter \"{adapter}\" ends all loops of an invocation after {iterations} iterations in total; \
              allowed here: fewer than {} iterations; divide the work among more invocations or passes, or choose \
              another adapter",
             self.limit.safe()

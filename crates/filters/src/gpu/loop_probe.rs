@@ -52,16 +52,16 @@ pub(super) fn find_loop_limit(gpu: &Gpu) -> Result<Option<u32>, FilterError> {
                 cache: None,
             });
         let buffer = |usage| gpu.create_buffer(place.pass, 8, usage | wgpu::BufferUsages::COPY_DST);
-        let found = buffer(wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC);
+        let storage = buffer(wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC);
         let readable = buffer(wgpu::BufferUsages::MAP_READ);
         gpu.queue()
-            .write_buffer(&found, 0, bytemuck::cast_slice(&[PROBED, 1]));
+            .write_buffer(&storage, 0, bytemuck::cast_slice(&[PROBED, 1]));
         let bind_group = gpu.device().create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some(place.pass),
             layout: &pipeline.get_bind_group_layout(0),
             entries: &[wgpu::BindGroupEntry {
                 binding: 0,
-                resource: found.as_entire_binding(),
+                resource: storage.as_entire_binding(),
             }],
         });
         let mut encoder = gpu.device().create_command_encoder(&Default::default());
@@ -70,7 +70,7 @@ pub(super) fn find_loop_limit(gpu: &Gpu) -> Result<Option<u32>, FilterError> {
         pass.set_bind_group(0, &bind_group, &[]);
         pass.dispatch_workgroups(1, 1, 1);
         drop(pass);
-        encoder.copy_buffer_to_buffer(&found, 0, &readable, 0, 8);
+        encoder.copy_buffer_to_buffer(&storage, 0, &readable, 0, 8);
         gpu.queue().submit([encoder.finish()]);
         readable
     })?;

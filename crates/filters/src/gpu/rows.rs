@@ -5,8 +5,8 @@ use frame::Raster;
 use crate::filter::Origin;
 
 impl Origin {
-    /// Puts the rows of a picture, of which there are `count`, in the order in which a texture has
-    /// them, and back.
+    /// Puts the `count` rows of a picture in the order of a texture, and those of a texture in the
+    /// order of a picture.
     pub(super) fn order_rows<T: Clone>(self, pixels: Vec<T>, count: u32) -> Vec<T> {
         match self {
             Self::TopLeft => pixels,

@@ -78,11 +78,11 @@ fn find_divisors(
         (None, _) => f64::from(size[1]),
     };
     let [width, height] = divisors.each_ref().map(|divisor| {
-        let found = divisor.evaluate(&value);
-        let is_allowed = found.fract() == 0.0 && (1.0..=f64::from(u32::MAX)).contains(&found);
-        is_allowed.then_some(found as u32).ok_or_else(|| {
+        let side = divisor.evaluate(&value);
+        let is_allowed = side.fract() == 0.0 && (1.0..=f64::from(u32::MAX)).contains(&side);
+        is_allowed.then_some(side as u32).ok_or_else(|| {
             format!(
-                "divided_by of texture \"{}\" is {found}; allowed: whole numbers from 1; round it with ceil(), and keep it \
+                "divided_by of texture \"{}\" is {side}; allowed: whole numbers from 1; round it with ceil(), and keep it \
                  above 0 with max()",
                 texture.name
             )
@@ -137,9 +137,9 @@ impl Targets {
             reason,
         };
         let planned = plan_targets(filter, settings, size).map_err(refuse)?;
-        let sizes = planned.iter().map(|it| {
-            let texels = count_texels(it.size[0], it.size[1], 0..it.mips);
-            texels * it.texture.format.texel_bytes() * it.copies as u64
+        let sizes = planned.iter().map(|plan| {
+            let texels = count_texels(plan.size[0], plan.size[1], 0..plan.mips);
+            texels * plan.texture.format.texel_bytes() * plan.copies as u64
         });
         let bytes: u64 = sizes.sum();
         if bytes > MAX_TEXTURE_BYTES {
@@ -149,11 +149,11 @@ impl Targets {
             )));
         }
         gpu.catch_errors(filter.place("textures"), || {
-            let made = planned.into_iter().map(|it| {
-                let Texture { name, format, .. } = it.texture;
+            let made = planned.into_iter().map(|plan| {
+                let Texture { name, format, .. } = plan.texture;
                 let usage = find_usage(filter, &name);
-                let make = |_| gpu.create_target(&name, it.size, it.mips, format, usage);
-                let copies = (0..it.copies).map(make).collect();
+                let make = |_| gpu.create_target(&name, plan.size, plan.mips, format, usage);
+                let copies = (0..plan.copies).map(make).collect();
                 (name, copies)
             });
             Self(made.collect())

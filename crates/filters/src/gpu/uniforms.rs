@@ -53,8 +53,8 @@ impl FrameValues {
 
     /// Returns a value by name.
     pub fn value(&self, name: &str) -> f64 {
-        let found = self.find(name);
-        found.unwrap_or_else(|| unreachable!("a shader was refused for the unknown value {name}"))
+        let value = self.find(name);
+        value.unwrap_or_else(|| unreachable!("a shader was refused for the unknown value {name}"))
     }
 
     /// Finds a value by name; none if the frame or the convention lacks it.
@@ -134,8 +134,12 @@ mod tests {
         };
         let frame = FrameValues::of(&input, &Convention::default()).of_run(2, 3);
         let numbers = shader.blocks[0].numbers.iter();
-        let found =
-            numbers.map(|number| (number.offset, number.value.evaluate(&|it| frame.value(it))));
+        let values = numbers.map(|number| {
+            (
+                number.offset,
+                number.value.evaluate(&|name| frame.value(name)),
+            )
+        });
         // Columns of a mat4x3 are filled up to four numbers, and begin at a multiple of 16 bytes.
         let columns =
             (0..4).flat_map(|x| (0..3).map(move |y| (32 + 16 * x + 4 * y, x + 4 * y + 1)));
@@ -146,6 +150,6 @@ mod tests {
             .map(|(at, value)| (at, f64::from(value)));
         let mut expected: Vec<(u32, f64)> = expected.chain([(8, 0.5)]).collect();
         expected.sort_by_key(|(at, _)| *at);
-        assert_eq!(found.collect::<Vec<_>>(), expected);
+        assert_eq!(values.collect::<Vec<_>>(), expected);
     }
 }

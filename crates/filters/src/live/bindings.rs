@@ -35,7 +35,8 @@ pub(super) fn list_bindings(shader: &Shader, entry: &EntryPoint) -> Vec<Value> {
             Role::Block(block) => {
                 let block = &shader.blocks[block];
                 let numbers = block.numbers.iter();
-                let numbers = numbers.map(|it| json!([it.offset, it.kind, describe(&it.value)]));
+                let numbers = numbers
+                    .map(|number| json!([number.offset, number.kind, describe(&number.value)]));
                 json!({
                     "binding": binding,
                     "role": "block",
@@ -44,8 +45,8 @@ pub(super) fn list_bindings(shader: &Shader, entry: &EntryPoint) -> Vec<Value> {
                     "numbers": numbers.collect::<Vec<_>>(),
                 })
             }
-            Role::Sampler(it) => json!({
-                "binding": binding, "role": "sampler", "filter": it.filter, "mip": it.mip_filter, "wrap": it.wrap,
+            Role::Sampler(sampler) => json!({
+                "binding": binding, "role": "sampler", "filter": sampler.filter, "mip": sampler.mip_filter, "wrap": sampler.wrap,
             }),
         }
     };

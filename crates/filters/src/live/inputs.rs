@@ -11,12 +11,12 @@ use crate::{Convention, DepthKind, Filter, Input};
 /// sequence itself. Each has one expression per component of the frame's input, of `frame.value`
 /// and of [`list_values`]; none if the filter gets the frame's own numbers.
 pub(super) fn list_inputs(filter: &Filter) -> Vec<Value> {
-    let own = INPUTS.into_iter().chain(filter.further_inputs());
-    let own = own.map(|name| (name, name));
+    let current = INPUTS.into_iter().chain(filter.further_inputs());
+    let current = current.map(|name| (name, name));
     let before = (filter.history.iter()).map(|history| (history.texture(), history.input()));
     let convention = &filter.convention;
     let scaled = |factor: &str| json!(["*", "frame.value", factor]);
-    own.chain(before)
+    current.chain(before)
         .map(|(name, from)| {
             let convert = match from {
                 _ if *convention == Convention::default() => Value::Null,

@@ -53,7 +53,7 @@ impl Filter {
                 "name": preset.name, "doc": preset.doc, "values": settings.values, "reference_width": reference_width,
             })
         };
-        let in_pixels = |own: &Parameter| own.unit == Some(Unit::Pixels);
+        let in_pixels = |parameter: &Parameter| parameter.unit == Some(Unit::Pixels);
         Ok(json!({
             "name": self.name,
             "toml": rewrite(self, toml),
@@ -76,7 +76,7 @@ impl Filter {
     /// Says what pages lack that the filter needs.
     fn find_unsupported(&self) -> Option<&'static str> {
         let mut variables = self.shaders.iter().flat_map(|shader| &shader.variables);
-        let is_bordered = |variable: &Variable| matches!(variable.role, Role::Sampler(it) if it.wrap == Wrap::Border);
+        let is_bordered = |variable: &Variable| matches!(variable.role, Role::Sampler(sampler) if sampler.wrap == Wrap::Border);
         if variables.any(is_bordered) {
             Some("A browser cannot run this filter: WebGPU's samplers have no border.")
         } else if self.convention.origin() == Origin::BottomLeft {
@@ -98,7 +98,8 @@ impl Filter {
         let text = |value: &Value, name: &str| value[name].as_str().map(str::to_owned);
         let toml = text(&live, "toml").map(|text| ("filter.toml".to_owned(), text));
         let modules = live["modules"].as_array().into_iter().flatten();
-        let modules = modules.filter_map(|own| Some((text(own, "file")?, text(own, "wgsl")?)));
+        let modules =
+            modules.filter_map(|module| Some((text(module, "file")?, text(module, "wgsl")?)));
         Ok(toml.into_iter().chain(modules).collect())
     }
 
@@ -111,11 +112,14 @@ impl Filter {
             let of_run = ["iteration", "iterations"];
             let is_wanted = |name: &str| {
                 !of_run.contains(&name.strip_prefix(FRAME_PREFIX).unwrap_or(name))
-                    && self.parameters.iter().all(|own| own.name != name)
+                    && self
+                        .parameters
+                        .iter()
+                        .all(|parameter| parameter.name != name)
             };
             for name in list_names(expression)
                 .into_iter()
-                .filter(|it| is_wanted(it))
+                .filter(|name| is_wanted(name))
             {
                 let value = frame.find(name);
                 let value = value.ok_or_else(|| format!("The frame does not say {name}."))?;
@@ -138,7 +142,11 @@ impl Filter {
         }
         let levels = self.passes.iter().filter_map(|pass| pass.shader.as_ref());
         let levels = levels.flat_map(|shader| &shader.level);
-        let divisors = self.textures.iter().flat_map(|it| &it.divided_by).flatten();
+        let divisors = self
+            .textures
+            .iter()
+            .flat_map(|texture| &texture.divided_by)
+            .flatten();
         levels.chain(divisors).try_for_each(add)?;
         Ok(known)
     }

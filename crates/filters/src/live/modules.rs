@@ -35,7 +35,10 @@ pub(super) fn file_name(filter: &Filter, index: usize) -> String {
 pub(super) fn list_modules(filter: &Filter) -> Result<Vec<Value>, String> {
     let mut modules = Vec::new();
     for (index, shader) in filter.shaders.iter().enumerate() {
-        let pass = filter.passes.iter().find(|it| it.shaders.contains(&index));
+        let pass = filter
+            .passes
+            .iter()
+            .find(|pass| pass.shaders.contains(&index));
         let Some(pass) = pass.filter(|pass| pass.shader.is_some()) else {
             let text = read_text(filter, &shader.path).map_err(|error| error.to_string())?;
             modules.push(json!({ "file": file_name(filter, index), "wgsl": text.trim_end(), "appended": COMMON }));

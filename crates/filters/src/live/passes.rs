@@ -15,19 +15,19 @@ use crate::{Filter, Pass};
 /// Describes a pass. Adds the module of its triangle if it needs one.
 pub(super) fn describe_pass(filter: &Filter, pass: &Pass, modules: &mut Vec<Value>) -> Value {
     let (shader, entry) = (filter.shader(pass), filter.entry_point(pass));
-    let own = pass.shader.as_ref();
+    let pass_shader = pass.shader.as_ref();
     json!({
         "entry": pass.entry,
         "stage": if entry.is_fragment() { "fragment" } else { "compute" },
         "module": pass.shaders[0],
-        "kernel": own.map_or(&entry.name[..], |_| ENTRY),
+        "kernel": pass_shader.map_or(&entry.name[..], |_| ENTRY),
         "vertex": describe_vertex(filter, pass, modules),
         "workgroup": entry.workgroup_size[..2],
         "workgroup_per_texel": pass.workgroup_per_texel,
         "over": pass.over,
         "repeat": pass.repeat,
         "targets": pass.list_targets().collect::<Vec<_>>(),
-        "level": own.and_then(|own| own.level.as_ref()).map(describe),
+        "level": pass_shader.and_then(|pass_shader| pass_shader.level.as_ref()).map(describe),
         "keeps_unwritten": entry.keeps_unwritten,
         "exchanged": entry.exchanged_textures().collect::<Vec<_>>(),
         "writes": entry.writes,
@@ -43,9 +43,12 @@ pub(super) fn list_features(filter: &Filter) -> BTreeSet<&'static str> {
             features.insert("rg11b10ufloat-renderable");
         }
         let stages = filter.stages(pass).into_iter();
-        for (shader, entry, index) in stages
-            .flat_map(|(shader, entry)| entry.variables.iter().map(move |it| (shader, entry, it)))
-        {
+        for (shader, entry, index) in stages.flat_map(|(shader, entry)| {
+            entry
+                .variables
+                .iter()
+                .map(move |index| (shader, entry, index))
+        }) {
             let variable = &shader.variables[*index];
             let is_interpolated = entry.interpolated.contains(index);
             match variable.role {

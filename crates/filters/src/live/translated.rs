@@ -40,13 +40,13 @@ pub(super) fn rewrite(filter: &Filter, text: String) -> String {
 fn describe_pass(filter: &Filter, pass: &Pass) -> Table {
     let stages = filter.stages(pass);
     let file = |stage: usize| file_name(filter, pass.shaders[stage]);
-    let mut own = json!({ "shader": file(0), "entry": ENTRY, "stage": "compute" });
+    let mut description = json!({ "shader": file(0), "entry": ENTRY, "stage": "compute" });
     if stages[0].1.is_fragment() {
-        own["stage"] = json!("fragment");
+        description["stage"] = json!("fragment");
     }
     if stages.len() > 1 {
-        own["vertex"] = json!(ENTRY);
-        own["vertex_shader"] = json!(file(1));
+        description["vertex"] = json!(ENTRY);
+        description["vertex_shader"] = json!(file(1));
     }
     let bindings = stages
         .iter()
@@ -58,27 +58,31 @@ fn describe_pass(filter: &Filter, pass: &Pass) -> Table {
                 .map(|index| &shader.variables[*index]);
             variables.map(move |variable| describe_binding(shader, group, variable))
         });
-    own["binding"] = bindings.collect();
-    let table = Table::try_from(own);
+    description["binding"] = bindings.collect();
+    let table = Table::try_from(description);
     table.expect("no value is missing")
 }
 
 fn describe_binding(shader: &Shader, group: usize, variable: &Variable) -> Value {
-    let mut own = json!({ "group": group, "binding": variable.binding });
+    let mut description = json!({ "group": group, "binding": variable.binding });
     if let Some(level) = &variable.level {
-        own["level"] = write(level);
+        description["level"] = write(level);
     }
     match variable.role {
-        Role::Read(_) | Role::Write(_) => own["texture"] = json!(variable.resource),
-        Role::Sampler(it) => {
-            own["sampler"] = json!(it.filter);
-            own["mip_filter"] = json!(it.mip_filter);
-            own["wrap"] = json!(it.wrap);
+        Role::Read(_) | Role::Write(_) => description["texture"] = json!(variable.resource),
+        Role::Sampler(sampler) => {
+            description["sampler"] = json!(sampler.filter);
+            description["mip_filter"] = json!(sampler.mip_filter);
+            description["wrap"] = json!(sampler.wrap);
         }
         Role::Block(block) => {
-            let mut globals = shader.module.global_variables.iter().map(|(_, own)| own);
+            let mut globals = shader
+                .module
+                .global_variables
+                .iter()
+                .map(|(_, global)| global);
             let at = |binding: &naga::ResourceBinding| binding.binding == variable.binding;
-            let global = globals.find(|own| own.binding.as_ref().is_some_and(at));
+            let global = globals.find(|global| global.binding.as_ref().is_some_and(at));
             let ty = global.expect("the module has the block").ty;
             let members = list_members(&shader.module, ty, &|_, _| 0).unwrap_or_default();
             let starts: Vec<u32> = members.iter().map(|member| member.offset).collect();
@@ -87,11 +91,11 @@ fn describe_binding(shader: &Shader, group: usize, variable: &Variable) -> Value
             for (at, start) in starts.iter().enumerate() {
                 let end = starts.get(at + 1).copied().unwrap_or(u32::MAX);
                 let numbers = shader.blocks[block].numbers.iter();
-                let numbers = numbers.filter(|it| (*start..end).contains(&it.offset));
+                let numbers = numbers.filter(|number| (*start..end).contains(&number.offset));
                 let values = numbers.map(|number| write(&number.value));
-                own["values"][format!("@{start}")] = values.collect();
+                description["values"][format!("@{start}")] = values.collect();
             }
         }
     }
-    own
+    description
 }

@@ -25,10 +25,13 @@ impl Filter {
     /// Checks the variables of the WGSL file, which are bound by name, and the uniform of
     /// parameters.
     fn check_kernels(&self, kernels: &Shader) -> Result<(), FilterError> {
-        let mut uniforms = kernels.variables.iter().filter_map(|it| match it.role {
-            Role::Block(block) => Some((it, &kernels.blocks[block])),
-            _ => None,
-        });
+        let mut uniforms = kernels
+            .variables
+            .iter()
+            .filter_map(|variable| match variable.role {
+                Role::Block(block) => Some((variable, &kernels.blocks[block])),
+                _ => None,
+            });
         let uniform = uniforms.find(|(variable, _)| variable.name == "parameters");
         let members = uniform.map_or(&[][..], |(_, block)| &block.numbers);
         let line = uniform.and_then(|(variable, _)| variable.line);
@@ -70,15 +73,15 @@ impl Filter {
                 );
                 return Err(self.refuse_manifest(declared, reason));
             };
-            let found = (name(member), member.kind, member.offset as usize);
-            if wanted != found {
+            let uniform_member = (name(member), member.kind, member.offset as usize);
+            if wanted != uniform_member {
                 let reason = format!(
                     "member {} of the uniform parameters is {}: {} at byte {}; {manifest}:{declared} declares {}: {} at byte \
                      {} there",
                     index + 1,
-                    found.0,
-                    found.1,
-                    found.2,
+                    uniform_member.0,
+                    uniform_member.1,
+                    uniform_member.2,
                     wanted.0,
                     wanted.1,
                     wanted.2,
@@ -99,7 +102,7 @@ impl Filter {
         }
     }
 
-    /// Refuses a switch of the camera's motion, if no kernel reads that.
+    /// Refuses a switch of the camera's motion if no kernel reads that motion.
     fn check_switches_of_camera(&self) -> Result<(), FilterError> {
         let reads = self.shaders.iter().any(|shader| shader.reads_reprojection);
         let parameters = self.parameters.iter().zip(&self.lines.parameters);

@@ -23,7 +23,11 @@ pub(super) fn check_targets(
             targets.join(", ")
         ));
     }
-    let size = |name: &String| filter.texture(name).and_then(|it| it.divided_by.clone());
+    let size = |name: &String| {
+        filter
+            .texture(name)
+            .and_then(|texture| texture.divided_by.clone())
+    };
     if let Some(other) = targets.iter().find(|name| size(name) != size(&targets[0])) {
         return Err(format!(
             "targets \"{}\" and \"{other}\" have different sizes; allowed: targets of one size",
@@ -44,7 +48,7 @@ pub(super) fn check_targets(
 
 /// Refuses a vertex stage that wants vertices, or that leaves out what the fragment shader reads.
 pub(super) fn check_vertex(vertex: &EntryPoint, fragment: &EntryPoint) -> Result<(), String> {
-    let attributes: Vec<u32> = vertex.inputs.iter().map(|it| it.location).collect();
+    let attributes: Vec<u32> = vertex.inputs.iter().map(|input| input.location).collect();
     if !attributes.is_empty() {
         return Err(format!(
             "vertex shader \"{}\" reads attributes at locations {:?}; there are no vertex buffers; allowed: one that makes \
@@ -52,7 +56,7 @@ pub(super) fn check_vertex(vertex: &EntryPoint, fragment: &EntryPoint) -> Result
             vertex.name, attributes
         ));
     }
-    let mut read = fragment.inputs.iter().map(|it| it.location);
+    let mut read = fragment.inputs.iter().map(|input| input.location);
     match read.find(|location| !vertex.locations.contains(location)) {
         Some(missing) => Err(format!(
             "the fragment shader reads location {missing}; vertex shader \"{}\" writes locations {:?}; allowed: one that \

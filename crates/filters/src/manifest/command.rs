@@ -49,10 +49,10 @@ fn check_words(words: &[String], parameters: &[Parameter]) -> Result<(), String>
             "{{{name}}} is already a value of the frame; rename the parameter"
         ));
     }
-    let mut found = Vec::new();
+    let mut placeholders = Vec::new();
     for word in arguments {
         fill_placeholders(word, |name| {
-            found.push(name.to_owned());
+            placeholders.push(name.to_owned());
             let known = PLACEHOLDERS.contains(&name) || names.contains(&name);
             known.then(String::new)
         })
@@ -72,7 +72,7 @@ fn check_words(words: &[String], parameters: &[Parameter]) -> Result<(), String>
     ];
     let declared = names.iter().map(|name| (*name, "a declared parameter"));
     let mut needed = files.into_iter().chain(declared);
-    match needed.find(|(name, _)| !found.iter().any(|word| word == name)) {
+    match needed.find(|(name, _)| !placeholders.iter().any(|word| word == name)) {
         None => Ok(()),
         Some((name, why)) => Err(format!("{{{name}}} is missing: it stands for {why}")),
     }

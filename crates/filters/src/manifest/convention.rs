@@ -53,7 +53,8 @@ pub(super) fn check_origin(
     convention: Option<&Spanned<Convention>>,
     filter: &Filter,
 ) -> Result<(), FilterError> {
-    let Some(convention) = convention.filter(|it| it.get_ref().origin() == Origin::BottomLeft)
+    let Some(convention) =
+        convention.filter(|convention| convention.get_ref().origin() == Origin::BottomLeft)
     else {
         return Ok(());
     };
@@ -69,7 +70,7 @@ pub(super) fn check_origin(
     match filter
         .textures
         .iter()
-        .find(|it| it.holds == Some(Holds::Places))
+        .find(|texture| texture.holds == Some(Holds::Places))
     {
         None => Ok(()),
         Some(texture) => refuse(&format!("the places in texture \"{}\" are", texture.name)),

@@ -139,20 +139,20 @@ fn read_time_limit(file: &File, limit: Option<&Spanned<f64>>) -> Result<f64, Fil
 /// Reads the inputs of the frame before, each at most once. A program gets none of them.
 fn read_history(file: &File, manifest: &Manifest) -> Result<Vec<History>, FilterError> {
     let mut history = Vec::new();
-    for own in &manifest.history {
+    for entry in &manifest.history {
         if manifest.command.is_some() {
             let reason =
                 "history: allowed for filters with kernels; a program keeps what it saw itself";
-            return Err(file.at(own, reason.into()));
+            return Err(file.at(entry, reason.into()));
         }
-        if history.contains(own.get_ref()) {
+        if history.contains(entry.get_ref()) {
             let reason = format!(
                 "history names \"{}\" twice; allowed: once",
-                own.get_ref().input()
+                entry.get_ref().input()
             );
-            return Err(file.at(own, reason));
+            return Err(file.at(entry, reason));
         }
-        history.push(*own.get_ref());
+        history.push(*entry.get_ref());
     }
     Ok(history)
 }

@@ -124,7 +124,11 @@ fn check_compiler(keys: &PassEntry, language: Language, path: &str) -> Result<()
             "shader_pass is for a .{SHADER_LAB} file of Unity; \"{path}\" is none"
         ));
     }
-    let known: Vec<&str> = language.compilers().iter().map(|it| it.program).collect();
+    let known: Vec<&str> = language
+        .compilers()
+        .iter()
+        .map(|compiler| compiler.program)
+        .collect();
     match keys.compiler.as_deref() {
         Some(compiler) if known.is_empty() => Err(format!(
             "compiler = \"{compiler}\"; {name} needs no compiler; leave it out"
@@ -190,10 +194,12 @@ fn read_vertex(
             "vertex and vertex_shader are for stage = \"fragment\"; a compute shader draws nothing";
         return Err(file.at(pass, reason.into()));
     }
-    let own = vertex_shader.as_ref();
-    let own = own.map(|path| read_file(file, "vertex_shader", path));
+    let vertex_file = vertex_shader.as_ref();
+    let vertex_file = vertex_file.map(|path| read_file(file, "vertex_shader", path));
     Ok(Some(VertexShader {
-        file: own.transpose()?.map_or(shader.to_owned(), |(path, _)| path),
+        file: vertex_file
+            .transpose()?
+            .map_or(shader.to_owned(), |(path, _)| path),
         entry: vertex.clone().unwrap_or_else(|| "main".to_owned()),
     }))
 }

@@ -114,9 +114,9 @@ fn read_divisors(entries: &[NumberEntry], filter: &Filter) -> Result<[Expression
     match &divisors.collect::<Result<Vec<_>, _>>()?[..] {
         [both] => Ok([both.clone(), both.clone()]),
         [width, height] => Ok([width.clone(), height.clone()]),
-        found => Err(format!(
+        divisors => Err(format!(
             "a list of {}; allowed: one divisor, or two for width and height",
-            found.len()
+            divisors.len()
         )),
     }
 }

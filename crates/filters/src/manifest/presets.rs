@@ -92,13 +92,13 @@ fn read_preset(
         })?;
         values.insert(name.clone(), value);
     }
-    let own = entry.reference_width.as_ref();
-    let own = read_reference_width(file, &named(""), own, parameters)?;
+    let width = entry.reference_width.as_ref();
+    let width = read_reference_width(file, &named(""), width, parameters)?;
     Ok(Preset {
         name: entry.name.clone(),
         doc,
         source: read_source(file, &entry.name, entry.source.as_ref())?,
-        reference_width: own.or(of_filter),
+        reference_width: width.or(of_filter),
         values,
         tuned: entry.tuned.clone(),
     })

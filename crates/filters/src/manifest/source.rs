@@ -69,8 +69,13 @@ pub(super) fn read_source(
     };
     Ok(Some(Source {
         code,
-        publication: publication.as_ref().map(|it| it.get_ref().clone()),
-        differs: differs.iter().map(|it| it.get_ref().clone()).collect(),
+        publication: publication
+            .as_ref()
+            .map(|publication| publication.get_ref().clone()),
+        differs: differs
+            .iter()
+            .map(|difference| difference.get_ref().clone())
+            .collect(),
     }))
 }
 

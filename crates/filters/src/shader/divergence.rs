@@ -17,16 +17,18 @@ pub(super) fn find_divergent_barrier(module: &Module, entry: &EntryPoint) -> Opt
         module,
         private: BTreeSet::new(),
         known: BTreeMap::new(),
-        found: None,
+        function_name: None,
     };
     loop {
         let before = search.private.len();
         search.known.clear();
         let arguments = entry.function.arguments.iter();
-        let arguments: Vec<bool> = arguments.map(|it| differs_at_start(&it.binding)).collect();
+        let arguments: Vec<bool> = arguments
+            .map(|argument| differs_at_start(&argument.binding))
+            .collect();
         search.search(&entry.function, &arguments, false);
         if search.private.len() == before {
-            return search.found;
+            return search.function_name;
         }
     }
 }
@@ -50,7 +52,7 @@ struct Search<'m> {
     /// Whether the result of a function differs, by its arguments and by whether all invocations
     /// call it.
     known: BTreeMap<(usize, Vec<bool>, bool), bool>,
-    found: Option<String>,
+    function_name: Option<String>,
 }
 
 impl Search<'_> {
@@ -136,7 +138,7 @@ impl Search<'_> {
             Statement::Continue => left.continued = divergent,
             Statement::Return { value } => {
                 left.returned = divergent;
-                visit.returns_other |= divergent || value.is_some_and(|it| visit.differs(it));
+                visit.returns_other |= divergent || value.is_some_and(|value| visit.differs(value));
             }
             Statement::Store { pointer, value }
                 if divergent || visit.differs(*value) || visit.differs(*pointer) =>
@@ -148,7 +150,10 @@ impl Search<'_> {
                 arguments,
                 result,
             } => {
-                let given: Vec<bool> = arguments.iter().map(|it| visit.differs(*it)).collect();
+                let given: Vec<bool> = arguments
+                    .iter()
+                    .map(|argument| visit.differs(*argument))
+                    .collect();
                 let key = (function.index(), given, divergent);
                 let differs = match self.known.get(&key) {
                     Some(differs) => *differs,
@@ -164,12 +169,14 @@ impl Search<'_> {
                 }
                 // It may store what differs through a pointer.
                 if divergent || key.1.contains(&true) {
-                    arguments.iter().for_each(|it| self.mark(visit, *it));
+                    arguments
+                        .iter()
+                        .for_each(|argument| self.mark(visit, *argument));
                 }
             }
             Statement::ControlBarrier(_) | Statement::WorkGroupUniformLoad { .. } if divergent => {
                 let name = visit.function.name.clone().unwrap_or_default();
-                self.found.get_or_insert(name);
+                self.function_name.get_or_insert(name);
             }
             _ => {}
         }

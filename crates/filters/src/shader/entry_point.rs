@@ -91,9 +91,9 @@ pub(crate) fn find_entry_points(
                 }
             }
             let function = &entry.function;
-            let outputs =
-                (function.result.iter()).flat_map(|it| Varying::list(module, it.ty, &it.binding));
-            let mut locations: Vec<u32> = outputs.map(|it| it.location).collect();
+            let outputs = (function.result.iter())
+                .flat_map(|result| Varying::list(module, result.ty, &result.binding));
+            let mut locations: Vec<u32> = outputs.map(|output| output.location).collect();
             locations.sort_unstable();
             EntryPoint {
                 name: entry.name.clone(),
@@ -103,7 +103,7 @@ pub(crate) fn find_entry_points(
                 interpolated: find_interpolated(info, handles, variables),
                 locations,
                 inputs: (function.arguments.iter())
-                    .flat_map(|it| Varying::list(module, it.ty, &it.binding))
+                    .flat_map(|argument| Varying::list(module, argument.ty, &argument.binding))
                     .collect(),
                 reads,
                 reads_whole,

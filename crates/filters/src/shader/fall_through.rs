@@ -23,17 +23,17 @@ pub(crate) fn settle_fall_through(module: &mut Module) {
 /// SPIR-V counts such labels as one, and jumps to a wrong case: to the falling one itself, without
 /// end.
 pub(crate) fn falls_through_wrongly(module: &Module) -> bool {
-    let mut found = false;
+    let mut falls_through = false;
     let functions = module.functions.iter().map(|(_, function)| function);
     let entries = module.entry_points.iter().map(|entry| &entry.function);
     for function in functions.chain(entries) {
         visit(&mut function.body.clone(), &mut |cases| {
             let is_label = |case: &SwitchCase| case.fall_through && case.body.is_empty();
             let mut after_label = cases.iter().skip_while(|case| !is_label(case));
-            found |= after_label.any(|case| case.fall_through && !case.body.is_empty());
+            falls_through |= after_label.any(|case| case.fall_through && !case.body.is_empty());
         });
     }
-    found
+    falls_through
 }
 
 /// Calls a function with the cases of each `switch`, inner ones first.

@@ -33,7 +33,7 @@ fn find_frame_index(module: &Module) -> Option<(Handle<GlobalVariable>, u32)> {
 
 /// Returns true if a function itself reads the member.
 fn reads(function: &Function, frame: Handle<GlobalVariable>, member: u32) -> bool {
-    let is_frame = |base: &Handle<Expression>| matches!(&function.expressions[*base], Expression::GlobalVariable(found) if *found == frame);
+    let is_frame = |base: &Handle<Expression>| matches!(&function.expressions[*base], Expression::GlobalVariable(variable) if *variable == frame);
     let mut expressions = function.expressions.iter();
     expressions.any(|(_, expression)| match expression {
         Expression::AccessIndex { base, index } => *index == member && is_frame(base),

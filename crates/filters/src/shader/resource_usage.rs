@@ -65,7 +65,7 @@ impl ResourceUsage {
 
     /// Refuses a kernel that no device could be expected to run. `kernel` is its name.
     pub fn check(&self, kernel: &str) -> Result<(), String> {
-        for (found, allowed, what, way_out) in [
+        for (count, allowed, what, way_out) in [
             (
                 self.invocation_bytes,
                 MAX_INVOCATION_BYTES,
@@ -79,9 +79,9 @@ impl ResourceUsage {
                 "put a loop in the place of calls, or divide the pass",
             ),
         ] {
-            if found > allowed {
+            if count > allowed {
                 return Err(format!(
-                    "kernel \"{kernel}\": {found} {what}; allowed: at most {allowed}; {way_out}"
+                    "kernel \"{kernel}\": {count} {what}; allowed: at most {allowed}; {way_out}"
                 ));
             }
         }

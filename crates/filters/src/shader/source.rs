@@ -64,11 +64,11 @@ impl<'a> Source<'a> {
 
     /// Refuses `override`, which nothing sets and which leaves sizes unknown.
     pub fn refuse_overrides(&self, module: &Module) -> Result<(), FilterError> {
-        let Some((handle, found)) = module.overrides.iter().next() else {
+        let Some((handle, constant)) = module.overrides.iter().next() else {
             return Ok(());
         };
         let line = module.overrides.get_span(handle).location(&self.text);
-        let name = found.name.as_deref().unwrap_or_default();
+        let name = constant.name.as_deref().unwrap_or_default();
         Err(self.at(
             Some(line.line_number as usize),
             format!("override \"{name}\" is set by nobody; allowed: const, or a [[parameter]]"),

@@ -35,7 +35,10 @@ impl Shader {
 
     /// Returns the format in which the shader stores a texture; none if it does not store it.
     pub fn stored_format(&self, texture: &str) -> Option<Format> {
-        let mut written = self.variables.iter().filter(|it| it.resource == texture);
+        let mut written = self
+            .variables
+            .iter()
+            .filter(|variable| variable.resource == texture);
         written.find_map(|variable| match variable.role {
             Role::Write(format) => Some(format),
             _ => None,

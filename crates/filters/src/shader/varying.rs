@@ -15,9 +15,10 @@ impl Varying {
     /// Lists the values of an argument or a result: itself, or its members.
     pub fn list(module: &Module, ty: Handle<Type>, binding: &Option<Binding>) -> Vec<Self> {
         let values = match &module.types[ty].inner {
-            TypeInner::Struct { members, .. } => {
-                members.iter().map(|it| (it.ty, &it.binding)).collect()
-            }
+            TypeInner::Struct { members, .. } => members
+                .iter()
+                .map(|member| (member.ty, &member.binding))
+                .collect(),
             _ => vec![(ty, binding)],
         };
         let read = |(ty, binding): (Handle<Type>, &Option<Binding>)| match *binding {
@@ -50,8 +51,8 @@ impl Varying {
     }
 }
 
-/// Interpolates what a vertex stage writes as the fragment shader reads it. Engines need only say
-/// it there; wgpu wants both to agree.
+/// Gives the values that a vertex stage writes the interpolation that the fragment shader declares.
+/// Engines declare it in the fragment shader alone; wgpu wants both to agree.
 pub(crate) fn follow_interpolation(vertex: &mut Module, read: &[Varying]) {
     let result = &vertex.entry_points[0].function.result;
     let Some(ty) = result.as_ref().map(|result| result.ty) else {
@@ -68,7 +69,7 @@ pub(crate) fn follow_interpolation(vertex: &mut Module, read: &[Varying]) {
             sampling,
             ..
         }) = &mut member.binding
-            && let Some(wanted) = read.iter().find(|it| it.location == *location)
+            && let Some(wanted) = read.iter().find(|varying| varying.location == *location)
         {
             (*interpolation, *sampling) = (wanted.interpolation, wanted.sampling);
         }

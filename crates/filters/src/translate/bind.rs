@@ -72,7 +72,8 @@ pub(super) fn bind(
 
 /// Makes storage buffers read-only; refuses those that the shader writes.
 fn narrow_buffers(path: &Path, module: &mut Module) -> Result<(), FilterError> {
-    let is_buffer = |it: &GlobalVariable| matches!(it.space, AddressSpace::Storage { .. });
+    let is_buffer =
+        |variable: &GlobalVariable| matches!(variable.space, AddressSpace::Storage { .. });
     if !(module.global_variables.iter()).any(|(_, variable)| is_buffer(variable)) {
         return Ok(());
     }
@@ -121,7 +122,7 @@ impl Binder<'_> {
             let is_split = owners.contains_key(place);
             let place = owners.get(place).unwrap_or(place);
             let mut bindings = self.shader.bindings.iter();
-            let binding = bindings.find(|it| explains(it, module, variable, place));
+            let binding = bindings.find(|binding| explains(binding, module, variable, place));
             self.bind(module, *handle, binding, is_split)
                 .map_err(|reason| self.refuse(module, variable, place, binding, &reason))?;
             let variable = &mut module.global_variables[*handle];
@@ -196,7 +197,7 @@ impl Binder<'_> {
                 );
             }
         };
-        // What an image that is also written reads of the output is the content before the pass.
+        // An image that is read and written reads the output as it was before the pass.
         if !(is_split && resource == "output") {
             check_texture(self.filter, role, &resource)?;
         }

@@ -46,14 +46,16 @@ pub(super) fn list_installed(
     path: &Path,
 ) -> Result<Vec<&'static Compiler>, FilterError> {
     let known = language.compilers();
-    let is_chosen = |it: &&Compiler| shader.compiler.as_deref() == Some(it.program);
+    let is_chosen = |compiler: &&Compiler| shader.compiler.as_deref() == Some(compiler.program);
     // A vertex stage may have another language.
     let wanted: Vec<&Compiler> = match known.iter().find(is_chosen) {
         Some(chosen) => vec![chosen],
         None => known.iter().collect(),
     };
     let installed = wanted.iter().copied();
-    let installed: Vec<&Compiler> = installed.filter(|it| is_installed(it.program)).collect();
+    let installed: Vec<&Compiler> = installed
+        .filter(|compiler| is_installed(compiler.program))
+        .collect();
     if !installed.is_empty() {
         return Ok(installed);
     }
@@ -61,7 +63,7 @@ pub(super) fn list_installed(
         Language::Wesl => ("WGSL", "wgsl"),
         _ => ("SPIR-V", "spv"),
     };
-    let programs: Vec<&str> = wanted.iter().map(|it| it.program).collect();
+    let programs: Vec<&str> = wanted.iter().map(|compiler| compiler.program).collect();
     Err(FilterError::in_file(
         path,
         None,
@@ -199,7 +201,7 @@ fn find_outcome(program: &str, end: &End, output: &Path, memory: u64) -> Option<
         End::TooLarge => format!(
             "{program} wrote more than {MAX_MODULE_BYTES} bytes, the most that a module may have, and was stopped"
         ),
-        // The system kills a program; an allocation that fails ends most compilers like this, too.
+        // No exit code means a signal: the system killed the compiler, or an allocation failed.
         End::Exited(status) if status.code().is_none() => {
             let most = memory >> 20;
             format!(

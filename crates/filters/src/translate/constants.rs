@@ -62,7 +62,9 @@ pub(super) fn set_constants(
     }
     size_workgroups(words, &constants.values);
     let number = Decoration::SpecId as u32;
-    (words.instructions).retain(|it| it.op != Op::Decorate || it.operands.get(1) != Some(&number));
+    (words.instructions).retain(|instruction| {
+        instruction.op != Op::Decorate || instruction.operands.get(1) != Some(&number)
+    });
     Ok(())
 }
 
@@ -132,7 +134,7 @@ impl Constants<'_> {
             return Ok(None);
         };
         let scalar = self.types.get(ty).copied();
-        let own = match (op, rest) {
+        let default = match (op, rest) {
             (Op::ConstantTrue | Op::SpecConstantTrue, []) => Value::Scalar(1),
             (Op::ConstantFalse | Op::SpecConstantFalse, []) => Value::Scalar(0),
             (Op::Constant | Op::SpecConstant, [bits]) if scalar.is_some() => Value::Scalar(*bits),
@@ -156,7 +158,7 @@ impl Constants<'_> {
         };
         let value = match (scalar, self.find_given(*id)) {
             (Some(scalar), Some((name, given))) => Value::Scalar(encode(scalar, name, given)?),
-            _ => own,
+            _ => default,
         };
         let replaced = match (&value, scalar) {
             (Value::Scalar(0), Some(Scalar::Bool)) => {
@@ -181,7 +183,7 @@ impl Constants<'_> {
     /// Finds the value that is given for a specialisation constant.
     fn find_given(&self, id: u32) -> Option<(&str, f64)> {
         let names = self.called.get(&id)?;
-        let is_own = |name: &str| names.iter().flatten().any(|own| own == name);
+        let is_own = |name: &str| names.iter().flatten().any(|alias| alias == name);
         let given = self.given.iter().find(|(name, _)| is_own(name));
         given.map(|(name, value)| (&name[..], *value))
     }
@@ -279,9 +281,11 @@ fn compute(operation: Op, operands: &[u32]) -> Option<u32> {
         Op::ISub => Some(a.wrapping_sub(b)),
         Op::IMul => Some(a.wrapping_mul(b)),
         Op::UDiv => a.checked_div(b),
-        Op::SDiv => signed_a.checked_div(signed_b).map(|it| it as u32),
+        Op::SDiv => signed_a
+            .checked_div(signed_b)
+            .map(|quotient| quotient as u32),
         Op::UMod => a.checked_rem(b),
-        Op::SRem => signed_a.checked_rem(signed_b).map(|it| it as u32),
+        Op::SRem => signed_a.checked_rem(signed_b).map(|rest| rest as u32),
         // The result has the sign of the divisor.
         Op::SMod => {
             let rest = signed_a.checked_rem(signed_b)?;
@@ -289,7 +293,7 @@ fn compute(operation: Op, operands: &[u32]) -> Option<u32> {
             Some(rest.wrapping_add(if is_other { signed_b } else { 0 }) as u32)
         }
         Op::ShiftRightLogical => a.checked_shr(b),
-        Op::ShiftRightArithmetic => signed_a.checked_shr(b).map(|it| it as u32),
+        Op::ShiftRightArithmetic => signed_a.checked_shr(b).map(|shifted| shifted as u32),
         Op::ShiftLeftLogical => a.checked_shl(b),
         Op::BitwiseOr => Some(a | b),
         Op::BitwiseXor => Some(a ^ b),

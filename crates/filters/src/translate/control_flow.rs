@@ -29,14 +29,14 @@ pub(super) fn check_control_flow(
     let Some((mark, _)) = private.next_back() else {
         return Ok(());
     };
-    let mut found = BTreeMap::new();
+    let mut marks = BTreeMap::new();
     for (_, function) in module.functions.iter() {
-        Reader::new(&module, function, mark).list_marks(&mut found);
+        Reader::new(&module, function, mark).list_marks(&mut marks);
     }
     for branches in Branches::list(words) {
         let reached = branches.list_reached();
         let keeps = |block: &u32| {
-            let nexts: Option<&Vec<Next>> = found.get(block);
+            let nexts: Option<&Vec<Next>> = marks.get(block);
             nexts.is_some_and(|nexts| nexts.iter().all(|next| next.is(&branches.exits[block])))
         };
         if !(reached.iter()).all(|block| branches.exits.contains_key(block) && keeps(block)) {

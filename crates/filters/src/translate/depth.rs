@@ -24,7 +24,7 @@ pub(super) fn read_depth_as_floats(module: &Module, text: &str) -> Option<String
     for function in functions.chain(entries) {
         list_reads(module, function, text, &mut edits)?;
     }
-    // From the end on, places before an edit hold.
+    // The last edit comes first, so that the places of the others stay valid.
     edits.sort_by_key(|(place, _)| std::cmp::Reverse(place.start));
     let mut rewritten = text.to_owned();
     for (place, new) in edits {
@@ -145,8 +145,8 @@ mod tests {
     #[test]
     fn brackets_within_comments_do_not_count() {
         let text = "textureLoad (depth, /* ) */ at((1)), // )\n 0) + (2)";
-        let found = find_brackets(text, "textureLoad".len()).unwrap();
-        assert_eq!(&text[found], "(depth, /* ) */ at((1)), // )\n 0)");
+        let range = find_brackets(text, "textureLoad".len()).unwrap();
+        assert_eq!(&text[range], "(depth, /* ) */ at((1)), // )\n 0)");
         assert_eq!(find_brackets("textureLoad(depth", 11), None);
     }
 }

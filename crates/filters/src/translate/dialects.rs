@@ -53,11 +53,11 @@ type Refused = (Option<usize>, String);
 
 fn find_foreign_glsl(sources: &Sources, file: &Path, convention: &Convention) -> Option<Refused> {
     let text = sources.text();
-    let found = find_word(text, &OF_HLSL).or_else(|| {
+    let foreign_word = find_word(text, &OF_HLSL).or_else(|| {
         let semantic = |word: &&str| word.starts_with("SV_");
         find(text, semantic)
     });
-    if let (Some((line, word)), None) = (found, find_word(text, &["version"])) {
+    if let (Some((line, word)), None) = (foreign_word, find_word(text, &["version"])) {
         let ending = file.extension().unwrap_or_default().to_string_lossy();
         let reason = format!(
             "is HLSL by its word {word}, and .{ending} is an ending of GLSL; name the file .hlsl, and its `entry` and `stage` \

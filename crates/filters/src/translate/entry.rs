@@ -76,23 +76,24 @@ pub(super) fn set_constants(
         find_language(shader, path)?,
         Language::Wgsl | Language::Wesl
     ) {
-        // SPIR-V got them before it was read.
+        // SPIR-V got its constants before naga read it.
         return Ok(());
     }
     let mut set = PipelineConstants::default();
     for (name, value) in given {
         let mut constants = module.overrides.iter().map(|(_, constant)| constant);
         let numbered = |id: Option<u16>| id.map(|id| id.to_string());
-        let found = constants.find(|constant| {
+        let constant = constants.find(|constant| {
             let names = [constant.name.clone(), numbered(constant.id)];
-            names.iter().flatten().any(|own| own == name)
+            names.iter().flatten().any(|alias| alias == name)
         });
-        let Some(constant) = found else {
+        let Some(constant) = constant else {
             if shader.stage == Stage::Vertex {
                 continue;
             }
             let constants = module.overrides.iter().map(|(_, constant)| constant);
-            let known = constants.filter_map(|it| it.name.clone().or(numbered(it.id)));
+            let known =
+                constants.filter_map(|constant| constant.name.clone().or(numbered(constant.id)));
             let known: Vec<String> = known.collect();
             let reason = refuse_missing(name, &known);
             return Err(FilterError::in_file(path, None, reason));

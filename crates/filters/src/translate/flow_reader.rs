@@ -47,32 +47,32 @@ impl<'m> Reader<'m> {
     }
 
     /// Lists the marks, each with where control goes from there.
-    pub fn list_marks(&self, found: &mut BTreeMap<u32, Vec<Next>>) {
+    pub fn list_marks(&self, marks: &mut BTreeMap<u32, Vec<Next>>) {
         let end = || Next::End;
         let outside = Exits {
             end: &end,
             on_break: &end,
             on_continue: &end,
         };
-        self.list_marks_of(&self.function.body, outside, found);
+        self.list_marks_of(&self.function.body, outside, marks);
     }
 
     fn list_marks_of(
         &self,
         block: &[Statement],
         exits: Exits,
-        found: &mut BTreeMap<u32, Vec<Next>>,
+        marks: &mut BTreeMap<u32, Vec<Next>>,
     ) {
         for (index, statement) in block.iter().enumerate() {
             let rest = &block[index + 1..];
             if let Some(mark) = self.read_mark(statement) {
-                found
+                marks
                     .entry(mark)
                     .or_default()
                     .push(self.find_next(rest, exits));
             }
             self.visit_blocks(statement, rest, exits, &mut |block, exits| {
-                self.list_marks_of(block, exits, found);
+                self.list_marks_of(block, exits, marks);
             });
         }
     }

@@ -221,8 +221,10 @@ mod tests {
         ];
         for (text, expected) in cases {
             let includes = list_includes(&make_plain(text));
-            let found = includes.iter().map(|it| (it.line, it.path.as_deref()));
-            assert_eq!(found.collect::<Vec<_>>(), expected, "{text}");
+            let places = includes
+                .iter()
+                .map(|include| (include.line, include.path.as_deref()));
+            assert_eq!(places.collect::<Vec<_>>(), expected, "{text}");
         }
     }
 }

@@ -59,7 +59,7 @@ pub(super) fn fill_block(
     }
     let is_known = |name: &str| {
         let mut members = members.iter();
-        name == OTHERS || members.any(|it| is_meant(name, &it.name, it.offset))
+        name == OTHERS || members.any(|member| is_meant(name, &member.name, member.offset))
     };
     if let Some((name, _)) = given.iter().find(|(name, _)| !is_known(name)) {
         let names: Vec<&str> = members.iter().map(|member| &member.name[..]).collect();

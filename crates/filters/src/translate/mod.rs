@@ -74,7 +74,9 @@ pub(crate) fn translate(
         return attempt(None);
     }
     let installed = list_installed(language, shader, path)?;
-    let installed = installed.into_iter().map(|it| (it.program, it));
+    let installed = installed
+        .into_iter()
+        .map(|compiler| (compiler.program, compiler));
     let (mut made, by) = try_each(installed, |compiler| attempt(Some(compiler)))?;
     made[0].compiled_by = Some(by);
     Ok(made)

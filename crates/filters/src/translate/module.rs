@@ -59,7 +59,8 @@ pub(super) fn compile_shader(
         return Ok(bytes.to_vec());
     }
     let installed = list_installed(language, shader, path)?;
-    let is_known = |known: &&Compiler| compiler.is_some_and(|it| it.program == known.program);
+    let is_known =
+        |known: &&Compiler| compiler.is_some_and(|compiler| compiler.program == known.program);
     let compiler = installed.iter().copied().find(is_known);
     let compiler = compiler.unwrap_or(installed[0]);
     let sources = Sources::collect(find_folder(filter), shader, &text, language)?;
@@ -193,7 +194,7 @@ fn find_stored_format(
 ) -> Option<Format> {
     let place = BindingPlace::Bound { group, binding };
     let mut bindings = shader.bindings.iter();
-    let explained = bindings.find(|it| match &it.place {
+    let explained = bindings.find(|binding| match &binding.place {
         BindingPlace::Named(wanted) => wanted == name,
         other => *other == place,
     });

@@ -37,12 +37,12 @@ impl Next {
                 let is = |a, b| leave.leads_to(a) && again.leads_to(b);
                 is(*accept, *reject) || is(*reject, *accept)
             }
-            (Exit::Choice { cases, default }, Self::Choice(found)) => {
+            (Exit::Choice { cases, default }, Self::Choice(choices)) => {
                 let goes = |value: SwitchValue, block: u32| {
-                    let mut nexts = found.iter().filter(|(known, _)| *known == value);
+                    let mut nexts = choices.iter().filter(|(known, _)| *known == value);
                     nexts.next().is_some_and(|(_, next)| next.leads_to(block))
                 };
-                found.len() == cases.len() + 1
+                choices.len() == cases.len() + 1
                     && goes(SwitchValue::Default, *default)
                     && (cases.iter()).all(|(value, block)| goes(SwitchValue::I32(*value), *block))
             }
@@ -51,6 +51,6 @@ impl Next {
     }
 
     fn leads_to(&self, block: u32) -> bool {
-        matches!(self, Self::Block(found) if *found == block)
+        matches!(self, Self::Block(next) if *next == block)
     }
 }

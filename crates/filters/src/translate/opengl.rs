@@ -31,7 +31,7 @@ fn has_loose_uniform(text: &str) -> bool {
         !before.ends_with(is_part) && after.starts_with(char::is_whitespace)
     });
     declared.any(|(at, _)| {
-        // The qualifiers of the declaration come before it, after the end of the last one.
+        // The qualifiers of a declaration are between the end of the previous one and the word.
         let start = text[..at].rfind([';', '}', '#']).map_or(0, |end| end + 1);
         let mut words = text[start..at].split(|c| !is_part(c));
         !words.any(|word| ["binding", "set", "push_constant", "define"].contains(&word))

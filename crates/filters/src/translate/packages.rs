@@ -16,9 +16,9 @@ pub(super) fn name_packages(base: &Path, texts: &mut BTreeMap<PathBuf, String>) 
     };
     let packages: BTreeSet<String> = texts.keys().filter_map(|path| package_of(path)).collect();
     for (path, text) in texts {
-        let own = package_of(path);
-        *text = rewrite(text, |word| match (&own, word) {
-            (Some(own), "package") => Some(format!("package::{own}")),
+        let package = package_of(path);
+        *text = rewrite(text, |word| match (&package, word) {
+            (Some(package), "package") => Some(format!("package::{package}")),
             (_, word) if packages.contains(word) => Some(format!("package::{word}")),
             _ => None,
         });

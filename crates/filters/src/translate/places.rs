@@ -93,8 +93,8 @@ fn check_binding(
         .filter(|variable| variable.is_explained_by(binding))
         .collect();
     let Some(first) = explained.first() else {
-        let mut places: Vec<String> = (declared.iter().filter(|it| !it.is_split))
-            .map(|it| name_variable(it.variable, &it.place))
+        let mut places: Vec<String> = (declared.iter().filter(|variable| !variable.is_split))
+            .map(|variable| name_variable(variable.variable, &variable.place))
             .collect();
         places.sort_unstable();
         places.dedup();
@@ -109,7 +109,11 @@ fn check_binding(
         ));
     };
     let named = name_variable(first.variable, &first.place);
-    let is_known = |known: &&Binding| explained.iter().any(|it| it.is_explained_by(known));
+    let is_known = |known: &&Binding| {
+        explained
+            .iter()
+            .any(|variable| variable.is_explained_by(known))
+    };
     if let Some(known) = earlier.iter().find(is_known) {
         return Err(format!(
             "{named} of {path} is explained twice, first by line {}; keep one",

@@ -6,17 +6,17 @@ use crate::filter::Stage;
 /// Blanks lines that no compiler knows: marks of sections, sections of other stages, and the place
 /// where Godot puts its macros. The numbers of lines hold.
 pub(super) fn keep_section(text: &str, stage: Stage) -> String {
-    let own = match stage {
+    let wanted = match stage {
         Stage::Compute => "compute",
         Stage::Fragment => "fragment",
         Stage::Vertex => "vertex",
     };
-    let has_own = text.lines().any(|line| name_section(line) == Some(own));
+    let has_own = text.lines().any(|line| name_section(line) == Some(wanted));
     let mut is_kept = true;
     let lines = text.split('\n').map(|line| match name_section(line) {
         Some(section) => {
             // A file that another one includes may be marked for any stage.
-            is_kept = section == own || !has_own && section != "versions";
+            is_kept = section == wanted || !has_own && section != "versions";
             ""
         }
         None if is_kept && line.trim() != "#VERSION_DEFINES" => line,

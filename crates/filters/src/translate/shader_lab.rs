@@ -36,7 +36,7 @@ pub(super) fn cut_hlsl(text: &str, wanted: Option<&LabPass>) -> Result<String, S
         let passes: Vec<String> = passes
             .map(|(index, (name, _))| format!("{index} \"{name}\""))
             .collect();
-        let found = match wanted {
+        let reason = match wanted {
             Some(LabPass::Name(name)) => {
                 format!("shader_pass = \"{name}\" is not one of its passes")
             }
@@ -46,7 +46,7 @@ pub(super) fn cut_hlsl(text: &str, wanted: Option<&LabPass>) -> Result<String, S
             None => "it has several passes, and shader_pass names none".to_owned(),
         };
         return Err(format!(
-            "{found}; allowed, by place or by name: {}",
+            "{reason}; allowed, by place or by name: {}",
             passes.join(", ")
         ));
     };

@@ -92,12 +92,12 @@ impl<'a> Sources<'a> {
             if self.language == Language::Glsl {
                 text = keep_section(&text, self.stage);
             }
-            let (mut text, found) = self.resolve(&file, base, &text)?;
-            if self.language == Language::Glsl && !found.is_empty() {
+            let (mut text, included) = self.resolve(&file, base, &text)?;
+            if self.language == Language::Glsl && !included.is_empty() {
                 text = allow_includes(&text);
             }
             self.texts.insert(file, text);
-            for place in found {
+            for place in included {
                 if !self.texts.contains_key(&place) {
                     self.read(&place)?;
                     waiting.push(place);
@@ -126,10 +126,10 @@ impl<'a> Sources<'a> {
                         .into(),
                 ));
             };
-            let found = self
+            let place = self
                 .find((file, base), path, include.is_module)
                 .map_err(refuse)?;
-            let lead = found
+            let lead = place
                 .as_ref()
                 .map(|place| lead_from(folder_of(file), place));
             match (lead, include.is_module) {
@@ -162,7 +162,7 @@ impl<'a> Sources<'a> {
                 // A file of the program's copies, or no file.
                 (None, true) => {}
             }
-            places.extend(found);
+            places.extend(place);
         }
         let text = lines.join("\n");
         check_closed(&text, self.language, &resolved)
@@ -196,10 +196,15 @@ impl<'a> Sources<'a> {
     ) -> Result<Option<PathBuf>, String> {
         let leads_out = || self.leads_out(path);
         let path = strip_root(path);
-        let own = folder_of(by);
+        let folder = folder_of(by);
         let ending = if is_module { ".slang" } else { "" };
         let named = format!("{path}{ending}");
-        for (from, path) in [(own, path), (own, &named), (base, path), (base, &named)] {
+        for (from, path) in [
+            (folder, path),
+            (folder, &named),
+            (base, path),
+            (base, &named),
+        ] {
             let place = join(from, path).ok_or_else(leads_out)?;
             let candidate = self.folder.join(&place);
             if candidate.is_file() {
@@ -227,7 +232,10 @@ impl<'a> Sources<'a> {
         entries.sort_by_key(std::fs::DirEntry::file_name);
         for entry in entries {
             let name = below.join(entry.file_name());
-            let (path, ending) = (entry.path(), name.extension().and_then(|it| it.to_str()));
+            let (path, ending) = (
+                entry.path(),
+                name.extension().and_then(|extension| extension.to_str()),
+            );
             let is_module = ending.is_some_and(|ending| endings.contains(&ending));
             if is_module && path.is_file() {
                 if !stays_below(self.folder, &path) {

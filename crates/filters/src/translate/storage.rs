@@ -67,7 +67,9 @@ impl StorageImages {
         choose: impl Fn(Place, &str, bool) -> Option<Format>,
     ) {
         for (_, variable) in module.global_variables.iter_mut() {
-            let place = variable.binding.map(|it| (it.group, it.binding));
+            let place = variable
+                .binding
+                .map(|binding| (binding.group, binding.binding));
             let Some((place, uses)) = place.and_then(|place| Some((place, self.uses.get(&place)?)))
             else {
                 continue;
@@ -102,8 +104,8 @@ impl StorageImages {
 /// Finds the variables that are storage images, each with its image type.
 fn find_variables(words: &Words) -> BTreeMap<u32, u32> {
     let images: BTreeSet<u32> = (words.instructions.iter())
-        .filter(|it| is_storage_image(it))
-        .map(|it| it.operands[0])
+        .filter(|instruction| is_storage_image(instruction))
+        .map(|instruction| instruction.operands[0])
         .collect();
     let pointers: BTreeMap<u32, u32> = (words.all(Op::TypePointer))
         .filter(|[_, class, image]| *class == UNIFORM_CONSTANT && images.contains(image))
@@ -126,8 +128,12 @@ fn fill_formats(words: &mut Words) -> BTreeSet<u32> {
         Capability::StorageImageReadWithoutFormat as u32,
         Capability::StorageImageWriteWithoutFormat as u32,
     ];
-    (words.instructions).retain(|it| {
-        it.op != Op::Capability || !it.operands.iter().any(|needed| without.contains(needed))
+    (words.instructions).retain(|instruction| {
+        instruction.op != Op::Capability
+            || !instruction
+                .operands
+                .iter()
+                .any(|needed| without.contains(needed))
     });
     let integers: BTreeMap<u32, ImageFormat> = (words.all(Op::TypeInt))
         .map(|[id, _, signed]| match signed {
@@ -139,7 +145,7 @@ fn fill_formats(words: &mut Words) -> BTreeSet<u32> {
     for instruction in words
         .instructions
         .iter_mut()
-        .filter(|it| is_storage_image(it))
+        .filter(|instruction| is_storage_image(instruction))
     {
         if let [id, texel, .., format @ 0] =
             instruction.operands.get_mut(..=FORMAT).unwrap_or_default()
@@ -214,9 +220,9 @@ fn find_uses(
                 loaded.insert(*result, *pointer);
             }
             (Op::ImageRead, [_, _, image, _, rest @ ..]) if loaded.contains_key(image) => {
-                let found = uses.entry(loaded[image]).or_default();
-                found.reads = true;
-                found.others |= !rest.is_empty();
+                let usage = uses.entry(loaded[image]).or_default();
+                usage.reads = true;
+                usage.others |= !rest.is_empty();
             }
             (Op::ImageWrite, [image, ..]) if loaded.contains_key(image) => {
                 uses.entry(loaded[image]).or_default().writes = true;
@@ -225,8 +231,8 @@ fn find_uses(
             _ => {
                 for id in list_images(instruction) {
                     let variable = loaded.get(id).unwrap_or(id);
-                    if let Some(found) = uses.get_mut(variable) {
-                        found.others = true;
+                    if let Some(usage) = uses.get_mut(variable) {
+                        usage.others = true;
                     }
                 }
             }
@@ -255,7 +261,7 @@ fn list_images(instruction: &Instruction) -> &[u32] {
 /// Fetches texels from level 0 if a module names none: `texture[pixel]` of Slang, and reads of the
 /// storage images in `read`. naga requires a level for a sampled texture.
 fn name_levels(words: &mut Words, read: &BTreeSet<u32>) {
-    let is_bare = |it: &Instruction| match (it.op, &it.operands[..]) {
+    let is_bare = |instruction: &Instruction| match (instruction.op, &instruction.operands[..]) {
         (Op::ImageFetch, [_, _, _, _]) => true,
         (Op::ImageRead, [_, _, image, _]) => read.contains(image),
         _ => false,

@@ -34,13 +34,13 @@ pub(crate) fn check_texture(filter: &Filter, role: Role, texture: &str) -> Resul
              texture = \"output\", which begins as a copy of color"
         )),
         (Role::Write(Format::Rgba32Float | Format::Rgba16Float), None) => Ok(()),
-        (Role::Write(found), None) => Err(format!(
+        (Role::Write(written), None) => Err(format!(
             "writes \"output\" as {}; allowed: rgba32float or rgba16float",
-            found.name()
+            written.name()
         )),
-        (Role::Write(found), Some(format)) if format != found => Err(format!(
+        (Role::Write(written), Some(format)) if format != written => Err(format!(
             "writes texture \"{texture}\" as {}; it is declared as {}",
-            found.name(),
+            written.name(),
             format.name()
         )),
         _ => Ok(()),

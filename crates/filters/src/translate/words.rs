@@ -118,11 +118,12 @@ impl Words {
                 ],
             ),
         ] {
-            let found = self.instructions.iter().filter(|it| ops.contains(&it.op));
-            let found = found.count();
-            if found > MAX_NESTABLE {
+            let count = (self.instructions.iter())
+                .filter(|instruction| ops.contains(&instruction.op))
+                .count();
+            if count > MAX_NESTABLE {
                 return Err(format!(
-                    "has {found} {what}; allowed: at most {MAX_NESTABLE}; divide the pass"
+                    "has {count} {what}; allowed: at most {MAX_NESTABLE}; divide the pass"
                 ));
             }
         }
@@ -180,8 +181,11 @@ impl Words {
     /// Finds the names of ids (`Op::Name`, one word), or of members by struct and index
     /// (`Op::MemberName`, two words).
     pub fn find_names<const COUNT: usize>(&self, op: Op) -> BTreeMap<[u32; COUNT], String> {
-        let named = self.instructions.iter().filter(|it| it.op == op);
-        let named = named.filter_map(|it| it.operands.split_first_chunk());
+        let named = self
+            .instructions
+            .iter()
+            .filter(|instruction| instruction.op == op);
+        let named = named.filter_map(|instruction| instruction.operands.split_first_chunk());
         let named = named.map(|(id, name)| (*id, read_text(name)));
         named.filter(|(_, name)| !name.is_empty()).collect()
     }

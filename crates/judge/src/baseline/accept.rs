@@ -92,7 +92,7 @@ fn add_case(baseline: &mut Baseline, case: &Case) -> Result<(), Error> {
 /// Refuses another class of adapter than the baseline's and, if only some scores are replaced,
 /// another adapter.
 fn check_adapter(run: &Run, old: &Baseline, some: bool) -> Result<(), Error> {
-    let [found, allowed] = [&run.adapter, &old.adapter].map(|adapter| match adapter {
+    let [adapter, allowed] = [&run.adapter, &old.adapter].map(|adapter| match adapter {
         Some(adapter) => format!(
             "{} ({}, {}, {})",
             adapter.name, adapter.backend, adapter.driver, adapter.kind
@@ -101,13 +101,13 @@ fn check_adapter(run: &Run, old: &Baseline, some: bool) -> Result<(), Error> {
     });
     if !old.is_of_class(&run.adapter) {
         return refuse(&format!(
-            "the run's adapter is {found}, the baseline's {allowed}: another class; run on one of that class, keep a baseline \
+            "the run's adapter is {adapter}, the baseline's {allowed}: another class; run on one of that class, keep a baseline \
              for each, or force it"
         ));
     }
     if some && run.adapter != old.adapter {
         return refuse(&format!(
-            "the run's adapter is {found}, the baseline's {allowed}, and accepting some cases alone would mix their scores; accept \
+            "the run's adapter is {adapter}, the baseline's {allowed}, and accepting some cases alone would mix their scores; accept \
              the whole run, or force it"
         ));
     }

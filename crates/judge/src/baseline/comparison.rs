@@ -109,8 +109,8 @@ pub fn compare_with_baseline(
     let mut comparisons = Vec::new();
     for filter in &names {
         for (metric, margin) in margins {
-            let own = cases.iter().filter(|case| case.name() == *filter);
-            let losses = own.filter_map(|case| find_loss(case, *metric, baseline).transpose());
+            let measured = cases.iter().filter(|case| case.name() == *filter);
+            let losses = measured.filter_map(|case| find_loss(case, *metric, baseline).transpose());
             let losses = losses.collect::<Result<Vec<SceneLoss>, _>>();
             let losses = losses.map_err(refuse)?;
             if !losses.is_empty() {

@@ -64,8 +64,8 @@ impl Baseline {
     /// Returns true if an adapter has the same class (software, integrated, discrete ..) as the
     /// baseline's.
     pub fn is_of_class(&self, adapter: &Option<AdapterDescription>) -> bool {
-        let [own, other] = [&self.adapter, adapter].map(Option::as_ref);
-        own.map(|own| &own.kind) == other.map(|other| &other.kind)
+        let [baseline, other] = [&self.adapter, adapter].map(Option::as_ref);
+        baseline.map(|baseline| &baseline.kind) == other.map(|other| &other.kind)
     }
 
     /// Writes the baseline as JSON.

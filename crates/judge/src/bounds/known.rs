@@ -15,7 +15,9 @@ pub fn check_names<'a>(
     filters: &[FilterChoice],
 ) -> Result<(), Error> {
     let of_scenes = read_bounds_of_scenes(&root.into())?;
-    let files = of_scenes.iter().chain(scenes.flat_map(|own| &own.files));
+    let files = of_scenes
+        .iter()
+        .chain(scenes.flat_map(|bounds| &bounds.files));
     let mut tables = files.flat_map(|file| &file.filters);
     tables.try_for_each(|(name, table)| {
         check_filter(name, filters)
@@ -38,7 +40,7 @@ pub fn require_bounds<'a>(
         for choice in filters {
             let mut bounds = bounds.of(&choice.filter.name, &choice.preset);
             let length = bounds.values().find_map(|bound| bound.length);
-            bounds.retain(|_, bound| bound.length.is_none_or(|own| own.holds_for(frames)));
+            bounds.retain(|_, bound| bound.length.is_none_or(|length| length.holds_for(frames)));
             let name = choice.name();
             let reason = match length {
                 _ if !bounds.is_empty() => None,
@@ -76,16 +78,16 @@ fn read_bounds_of_scenes(root: &Location) -> Result<Vec<BoundsFile>, Error> {
     folders.sort_by(|a, b| a.path.cmp(&b.path));
     let mut files = read_all_bounds(root)?;
     for folder in folders.iter().filter(|folder| folder.is_dir()) {
-        let found = read_all_bounds(folder)?;
-        if !found.is_empty() && !folder.join("scene.toml").is_file() {
+        let bounds = read_all_bounds(folder)?;
+        if !bounds.is_empty() && !folder.join("scene.toml").is_file() {
             return Err(Error::Usage(format!(
                 "{}: bounds of a scene that does not exist: {} has no scene.toml; rename the folder as the scene, or remove \
                  the bounds",
-                found[0].path.display(),
+                bounds[0].path.display(),
                 folder
             )));
         }
-        files.extend(found);
+        files.extend(bounds);
     }
     Ok(files)
 }

@@ -57,7 +57,7 @@ impl Length {
 
     /// Returns whether a limit of this length is for the frames of a run.
     pub fn holds_for(self, frames: Frames) -> bool {
-        let has_rate = |own| own == frames.per_second;
+        let has_rate = |rate| rate == frames.per_second;
         self.frames == frames.count && self.per_second.is_none_or(has_rate)
     }
 

@@ -67,10 +67,10 @@ impl SceneBounds {
     /// metric: first all scenes' file, then this scene's; in each the default, then the filter's,
     /// then its preset's.
     pub fn of(&self, filter: &str, preset: &str) -> Bounds {
-        let own = format!("{filter}:{preset}");
+        let full_name = format!("{filter}:{preset}");
         let mut bounds = Bounds::new();
         for file in &self.files {
-            let of_filter = [filter, &own].map(|name| file.filters.get(name));
+            let of_filter = [filter, &full_name].map(|name| file.filters.get(name));
             let named = of_filter.into_iter().flatten().map(|table| &table.bounds);
             for table in std::iter::once(&file.default).chain(named) {
                 bounds.extend(table.clone());
@@ -81,12 +81,12 @@ impl SceneBounds {
 
     /// Removes limits for other picture sizes.
     pub fn at(self, size: (u32, u32)) -> Self {
-        self.retain(|bound| bound.size.is_none_or(|own| own == size))
+        self.retain(|bound| bound.size.is_none_or(|bound_size| bound_size == size))
     }
 
     /// Removes limits on sequences of another length.
     pub fn over(self, frames: Frames) -> Self {
-        self.retain(|bound| bound.length.is_none_or(|own| own.holds_for(frames)))
+        self.retain(|bound| bound.length.is_none_or(|length| length.holds_for(frames)))
     }
 
     fn retain(mut self, is_kept: impl Fn(&Bound) -> bool) -> Self {

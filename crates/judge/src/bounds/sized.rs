@@ -23,14 +23,14 @@ pub(super) fn read_sized_bounds(file: &Location, size: (u32, u32)) -> Result<Bou
     }
     for (metric, bound) in read.tables_mut().flatten() {
         let (width, height) = size;
-        let own = *bound.size.get_or_insert(size);
-        if own != size {
+        let bound_size = *bound.size.get_or_insert(size);
+        if bound_size != size {
             return Err(Error::Usage(format!(
                 "{}: {metric}: size = [{}, {}] in a file for {width}x{height}; leave the size out, or move the limit to {}",
                 bound.place,
-                own.0,
-                own.1,
-                sized_bounds_file(own)
+                bound_size.0,
+                bound_size.1,
+                sized_bounds_file(bound_size)
             )));
         }
     }

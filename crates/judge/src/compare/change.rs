@@ -26,7 +26,8 @@ pub struct Change {
     pub second: f64,
     /// Amount by which the second is worse; negative is better.
     pub worse: f64,
-    /// Both scores as estimated against a truth without noise; as measured without replicates.
+    /// Both scores as estimated against a truth without noise; as measured if there are no
+    /// replicates.
     pub estimates: [f64; 2],
     /// Weight of the scene in a mean over scenes: 1, or for a skill the error that the one-frame
     /// oracle removes.
@@ -127,7 +128,9 @@ impl Change {
         let badness = |value: f64| metric.ideal().badness(value);
         let worse = badness(second.value) - badness(first.value);
         let floor = first.floor.max(second.floor);
-        let interval = uncertainty.map_or([worse - floor, worse + floor], |own| own.interval);
+        let interval = uncertainty.map_or([worse - floor, worse + floor], |uncertainty| {
+            uncertainty.interval
+        });
         Some(Self {
             scene: pair.first.scene.clone(),
             filter: pair.first.filter_id(),
@@ -135,13 +138,15 @@ impl Change {
             first: first.value,
             second: second.value,
             worse,
-            estimates: uncertainty.map_or([first.value, second.value], |own| own.estimates),
+            estimates: uncertainty.map_or([first.value, second.value], |uncertainty| {
+                uncertainty.estimates
+            }),
             weight,
-            interval: uncertainty.map(|own| own.interval),
+            interval: uncertainty.map(|uncertainty| uncertainty.interval),
             standard_error: if worse == 0.0 {
                 Some(0.0)
             } else {
-                uncertainty.map(|own| own.standard_error)
+                uncertainty.map(|uncertainty| uncertainty.standard_error)
             },
             basis: match uncertainty {
                 Some(_) => Basis::Replicates,
@@ -181,10 +186,12 @@ pub fn score_change(metric: Metric, worse: f64) -> f64 {
 pub fn rank_changes(changes: &[Change]) -> Vec<(&SceneId, &FilterId)> {
     let decided = changes.iter().filter(|change| change.kind.is_decided());
     let mut ranked = group_by(decided, |change| (&change.scene, &change.filter));
-    let size = |case: &[&Change]| case.iter().map(|own| own.size()).fold(0.0, f64::max);
+    let size = |case: &[&Change]| case.iter().map(|change| change.size()).fold(0.0, f64::max);
     ranked.sort_by(|a, b| size(b).total_cmp(&size(a)));
     let cases = ranked.iter().map(|case| case[0]);
-    cases.map(|own| (&own.scene, &own.filter)).collect()
+    cases
+        .map(|change| (&change.scene, &change.filter))
+        .collect()
 }
 
 fn write_filter<S: Serializer>(filter: &FilterId, serializer: S) -> Result<S::Ok, S::Error> {

@@ -18,9 +18,9 @@ pub fn apply_margins(
     margins: &BTreeMap<Metric, Margin>,
 ) {
     let mark = |kind: &mut ChangeKind, metric: Metric, worse: f64| {
-        let usual = USUAL_MARGINS.iter().find(|(own, _)| *own == metric);
-        let own = margins.get(&metric).map(|margin| margin.width);
-        let margin = own.or(usual.map(|(_, width)| *width)).unwrap_or(0.0);
+        let usual = USUAL_MARGINS.iter().find(|(known, _)| *known == metric);
+        let width = margins.get(&metric).map(|margin| margin.width);
+        let margin = width.or(usual.map(|(_, width)| *width)).unwrap_or(0.0);
         if kind.is_decided() && worse.abs() < margin {
             *kind = ChangeKind::BelowMargin;
         }

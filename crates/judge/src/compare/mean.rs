@@ -139,10 +139,10 @@ mod tests {
             change.scene.rate = tracer::FrameRate::in_word("24fps");
         }
         let means = average_changes(&all);
-        let found: Vec<(&str, usize)> = (means.iter())
+        let counts: Vec<(&str, usize)> = (means.iter())
             .map(|mean| (mean.filter.as_str(), mean.scenes))
             .collect();
-        assert_eq!(found, [("one:paper", 2), ("one:paper 24fps", 2)]);
+        assert_eq!(counts, [("one:paper", 2), ("one:paper 24fps", 2)]);
         assert!((means[1].worse - 0.3).abs() < 1e-12);
     }
 }

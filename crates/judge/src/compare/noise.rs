@@ -44,7 +44,7 @@ pub fn measure_changes(
         if differs {
             let hash = &pair.first.truth_hash;
             // Pairs of one truth follow one another.
-            if shared.as_ref().is_none_or(|(own, _)| own != hash) {
+            if shared.as_ref().is_none_or(|(previous, _)| previous != hash) {
                 shared = Some((hash.clone(), TruthParts::read(sides, pair)?));
             }
             if let Some((_, Some(parts))) = &shared {
@@ -139,7 +139,7 @@ impl TruthParts {
             if let Some(sharp) = &sharp {
                 reference = reference.with_ends(sharp, &self.oracle)?;
             }
-            let [first, second] = [&first, &second].map(|own| reference.measure(own));
+            let [first, second] = [&first, &second].map(|picture| reference.measure(picture));
             Ok([first?.scores, second?.scores])
         };
         self.truths.iter().enumerate().map(scores).collect()

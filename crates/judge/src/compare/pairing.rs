@@ -48,10 +48,10 @@ pub fn check_comparable(
     let refuse = |reason: String| Err(Error::Usage(format!("{}: {reason}", second.path.display())));
     let there = first.path.display();
     let size = |side: &StoredRun| format!("{}x{}", side.run.render.width, side.run.render.height);
-    let [expected, found] = [first, second].map(size);
-    if found != expected {
+    let [expected, pixels] = [first, second].map(size);
+    if pixels != expected {
         return refuse(format!(
-            "its pictures have {found} pixels, those of {there} {expected}; scores of two sizes do not compare: make one run again \
+            "its pictures have {pixels} pixels, those of {there} {expected}; scores of two sizes do not compare: make one run again \
              at the other's size"
         ));
     }
@@ -90,13 +90,13 @@ fn find_partners<'a>(run: &Run, other: &'a Run) -> Vec<Option<&'a Case>> {
     let cases = other.cases.iter().rev();
     let exact: HashMap<&CaseId, &Case> = cases.map(|case| (&case.id, case)).collect();
     let known: HashSet<&CaseId> = run.cases.iter().map(|case| &case.id).collect();
-    let mut own: HashMap<CaseId, usize> = HashMap::new();
+    let mut counts: HashMap<CaseId, usize> = HashMap::new();
     for case in run
         .cases
         .iter()
         .filter(|case| !exact.contains_key(&case.id))
     {
-        *own.entry(case.of_preset()).or_default() += 1;
+        *counts.entry(case.of_preset()).or_default() += 1;
     }
     let mut others: HashMap<CaseId, Vec<&Case>> = HashMap::new();
     for case in other.cases.iter().filter(|case| !known.contains(&case.id)) {
@@ -106,7 +106,7 @@ fn find_partners<'a>(run: &Run, other: &'a Run) -> Vec<Option<&'a Case>> {
         let preset = case.of_preset();
         match others.get(&preset).map(Vec::as_slice) {
             _ if exact.contains_key(&case.id) => Some(exact[&case.id]),
-            Some([single]) if own.get(&preset) == Some(&1) => Some(*single),
+            Some([single]) if counts.get(&preset) == Some(&1) => Some(*single),
             _ => None,
         }
     };

@@ -25,7 +25,7 @@ pub fn compare_settings(first: &Run, second: &Run, pairs: &[Pair]) -> Vec<Settin
     let of_runs = of_runs.map(|((name, first), (_, second))| (name.to_owned(), [first, second]));
     let mut known = BTreeSet::new();
     (of_runs.chain(pairs.iter().flat_map(list_parameters)))
-        .filter(|own| own.1[0] != own.1[1] && known.insert(own.clone()))
+        .filter(|setting| setting.1[0] != setting.1[1] && known.insert(setting.clone()))
         .map(|(name, [first, second])| SettingChange {
             name,
             first,
@@ -45,7 +45,10 @@ fn run_settings(run: &Run) -> Vec<(&'static str, String)> {
 
 fn adapter_label(adapter: &Option<AdapterDescription>) -> String {
     match adapter {
-        Some(own) => format!("{}, {}, driver {}", own.name, own.backend, own.driver),
+        Some(adapter) => format!(
+            "{}, {}, driver {}",
+            adapter.name, adapter.backend, adapter.driver
+        ),
         None => "none".to_owned(),
     }
 }

@@ -82,7 +82,7 @@ pub fn compare_sizes(results: &[&Results], metric: Metric) -> Result<Vec<SizeCom
     let Some(last) = results.last() else {
         return Err(Error::Usage("no results to compare".to_owned()));
     };
-    let alignments: BTreeSet<Alignment> = last.scores.iter().map(|own| own.alignment).collect();
+    let alignments: BTreeSet<Alignment> = last.scores.iter().map(|score| score.alignment).collect();
     (alignments.into_iter())
         .map(|alignment| compare_group(results, last, alignment, metric))
         .collect()
@@ -94,12 +94,12 @@ fn compare_group(
     alignment: Alignment,
     metric: Metric,
 ) -> Result<SizeComparison, Error> {
-    let own = || (last.scores.iter()).filter(|own| own.alignment == alignment);
-    let names: BTreeSet<&str> = own().map(|own| own.name.as_str()).collect();
+    let scores = || (last.scores.iter()).filter(|score| score.alignment == alignment);
+    let names: BTreeSet<&str> = scores().map(|score| score.name.as_str()).collect();
     // A still scene orders no filters, and has no score where nothing moves.
-    let scenes: BTreeSet<&SceneId> = (own())
-        .filter(|own| own.score(metric).is_some())
-        .map(|own| &own.scene)
+    let scenes: BTreeSet<&SceneId> = (scores())
+        .filter(|score| score.score(metric).is_some())
+        .map(|score| &score.scene)
         .collect();
     let read = |results: &&Results| -> Result<Badness, Error> {
         let filter = |name: &&str| {
@@ -115,8 +115,11 @@ fn compare_group(
         .map(|(index, name)| {
             let mean = |values: &Vec<f64>| plain_mean(values, TWO_SIDED);
             let rank = |size: &Badness| {
-                let own = mean(&size[index]).mean;
-                1 + size.iter().filter(|other| mean(other).mean < own).count()
+                let average = mean(&size[index]).mean;
+                1 + size
+                    .iter()
+                    .filter(|other| mean(other).mean < average)
+                    .count()
             };
             FilterAtSizes {
                 name: (*name).to_owned(),
@@ -129,7 +132,7 @@ fn compare_group(
     Ok(SizeComparison {
         alignment,
         scenes: scenes.into_iter().cloned().collect(),
-        sizes: results.iter().map(|own| own.size.into()).collect(),
+        sizes: results.iter().map(|results| results.size.into()).collect(),
         filters,
         agreement: (badness.iter())
             .map(|size| compare_order(&names, size, at_largest))
@@ -139,8 +142,8 @@ fn compare_group(
 
 /// Finds how bad a filter is on a scene.
 fn find(results: &Results, scene: &SceneId, name: &str, metric: Metric) -> Result<f64, Error> {
-    let found = (results.scores.iter()).find(|own| own.scene == *scene && own.name == name);
-    let value = found.and_then(|own| own.score(metric)).ok_or_else(|| {
+    let score = (results.scores.iter()).find(|score| score.scene == *scene && score.name == name);
+    let value = score.and_then(|score| score.score(metric)).ok_or_else(|| {
         Error::Usage(format!(
             "{} has no {} of {name} on {scene}; run all sizes with the same scenes and filters",
             results.file_name(),
@@ -156,7 +159,9 @@ fn compare_order(names: &[&str], here: &Badness, largest: &Badness) -> Agreement
         let [here, largest] = [here, largest].map(|size| -> Vec<f64> {
             let sum = |values: &Vec<f64>| drawn.iter().map(|scene| values[*scene]).sum::<f64>();
             let filters = size.iter();
-            filters.map(|own| sum(own) / drawn.len() as f64).collect()
+            filters
+                .map(|values| sum(values) / drawn.len() as f64)
+                .collect()
         });
         kendalls_tau(&here, &largest)
     };
@@ -168,12 +173,12 @@ fn compare_order(names: &[&str], here: &Badness, largest: &Badness) -> Agreement
     };
     for first in 0..names.len() {
         for second in first + 1..names.len() {
-            let [own, others] = [here, largest].map(|size| difference(size, first, second));
-            match (own.side_of_zero(), others.side_of_zero()) {
+            let [excess, others] = [here, largest].map(|size| difference(size, first, second));
+            match (excess.side_of_zero(), others.side_of_zero()) {
                 (None, None) => {}
                 (Some(_), None) => agreement.only_here += 1,
                 (None, Some(_)) => agreement.only_at_largest += 1,
-                (Some(own), Some(others)) if own == others => agreement.alike += 1,
+                (Some(side), Some(other)) if side == other => agreement.alike += 1,
                 (Some(side), Some(_)) => {
                     let (better, worse, sign) = match side {
                         Ordering::Greater => (first, second, 1.0),
@@ -182,7 +187,7 @@ fn compare_order(names: &[&str], here: &Badness, largest: &Badness) -> Agreement
                     agreement.reversed.push(Reversal {
                         better_here: names[better].to_owned(),
                         better_at_largest: names[worse].to_owned(),
-                        differences: [sign * own.mean, sign * others.mean],
+                        differences: [sign * excess.mean, sign * others.mean],
                     });
                 }
             }
@@ -195,14 +200,14 @@ fn compare_order(names: &[&str], here: &Badness, largest: &Badness) -> Agreement
 /// "Bootstrap methods: another look at the jackknife").
 fn bootstrap(scenes: usize, statistic: &dyn Fn(&[usize]) -> f64) -> [f64; 2] {
     let mut random = Random(1);
-    let mut found: Vec<f64> = (0..RESAMPLES)
+    let mut values: Vec<f64> = (0..RESAMPLES)
         .map(|_| {
             let drawn: Vec<usize> = (0..scenes).map(|_| random.below(scenes)).collect();
             statistic(&drawn)
         })
         .collect();
-    found.sort_by(f64::total_cmp);
-    [0.025, 0.975].map(|part| found[(part * (RESAMPLES - 1) as f64).round() as usize])
+    values.sort_by(f64::total_cmp);
+    [0.025, 0.975].map(|part| values[(part * (RESAMPLES - 1) as f64).round() as usize])
 }
 
 /// Averages the second filter's excess over the first, over scenes.
@@ -261,18 +266,22 @@ mod tests {
         let noisy = vec![0.25, 0.02, 0.25, 0.02, 0.25, 0.02];
         let here = vec![better.clone(), worse.clone(), noisy.clone()];
         let largest = vec![worse, better, noisy];
-        let found = compare_order(&NAMES, &here, &largest);
+        let agreement = compare_order(&NAMES, &here, &largest);
         assert_eq!(
-            (found.alike, found.only_here, found.only_at_largest),
+            (
+                agreement.alike,
+                agreement.only_here,
+                agreement.only_at_largest
+            ),
             (0, 0, 0)
         );
-        assert_eq!(found.reversed.len(), 1, "{found:?}");
-        let reversal = &found.reversed[0];
+        assert_eq!(agreement.reversed.len(), 1, "{agreement:?}");
+        let reversal = &agreement.reversed[0];
         assert_eq!(reversal.better_here, "first");
         assert_eq!(reversal.better_at_largest, "second");
         assert!((reversal.differences[0] - 0.02).abs() < 1e-12);
         assert!((reversal.differences[1] + 0.02).abs() < 1e-12);
-        assert_eq!(found.tau, -1.0);
+        assert_eq!(agreement.tau, -1.0);
     }
 
     #[test]
@@ -280,16 +289,19 @@ mod tests {
         // Two filters; one scene of four reverses them by as much as the other three do not.
         let here = vec![vec![0.1; 4], vec![0.2; 4]];
         let largest = vec![vec![0.1, 0.1, 0.1, 0.4], vec![0.2, 0.2, 0.2, 0.1]];
-        let found = compare_order(&NAMES[..2], &here, &largest);
+        let agreement = compare_order(&NAMES[..2], &here, &largest);
         // The scene is drawn twice or more in a quarter of the resamples.
-        assert_eq!(found.interval, Some([-1.0, 1.0]), "{found:?}");
+        assert_eq!(agreement.interval, Some([-1.0, 1.0]), "{agreement:?}");
     }
 
     #[test]
     fn a_size_agrees_with_itself() {
         let size = vec![vec![0.1; 5], vec![0.2; 5], vec![0.3; 5]];
-        let found = compare_order(&NAMES, &size, &size);
-        assert_eq!((found.tau, found.alike, found.reversed.len()), (1.0, 3, 0));
-        assert_eq!(found.interval, Some([1.0, 1.0]));
+        let agreement = compare_order(&NAMES, &size, &size);
+        assert_eq!(
+            (agreement.tau, agreement.alike, agreement.reversed.len()),
+            (1.0, 3, 0)
+        );
+        assert_eq!(agreement.interval, Some([1.0, 1.0]));
     }
 }

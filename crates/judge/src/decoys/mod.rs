@@ -68,7 +68,7 @@ impl Decoys {
             decoys.push((name, deviations(&scores)));
         }
         let scale = |score: usize| {
-            let sizes = decoys.iter().filter_map(|(_, found)| found[score]);
+            let sizes = decoys.iter().filter_map(|(_, decoy)| decoy[score]);
             sizes.map(f64::abs).fold(0.0, f64::max)
         };
         Ok(Self {
@@ -79,9 +79,9 @@ impl Decoys {
 
     /// Finds the wrong blur that these scores resemble most; none if they are far from all.
     pub fn nearest(&self, scores: &Scores) -> Option<Resemblance> {
-        let found = deviations(scores);
+        let measured = deviations(scores);
         let distances = self.decoys.iter().filter_map(|(name, decoy)| {
-            let distance = self.distance(&found, decoy)?;
+            let distance = self.distance(&measured, decoy)?;
             (distance <= FARTHEST).then(|| Resemblance {
                 decoy: name.clone(),
                 distance,
@@ -93,13 +93,13 @@ impl Decoys {
     /// Returns the distance over the scores that both have, as a fraction of the decoy's own
     /// distance from perfect; none if there are too few such scores, or the decoy is perfect in
     /// them.
-    fn distance(&self, found: &Deviations, decoy: &Deviations) -> Option<f64> {
+    fn distance(&self, measured: &Deviations, decoy: &Deviations) -> Option<f64> {
         let (mut apart, mut whole, mut count) = (0.0, 0.0, 0);
-        for ((found, decoy), scale) in found.iter().zip(decoy).zip(&self.scales) {
-            if let (Some(found), Some(decoy)) = (found, decoy)
+        for ((measured, decoy), scale) in measured.iter().zip(decoy).zip(&self.scales) {
+            if let (Some(measured), Some(decoy)) = (measured, decoy)
                 && *scale > 0.0
             {
-                apart += ((found - decoy) / scale).powi(2);
+                apart += ((measured - decoy) / scale).powi(2);
                 whole += (decoy / scale).powi(2);
                 count += 1;
             }

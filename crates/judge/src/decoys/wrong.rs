@@ -22,16 +22,19 @@ pub fn make_wrong_pictures(
         scatter_oracle(frame, shutter, &truth.shutter_profile)
     };
     let identity = frame.picture();
-    let own = truth.alignment;
+    let alignment = truth.alignment;
     let mut pictures = vec![
-        ("half_length".to_owned(), smear(frame, own, 0.5)),
-        ("half_as_long_again".to_owned(), smear(frame, own, 1.5)),
-        ("widened".to_owned(), smear(&widen(frame), own, 1.0)),
+        ("half_length".to_owned(), smear(frame, alignment, 0.5)),
+        (
+            "half_as_long_again".to_owned(),
+            smear(frame, alignment, 1.5),
+        ),
+        ("widened".to_owned(), smear(&widen(frame), alignment, 1.0)),
         ("one_color".to_owned(), one_color(&identity)),
         ("no_blur".to_owned(), identity),
     ];
     for other in Alignment::ALL {
-        if other != own {
+        if other != alignment {
             pictures.push((format!("{other}_shutter"), smear(frame, other, 1.0)));
         }
     }
@@ -48,12 +51,12 @@ fn widen(frame: &Frame) -> Frame {
         let around = |middle: u32, size: u32| {
             middle.saturating_sub(WIDENED)..=(middle + WIDENED).min(size - 1)
         };
-        let own = (y * width + x) as usize;
+        let pixel = (y * width + x) as usize;
         let candidates = around(y, height).flat_map(|v| around(x, width).map(move |u| (u, v)));
         candidates
             .map(|(u, v)| (v * width + u) as usize)
             .filter(|at| frame.velocity.pixels[*at] != [0.0, 0.0])
-            .fold(own, |best, at| {
+            .fold(pixel, |best, at| {
                 if frame.depth.pixels[at] < frame.depth.pixels[best] {
                     at
                 } else {

@@ -22,7 +22,7 @@ pub struct RankedFilter {
     /// Frame rate of the scenes; none for their files' own.
     pub rate: Option<FrameRate>,
     /// Best and worst rank among the filters of its shutter: 1 plus the number of better filters,
-    /// and the number of all filters less the worse ones. None for no blur, a reference.
+    /// and the number of all filters less the worse ones. None for no blur, which is a reference.
     pub ranks: Option<[usize; 2]>,
     /// True if it is clearly better than no blur; none if that is unknown.
     pub beats_no_blur: Option<bool>,
@@ -134,14 +134,15 @@ pub(crate) fn rank_by_score(
     references: &[RankedScore],
     best_presets: bool,
 ) -> Vec<Vec<RankedFilter>> {
-    let shutter = |own: &RankedScore| (own.alignment, own.scene.rate);
-    (group_by(scores, |own| shutter(own)).into_iter())
+    let shutter = |score: &RankedScore| (score.alignment, score.scene.rate);
+    (group_by(scores, |score| shutter(score)).into_iter())
         .map(|group| {
             let references = references.iter();
-            let of_shutter = references.filter(|own| shutter(own) == shutter(group[0]));
+            let of_shutter = references.filter(|score| shutter(score) == shutter(group[0]));
             let known = group.iter().copied().chain(of_shutter);
-            let no_blur: Vec<&RankedScore> = known.filter(|own| own.filter == IDENTITY).collect();
-            rank_group(group_by(group, |own| &own.name), &no_blur, best_presets)
+            let no_blur: Vec<&RankedScore> =
+                known.filter(|score| score.filter == IDENTITY).collect();
+            rank_group(group_by(group, |score| &score.name), &no_blur, best_presets)
         })
         .collect()
 }
@@ -153,7 +154,7 @@ fn rank_group(
 ) -> Vec<RankedFilter> {
     let entries = filters.into_iter();
     let mut group: Vec<Entry> = entries.map(|scores| (summarize(&scores), scores)).collect();
-    let ruins_still = |own: &RankedFilter| own.side_effects.ruins_still();
+    let ruins_still = |filter: &RankedFilter| filter.side_effects.ruins_still();
     group.sort_by(|(a, _), (b, _)| {
         let by_mean = || a.mean.total_cmp(&b.mean);
         ruins_still(a).cmp(&ruins_still(b)).then_with(by_mean)
@@ -161,23 +162,23 @@ fn rank_group(
     if best_presets {
         group = keep_best_presets(group);
     }
-    let is_better = |(own, scores): &Entry, (other, others): &Entry| match ruins_still(own)
+    let is_better = |(filter, scores): &Entry, (other, others): &Entry| match ruins_still(filter)
         .cmp(&ruins_still(other))
     {
         Ordering::Less => true,
-        Ordering::Equal => own.mean < other.mean && !are_tied(scores, others),
+        Ordering::Equal => filter.mean < other.mean && !are_tied(scores, others),
         Ordering::Greater => false,
     };
-    let ranked = || group.iter().filter(|(own, _)| own.filter != IDENTITY);
-    let rank = |own: &Entry| {
-        let better = ranked().filter(|other| is_better(other, own)).count();
-        let worse = ranked().filter(|other| is_better(own, other)).count();
-        let is_ranked = own.0.filter != IDENTITY;
+    let ranked = || group.iter().filter(|(filter, _)| filter.filter != IDENTITY);
+    let rank = |entry: &Entry| {
+        let better = ranked().filter(|other| is_better(other, entry)).count();
+        let worse = ranked().filter(|other| is_better(entry, other)).count();
+        let is_ranked = entry.0.filter != IDENTITY;
         let is_compared = is_ranked && !no_blur.is_empty();
         RankedFilter {
             ranks: is_ranked.then(|| [1 + better, ranked().count() - worse]),
-            beats_no_blur: is_compared.then(|| is_clearly_better(&own.1, no_blur)),
-            ..own.0.clone()
+            beats_no_blur: is_compared.then(|| is_clearly_better(&entry.1, no_blur)),
+            ..entry.0.clone()
         }
     };
     group.iter().map(rank).collect()
@@ -212,7 +213,7 @@ fn summarize(scores: &[&RankedScore]) -> RankedFilter {
         .max_by(|a, b| a.value.total_cmp(&b.value))
         .expect("a filter in a ranking has a score");
     let first = scores[0];
-    let side_effects: Vec<SideEffects> = scores.iter().map(|own| own.side_effects).collect();
+    let side_effects: Vec<SideEffects> = scores.iter().map(|score| score.side_effects).collect();
     RankedFilter {
         side_effects: SideEffects::mean(&side_effects),
         name: first.name.clone(),
@@ -231,7 +232,7 @@ fn summarize(scores: &[&RankedScore]) -> RankedFilter {
 
 /// Keeps the first preset of every filter of a sorted group.
 fn keep_best_presets(group: Vec<Entry>) -> Vec<Entry> {
-    let filters = group_by(group, |(own, _)| own.filter.clone()).into_iter();
+    let filters = group_by(group, |(filter, _)| filter.filter.clone()).into_iter();
     let best = filters.map(|mut presets| {
         presets[0].0.presets = presets.len();
         presets.swap_remove(0)
@@ -263,8 +264,8 @@ fn are_tied(a: &[&RankedScore], b: &[&RankedScore]) -> bool {
 
 /// Returns whether a filter is better than another in the mean, by its 95 % CI, or on every common
 /// scene by more than the noise floor.
-fn is_clearly_better(own: &[&RankedScore], other: &[&RankedScore]) -> bool {
-    let (differences, floors) = pair(own, other);
+fn is_clearly_better(scores: &[&RankedScore], other: &[&RankedScore]) -> bool {
+    let (differences, floors) = pair(scores, other);
     let mut both = differences.iter().zip(&floors);
     if differences.is_empty() {
         return false;
@@ -301,7 +302,7 @@ pub(super) mod tests {
             panic!("one shutter");
         };
         let ranks: Vec<_> = (ranking.iter())
-            .map(|own| (own.name.as_str(), own.rank_text()))
+            .map(|filter| (filter.name.as_str(), filter.rank_text()))
             .collect();
         let expected = [("best", "1-2"), ("second", "1-2"), ("worst", "3")];
         assert_eq!(ranks, expected.map(|(name, rank)| (name, rank.to_owned())));

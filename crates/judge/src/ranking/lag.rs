@@ -27,8 +27,8 @@ pub fn lag_text(cases: &[Case]) -> Option<String> {
     alignments.sort_unstable();
     alignments.dedup();
     let lags = alignments.into_iter().filter_map(|alignment| {
-        let own = cases.iter().filter(|case| case.alignment == alignment);
-        let lag = mean_lag(&own.copied().collect::<Vec<_>>())?;
+        let group = cases.iter().filter(|case| case.alignment == alignment);
+        let lag = mean_lag(&group.copied().collect::<Vec<_>>())?;
         let number = Metric::FLIP.number(lag);
         Some(format!("{number} under a {alignment} shutter"))
     });

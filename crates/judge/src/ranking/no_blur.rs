@@ -5,11 +5,14 @@ use crate::ranking::filters::RankedFilter;
 /// Describes a ranked shutter in which no filter is clearly better than no blur; none if one is, or
 /// if no blur was not measured.
 pub fn no_gain_text(group: &[RankedFilter]) -> Option<&'static str> {
-    let mut filters = group.iter().filter(|own| own.ranks.is_some()).peekable();
+    let mut filters = group
+        .iter()
+        .filter(|filter| filter.ranks.is_some())
+        .peekable();
     if filters.peek().is_none() {
         return Some("nothing but no blur was measured");
     }
-    let is_as_bad = |own: &RankedFilter| own.beats_no_blur == Some(false);
+    let is_as_bad = |filter: &RankedFilter| filter.beats_no_blur == Some(false);
     filters
         .all(is_as_bad)
         .then_some("no filter is clearly better than no blur")

@@ -35,7 +35,7 @@ pub fn rank_sequences(run: &Run) -> Vec<Vec<RankedSequence>> {
 
 /// Ranks the sequences of one scene, every preset in every input form.
 pub fn rank_sequences_on(run: &Run, scene: &SceneId) -> Vec<Vec<RankedSequence>> {
-    let is_of_scene = |own: &Sequence, _: &Case| own.scene == *scene;
+    let is_of_scene = |sequence: &Sequence, _: &Case| sequence.scene == *scene;
     rank(run, is_of_scene, |losses| {
         rank_by_score(losses, &list_references(run), false)
     })
@@ -47,9 +47,16 @@ fn list_filters(run: &Run) -> Vec<(&Sequence, &Case)> {
     let cases: HashMap<(&SceneId, FilterId), &Case> = filters
         .map(|case| ((&case.scene, case.filter_id()), case))
         .collect();
-    let sequences = run.sequences.iter().filter(|own| !own.is_reference);
-    let with_case =
-        sequences.filter_map(|own| Some((own, *cases.get(&(&own.scene, own.filter.clone()))?)));
+    let sequences = run
+        .sequences
+        .iter()
+        .filter(|sequence| !sequence.is_reference);
+    let with_case = sequences.filter_map(|sequence| {
+        Some((
+            sequence,
+            *cases.get(&(&sequence.scene, sequence.filter.clone()))?,
+        ))
+    });
     with_case.collect()
 }
 
@@ -58,15 +65,15 @@ fn rank(
     is_ranked: impl Fn(&Sequence, &Case) -> bool,
     rank: impl Fn(&[RankedScore]) -> Vec<Vec<RankedFilter>>,
 ) -> Vec<Vec<RankedSequence>> {
-    let mut own = list_filters(run);
-    own.retain(|(sequence, case)| is_ranked(sequence, case));
-    let losses = own.iter();
+    let mut filters = list_filters(run);
+    filters.retain(|(sequence, case)| is_ranked(sequence, case));
+    let losses = filters.iter();
     let losses = losses.filter_map(|(sequence, case)| loss_of(sequence, &case.filter));
     let losses: Vec<RankedScore> = losses.collect();
     let with_means = |lost: RankedFilter| {
-        let sequences: Vec<&Sequence> = (own.iter().map(|(sequence, _)| *sequence))
-            .filter(|own| own.name == lost.name && own.alignment == lost.alignment)
-            .filter(|own| own.scene.rate == lost.rate)
+        let sequences: Vec<&Sequence> = (filters.iter().map(|(sequence, _)| *sequence))
+            .filter(|sequence| sequence.name == lost.name && sequence.alignment == lost.alignment)
+            .filter(|sequence| sequence.scene.rate == lost.rate)
             .collect();
         RankedSequence {
             means: SequenceMetric::ALL
@@ -82,21 +89,24 @@ fn rank(
 
 /// Lists the losses of the reference pictures' sequences.
 fn list_references(run: &Run) -> Vec<RankedScore> {
-    let references = run.sequences.iter().filter(|own| own.is_reference);
-    let losses = references.filter_map(|own| loss_of(own, &own.name));
+    let references = run
+        .sequences
+        .iter()
+        .filter(|reference| reference.is_reference);
+    let losses = references.filter_map(|reference| loss_of(reference, &reference.name));
     losses.collect()
 }
 
 /// Computes a sequence's JOD below perfect, and the JOD that the truth's noise may account for.
-fn loss_of(own: &Sequence, filter: &str) -> Option<RankedScore> {
-    let Measured::Score(score) = own.scores.get(RANKED_BY) else {
+fn loss_of(sequence: &Sequence, filter: &str) -> Option<RankedScore> {
+    let Measured::Score(score) = sequence.scores.get(RANKED_BY) else {
         return None;
     };
     Some(RankedScore {
-        scene: own.scene.clone(),
+        scene: sequence.scene.clone(),
         filter: filter.to_owned(),
-        name: own.name.clone(),
-        alignment: own.alignment,
+        name: sequence.name.clone(),
+        alignment: sequence.alignment,
         value: PERFECT_JOD - score.value,
         floor: PERFECT_JOD - score.floor,
         side_effects: SideEffects::default(),
@@ -116,7 +126,7 @@ fn as_quality(lost: RankedFilter) -> RankedFilter {
 
 fn mean(sequences: &[&Sequence], metric: SequenceMetric) -> Option<SceneMean> {
     let values: Vec<f64> = (sequences.iter())
-        .filter_map(|own| Some(metric.shown(own.scores.get(metric).value()?)))
+        .filter_map(|sequence| Some(metric.shown(sequence.scores.get(metric).value()?)))
         .collect();
     (!values.is_empty()).then(|| plain_mean(&values, TWO_SIDED))
 }

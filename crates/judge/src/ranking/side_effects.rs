@@ -38,8 +38,8 @@ impl SideEffects {
             (!values.is_empty()).then(|| plain_mean(&values, TWO_SIDED).mean)
         };
         Self {
-            still: mean(|own| own.still),
-            grain: mean(|own| own.grain),
+            still: mean(|effects| effects.still),
+            grain: mean(|effects| effects.grain),
         }
     }
 
@@ -89,9 +89,9 @@ mod tests {
     #[test]
     fn a_filter_that_ruins_what_stands_still_ranks_behind_all_others() {
         let with = |name: &str, value: f64, still: f64| {
-            let mut own = score(name, 0, value, 0.01);
-            own.side_effects.still = Some(still);
-            own
+            let mut ranked = score(name, 0, value, 0.01);
+            ranked.side_effects.still = Some(still);
+            ranked
         };
         let scores = [
             with("ruins", 0.05, 0.02),
@@ -100,7 +100,7 @@ mod tests {
         ];
         let ranking = rank_by_score(&scores, &[], false).concat();
         let ranks: Vec<_> = (ranking.iter())
-            .map(|own| (own.name.as_str(), own.rank_text()))
+            .map(|filter| (filter.name.as_str(), filter.rank_text()))
             .collect();
         let expected = [("touches", "1"), ("keeps", "2"), ("ruins", "3")];
         assert_eq!(ranks, expected.map(|(name, rank)| (name, rank.to_owned())));

@@ -137,8 +137,8 @@ fn facts(finding: &Finding) -> Markup {
             @if let Some(value) = finding.value {
                 div { dt { "measured" } dd { (finding.with_unit(value)) } }
             }
-            @if let Some(own) = &finding.interval {
-                div { dt { "95 % CI" } dd { (number(own.low)) " to " (number(own.high)) ", against a truth without noise" } }
+            @if let Some(interval) = &finding.interval {
+                div { dt { "95 % CI" } dd { (number(interval.low)) " to " (number(interval.high)) ", against a truth without noise" } }
             }
             div { dt { "limit" } dd { (limit_text(finding)) ", " (finding.place) ": " (finding.why) } }
             @if let Some(floor) = finding.floor {

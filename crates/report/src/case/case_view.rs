@@ -40,16 +40,16 @@ impl<'a> CaseView<'a> {
         files: &mut SceneFiles,
     ) -> Result<Self, Error> {
         let case = &run.cases[index];
-        let own = files.read_case(case)?;
+        let measured = files.read_case(case)?;
         let name = case.name();
-        let is_own = |own: &&&Finding| !case.is_reference && own.filter == name;
+        let is_own = |finding: &&&Finding| !case.is_reference && finding.filter == name;
         let findings: Vec<&Finding> = findings.iter().filter(is_own).copied().collect();
         let evidence: Vec<Option<Evidence>> = (findings.iter())
-            .map(|finding| find_evidence(finding, case, &own, files))
+            .map(|finding| find_evidence(finding, case, &measured, files))
             .collect::<Result<_, _>>()?;
-        let flip = own.errors.map("flip")?;
+        let flip = measured.errors.map("flip")?;
         let place = match evidence.iter().flatten().next() {
-            Some(first) => worst_pixel(&own.errors.map(&first.map)?, first.place, BLOCK),
+            Some(first) => worst_pixel(&measured.errors.map(&first.map)?, first.place, BLOCK),
             None => {
                 let (x, y) =
                     worst_block(Metric::FLIP, &flip, &files.truths[&case.alignment].regions);
@@ -57,10 +57,10 @@ impl<'a> CaseView<'a> {
             }
         };
         Ok(Self {
-            profile: trace_profile(place, case, files, &own),
+            profile: trace_profile(place, case, files, &measured),
             names: files.frame.objects.clone(),
             stops: files.frame.display.stops,
-            layers: own.layers,
+            layers: measured.layers,
             objects: files.objects,
             run,
             index,

@@ -41,7 +41,7 @@ pub fn colors() -> String {
 pub fn draw_legends() -> Markup {
     html! {
         @for painter in Painter::ALL {
-            @let layers = Layer::ALL.iter().filter(|own| own.painter() == *painter);
+            @let layers = Layer::ALL.iter().filter(|layer| layer.painter() == *painter);
             @let names: Vec<&str> = layers.map(|layer| layer.name()).collect();
             @if let Some(key) = key(*painter) { p.legend data-legend=(names.join(" ")) hidden { (key) } }
         }

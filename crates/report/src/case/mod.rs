@@ -73,9 +73,9 @@ impl CaseTables {
     }
 }
 
-/// Writes a case, which is visible while open; the script adds the viewer. If scripts run, its
-/// tables are text until then, since a browser needs seconds for all cases' tables. Without
-/// `tables` the script loads them from a file next to the page.
+/// Writes a case, which is visible while open; the script adds the viewer. If scripts run, the
+/// tables are text until the case is open, since a browser needs seconds for all cases' tables.
+/// Without `tables` the script loads them from a file next to the page.
 pub fn case_section(view: &CaseView, live: &Live, tables: Option<&CaseTables>) -> Markup {
     let case = view.case;
     let filter = case.filter_id();
@@ -85,11 +85,11 @@ pub fn case_section(view: &CaseView, live: &Live, tables: Option<&CaseTables>) -
         article.case id=(case_anchor(case)) data-title=(title) data-name=(anchor(&filter))
             data-filter=(filter) data-reference[filter.is_reference]
             data-score=(format!("FLIP {}", case.score_text(Metric::FLIP))) {
-            (part(tables.map(|own| &own.head)))
+            (part(tables.map(|table| &table.head)))
             div.viewer_place data-truth=[case.drawn.as_ref().map(truth_words)] data-scene=(view.scene) data-layers=(layers(view)) data-stops=(view.stops)
                 data-names=(serde_json::json!(view.names)) data-line=(line(&view.profile)) data-worst=(format!("{x},{y}")) {}
             (live_place(live))
-            (part(tables.map(|own| &own.rest)))
+            (part(tables.map(|table| &table.rest)))
         }
     }
 }
@@ -142,8 +142,8 @@ fn score_line(view: &CaseView, table: &CaseTable) -> Markup {
 
 /// ` (95 % CI 0.052 to 0.061)`
 fn interval(case: &Case, metric: Metric) -> String {
-    case.interval(metric).map_or_else(String::new, |own| {
-        let [low, high] = [own.low, own.high].map(|end| metric.number(end));
+    case.interval(metric).map_or_else(String::new, |interval| {
+        let [low, high] = [interval.low, interval.high].map(|end| metric.number(end));
         format!(" (95 % CI {low} to {high})")
     })
 }
@@ -151,10 +151,10 @@ fn interval(case: &Case, metric: Metric) -> String {
 /// Counts the scene's filters with the same shutter: those with better FLIP, and all.
 fn place_on_scene(table: &CaseTable, case: &Case) -> (Option<usize>, usize) {
     let flip = |case: &Case| case.estimate(Metric::FLIP);
-    let rivals = (table.cases_on(&case.scene).map(|(_, own)| own))
-        .filter(|own| !own.is_reference && own.alignment == case.alignment);
+    let rivals = (table.cases_on(&case.scene).map(|(_, rival)| rival))
+        .filter(|rival| !rival.is_reference && rival.alignment == case.alignment);
     let errors: Vec<f64> = rivals.filter_map(flip).collect();
-    let place = flip(case).map(|own| 1 + errors.iter().filter(|error| **error < own).count());
+    let place = flip(case).map(|value| 1 + errors.iter().filter(|error| **error < value).count());
     (place, errors.len())
 }
 

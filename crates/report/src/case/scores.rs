@@ -55,7 +55,7 @@ fn row(page: &CaseView, metric: Metric) -> Markup {
                 Measured::Score(score) => {
                     td {
                         @let interval = case.intervals.get(&metric);
-                        (value(case, metric, interval.map_or(score.value, |own| own.center)))
+                        (value(case, metric, interval.map_or(score.value, |interval| interval.center)))
                         @if let Some(interval) = interval { span.note { " " (interval_text(interval, score.value)) } }
                         @if let Some((object, _)) = case.scores.worst_object(metric) {
                             span.note { " " (object) }

@@ -12,7 +12,7 @@ pub fn ends(values: impl Iterator<Item = f64>) -> (f64, f64) {
 }
 
 /// Returns whether no other point is as low in both coordinates and lower in one.
-pub fn is_undominated(own: [f64; 2], all: &[[f64; 2]]) -> bool {
-    let beats = |other: &[f64; 2]| other[0] <= own[0] && other[1] <= own[1] && *other != own;
+pub fn is_undominated(point: [f64; 2], all: &[[f64; 2]]) -> bool {
+    let beats = |other: &[f64; 2]| other[0] <= point[0] && other[1] <= point[1] && *other != point;
     !all.iter().any(beats)
 }

@@ -84,8 +84,8 @@ fn differences(compared: &RunComparison) -> Markup {
         (&compared.only_in_second, &compared.runs[1]),
     ];
     let rows = html! {
-        @for own in &compared.settings {
-            tr { th scope="row" { (own.name) } td.text { (own.first) } td.text { (own.second) } }
+        @for setting in &compared.settings {
+            tr { th scope="row" { (setting.name) } td.text { (setting.first) } td.text { (setting.second) } }
         }
     };
     html! {
@@ -115,11 +115,11 @@ fn means(means: &[MeanChange]) -> Markup {
         .filter(|mean| mean.kind != ChangeKind::Same)
         .collect();
     // The filters of one metric follow each other.
-    let place = |metric: Metric| means.iter().position(|own| own.metric == metric);
+    let place = |metric: Metric| means.iter().position(|mean| mean.metric == metric);
     changed.sort_by_key(|mean| place(mean.metric));
     let caption = "Filters that changed. 95 % CI: over scenes, by Student's t";
     let bodies = html! {
-        @for own in changed.chunk_by(|a, b| a.metric == b.metric) { (metric_means(own)) }
+        @for changes in changed.chunk_by(|a, b| a.metric == b.metric) { (metric_means(changes)) }
     };
     html! {
         section {

@@ -45,7 +45,7 @@ pub fn both_runs(first: &StoredRun, second: &StoredRun) -> Markup {
 /// Lists scene, alignment and hash of the common truths, each once.
 fn truths<'a>(first: &'a Run, second: &'a Run) -> Vec<(&'a SceneId, Alignment, &'a str)> {
     let list = |run: &'a Run| {
-        let truth = |own: &'a Case| (&own.scene, own.alignment, own.truth_hash.as_str());
+        let truth = |case: &'a Case| (&case.scene, case.alignment, case.truth_hash.as_str());
         run.cases.iter().map(truth)
     };
     let others: HashSet<_> = list(second).collect();

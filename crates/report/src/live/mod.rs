@@ -57,8 +57,8 @@ impl<'a> LiveFiles<'a> {
             return Ok(None);
         }
         if !self.filters.contains_key(&case.filter[..]) {
-            let found = self.find_filter(case)?;
-            self.filters.insert(&case.filter, found);
+            let filter = self.find_filter(case)?;
+            self.filters.insert(&case.filter, filter);
         }
         let described = match &self.filters[&case.filter[..]] {
             Ok((number, filter)) => describe_case(case, (scene, frame), (*number, filter)),
@@ -76,14 +76,14 @@ impl<'a> LiveFiles<'a> {
     /// Finds the filter that a case ran, as its run's folder or this program has it, and writes its
     /// file.
     fn find_filter(&mut self, case: &Case) -> Result<Result<(usize, Filter), String>, Error> {
-        let own = self.folder.join(MEASURED_FILTERS).join(&case.filter);
-        let found = if own.join("filter.toml").is_file() {
-            Filter::load(&own)
+        let folder = self.folder.join(MEASURED_FILTERS).join(&case.filter);
+        let filter = if folder.join("filter.toml").is_file() {
+            Filter::load(&folder)
         } else {
             Filter::builtin(&case.filter)
         };
-        let found = found.ok().filter(|filter| is_of(filter, case));
-        let Some(filter) = found.filter(|_| case.command.is_none()) else {
+        let filter = filter.ok().filter(|filter| is_of(filter, case));
+        let Some(filter) = filter.filter(|_| case.command.is_none()) else {
             let reason = match case.command {
                 Some(_) => "A browser cannot run this filter: it is a program.",
                 None => {
@@ -92,16 +92,23 @@ impl<'a> LiveFiles<'a> {
             };
             return Ok(Err(reason.to_owned()));
         };
-        let is_as_written = |own: &Case| {
-            let mut presets = filter.presets.iter().filter(|it| it.name == own.preset);
-            let is_own = own.filter == case.filter && own.reference_width.is_none();
+        let is_as_written = |other: &Case| {
+            let mut presets = filter
+                .presets
+                .iter()
+                .filter(|preset| preset.name == other.preset);
+            let is_own = other.filter == case.filter && other.reference_width.is_none();
             is_own && presets.any(|preset| preset.reference_width.is_some())
         };
         let as_written = self.run.cases.iter().any(is_as_written);
         Ok(match filter.live(self.run.render.width, as_written) {
             Err(reason) => Err(reason),
             Ok(live) => {
-                let number = self.filters.values().filter(|it| it.is_ok()).count();
+                let number = self
+                    .filters
+                    .values()
+                    .filter(|filter| filter.is_ok())
+                    .count();
                 self.write(&format!("live_filter_{number}"), &live.to_string())?;
                 Ok((number, filter))
             }
@@ -113,7 +120,7 @@ impl<'a> LiveFiles<'a> {
 fn is_of(filter: &Filter, case: &Case) -> bool {
     let has = |name: &String| case.parameters.contains_key(name);
     let mut parameters = filter.parameters.iter();
-    parameters.len() == case.parameters.len() && parameters.all(|own| has(&own.name))
+    parameters.len() == case.parameters.len() && parameters.all(|parameter| has(&parameter.name))
 }
 
 /// Describes a case of a live filter.

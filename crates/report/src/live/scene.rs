@@ -56,6 +56,9 @@ fn list_inputs(frame: &FilterFrame) -> BTreeMap<&'static str, String> {
 
 /// Writes numbers as base64 of zlib, the lowest byte of each first.
 fn compress(numbers: &[f32]) -> String {
-    let bytes: Vec<u8> = numbers.iter().flat_map(|it| it.to_le_bytes()).collect();
+    let bytes: Vec<u8> = numbers
+        .iter()
+        .flat_map(|number| number.to_le_bytes())
+        .collect();
     STANDARD.encode(deflate(&bytes))
 }

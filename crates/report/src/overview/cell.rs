@@ -57,7 +57,7 @@ pub fn cell(metric: Metric, colors: &Colors, view: &CaseView) -> Markup {
     let color = (estimate.filter(|_| !case.is_reference)).and_then(|score| colors.of(score));
     let fails = judged.is_some_and(|(finding, _)| finding.outcome == Outcome::Broken);
     html! {
-        td class=(format!("{} {}", color.map_or("", |own| own.0), if fails { "required" } else { "" }).trim())
+        td class=(format!("{} {}", color.map_or("", |color| color.0), if fails { "required" } else { "" }).trim())
             style=[color.map(|(_, strength)| format!("--strength:{strength:.0}%"))]
             data-value=[estimate]
             title=[reason(&measured)] {
@@ -80,7 +80,8 @@ pub fn cell(metric: Metric, colors: &Colors, view: &CaseView) -> Markup {
 fn find_judged<'a>(metric: Metric, view: &'a CaseView) -> Option<(&'a Finding, Status)> {
     let metric = view.case.scores.behind(metric);
     let mut findings = view.findings.iter();
-    let finding = findings.find(|own| own.level == Level::Required && own.metric == metric)?;
+    let finding =
+        findings.find(|finding| finding.level == Level::Required && finding.metric == metric)?;
     Some((finding, Status::of(finding.outcome)?))
 }
 

@@ -76,7 +76,7 @@ fn points(table: &CaseTable, timed: &[(&FilterId, &CaseCost)]) -> Vec<Point> {
 fn references(table: &CaseTable) -> Vec<(String, f64)> {
     let all = table.filters.iter();
     all.filter(|filter| filter.is_reference)
-        .filter_map(|own| Some((own.to_string(), mean_error(table, own)?)))
+        .filter_map(|reference| Some((reference.to_string(), mean_error(table, reference)?)))
         .collect()
 }
 
@@ -132,9 +132,9 @@ fn reaches(bench: &Bench) -> Markup {
             tr {
                 th scope="row" { (cost.filter) ":" (cost.preset) }
                 @for point in &cost.points {
-                    td { (point.seconds.map_or("-".to_owned(), |own| milliseconds(own.median))) }
+                    td { (point.seconds.map_or("-".to_owned(), |seconds| milliseconds(seconds.median))) }
                 }
-                td { (cost.growth.map_or("-".to_owned(), |own| format!("{:.2}", own.median))) }
+                td { (cost.growth.map_or("-".to_owned(), |growth| format!("{:.2}", growth.median))) }
             }
         }
     };

@@ -110,7 +110,11 @@ fn outcome(verdict: &Verdict, required: &Tally) -> Markup {
 
 /// Counts scenes, filters and missed targets.
 fn counts(table: &CaseTable, targets: &Tally) -> Markup {
-    let filters = table.filters.iter().filter(|own| !own.is_reference).count();
+    let filters = table
+        .filters
+        .iter()
+        .filter(|filter| !filter.is_reference)
+        .count();
     html! {
         p.note {
             (counted(table.scenes.len(), "scene")) ", " (counted(filters, "filter preset")) ". "

@@ -66,7 +66,8 @@ pub fn pareto_section(points: &[Point], references: &[(String, f64)]) -> Markup 
 /// Draws filters as discs with their names, and references as lines.
 fn chart(points: &[(&Point, bool)], references: &[(String, f64)]) -> Markup {
     let bars = || points.iter().flat_map(|(point, _)| point.bar());
-    let errors = (references.iter().map(|own| own.1)).chain(bars().map(|(_, error)| error));
+    let errors =
+        (references.iter().map(|reference| reference.1)).chain(bars().map(|(_, error)| error));
     let plot = Plot {
         size: [640.0, 380.0],
         x: Axis::log("ms, logarithmic", bars().map(|(time, _)| time)),
@@ -161,11 +162,14 @@ fn place_labels(
     width: f64,
 ) -> Vec<Option<[f64; 2]>> {
     taken.extend(discs.iter().map(|(_, disc)| disc));
-    let free = |own: &[f64; 4], taken: &[[f64; 4]]| {
+    let free = |label: &[f64; 4], taken: &[[f64; 4]]| {
         let apart = |other: &[f64; 4]| {
-            own[2] <= other[0] || other[2] <= own[0] || own[3] <= other[1] || other[3] <= own[1]
+            label[2] <= other[0]
+                || other[2] <= label[0]
+                || label[3] <= other[1]
+                || other[3] <= label[1]
         };
-        own[0] >= 60.0 && own[2] <= width && own[1] >= 0.0 && taken.iter().all(apart)
+        label[0] >= 60.0 && label[2] <= width && label[1] >= 0.0 && taken.iter().all(apart)
     };
     let place = |(title, [left, top, right, bottom]): &(&str, [f64; 4])| {
         let length = text_width(title);
@@ -176,9 +180,9 @@ fn place_labels(
         let corners = [[right + 2.0, beside], [left - 2.0 - length, beside]].into_iter();
         let corners = corners.chain(columns.into_iter().flat_map(|x| [[x, above], [x, below]]));
         let mut boxes = corners.map(|[left, top]| [left, top, left + length, top + LINE]);
-        let found = boxes.find(|own| free(own, &taken))?;
-        taken.push(found);
-        Some([found[0], found[1]])
+        let label = boxes.find(|label| free(label, &taken))?;
+        taken.push(label);
+        Some([label[0], label[1]])
     };
     discs.iter().map(place).collect()
 }
@@ -191,7 +195,7 @@ fn named_levels(references: &[(String, f64)], near: f64) -> Vec<(String, f64)> {
     for group in sorted.chunk_by_mut(|a, b| b.1 - a.1 < near) {
         if let [first, .., last] = &*group {
             let (count, low, high) = (group.len(), first.1, last.1);
-            group.iter_mut().for_each(|own| own.0.clear());
+            group.iter_mut().for_each(|reference| reference.0.clear());
             group[count - 1].0 = format!("{count} references: {low:.3} to {high:.3}");
         }
     }

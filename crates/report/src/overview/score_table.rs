@@ -42,32 +42,32 @@ fn rank_rows<'a>(table: &CaseTable<'a>, metric: Metric) -> Vec<Vec<Row<'a>>> {
     filters.sort_by_key(|filter| filter.is_reference);
     let rate = summarized_rate(&table.run.cases);
     let means: Vec<&Overall> = (table.run.overall.iter())
-        .filter(|own| own.metric == metric && Some(own.rate) == rate)
+        .filter(|mean| mean.metric == metric && Some(mean.rate) == rate)
         .collect();
     let row = |filter: &FilterId| {
-        let overall = means.iter().find(|own| own.filter == *filter).copied();
+        let overall = means.iter().find(|mean| mean.filter == *filter).copied();
         let of_rate = |case: &Case| rate.is_none_or(|rate| case.rate == rate);
         let scores = (table.cases_of(filter)).filter(|(_, case)| of_rate(case));
         let only = mean(scores.filter_map(|(_, case)| case.estimate(metric)));
         Row {
             overall,
-            mean: overall.map(|own| own.mean).or(only),
+            mean: overall.map(|overall| overall.mean).or(only),
             filter: filter.clone(),
         }
     };
     let mut groups: Vec<Vec<Row>> = Vec::new();
-    for own in filters.iter().map(row) {
+    for row in filters.iter().map(row) {
         let compares = |group: &&mut Vec<Row>| {
-            metric.spans_alignments() || group[0].filter.alignment == own.filter.alignment
+            metric.spans_alignments() || group[0].filter.alignment == row.filter.alignment
         };
         match groups.iter_mut().find(compares) {
-            Some(group) => group.push(own),
-            None => groups.push(vec![own]),
+            Some(group) => group.push(row),
+            None => groups.push(vec![row]),
         }
     }
     let badness = |row: &Row| {
         row.mean
-            .map_or(f64::INFINITY, |own| metric.ideal().badness(own))
+            .map_or(f64::INFINITY, |mean| metric.ideal().badness(mean))
     };
     for group in &mut groups {
         group.sort_by(|a, b| badness(a).total_cmp(&badness(b)));
@@ -75,7 +75,7 @@ fn rank_rows<'a>(table: &CaseTable<'a>, metric: Metric) -> Vec<Vec<Row<'a>>> {
     groups
 }
 
-/// Writes the table; without means, for a single scene, it has no column for them.
+/// Writes the table. A single scene has no means, and its table no columns for them.
 pub fn score_table(
     table: &CaseTable,
     views: &[CaseView],
@@ -86,8 +86,11 @@ pub fn score_table(
     let ideal = metric.ideal();
     let groups = rank_rows(table, metric);
     let rows = || groups.iter().flatten();
-    let own = views.iter().filter(|view| !view.case.is_reference);
-    let colors = Colors::over(ideal, own.filter_map(|view| view.case.estimate(metric)));
+    let measured = views.iter().filter(|view| !view.case.is_reference);
+    let colors = Colors::over(
+        ideal,
+        measured.filter_map(|view| view.case.estimate(metric)),
+    );
     let has_means = rows().any(|row| row.overall.is_some());
     let strip = strip_over(rows().filter(|row| !row.filter.is_reference), ideal);
     let columns =
@@ -201,10 +204,10 @@ fn breakable(name: &str) -> Markup {
 }
 
 fn mean_cells(table: &CaseTable, metric: Metric, strip: &Strip, row: &Row) -> Markup {
-    let Some(own) = row.overall else {
+    let Some(overall) = row.overall else {
         return html! { td { "-" } td {} td {} };
     };
-    let class = if own.is_reference { "open" } else { "" };
+    let class = if overall.is_reference { "open" } else { "" };
     // A floor is between perfect and the score only if lower is better.
     let floor = match metric.ideal() {
         Ideal::Lowest => {
@@ -213,15 +216,15 @@ fn mean_cells(table: &CaseTable, metric: Metric, strip: &Strip, row: &Row) -> Ma
         }
         Ideal::Highest | Ideal::Target(_) => None,
     };
-    let [low, high] = own.interval.map(|end| metric.number(end));
+    let [low, high] = overall.interval.map(|end| metric.number(end));
     html! {
-        td.mean data-value=(own.mean) { (metric.number(own.mean)) }
+        td.mean data-value=(overall.mean) { (metric.number(overall.mean)) }
         td.note { (low) " to " (high) }
         td.chart {
             (strip.draw(&html! {
                 @if let Some(floor) = floor { (strip.bar(0.0, floor, "floor")) }
-                (strip.interval(own.interval))
-                (strip.mark(own.mean, class))
+                (strip.interval(overall.interval))
+                (strip.mark(overall.mean, class))
             }))
         }
     }
@@ -231,7 +234,7 @@ fn mean_cells(table: &CaseTable, metric: Metric, strip: &Strip, row: &Row) -> Ma
 fn strip_over<'a>(rows: impl Iterator<Item = &'a Row<'a>>, ideal: Ideal) -> Strip {
     let mut means: Vec<f64> = rows
         .filter_map(|row| row.mean)
-        .filter(|own| own.is_finite())
+        .filter(|mean| mean.is_finite())
         .collect();
     means.sort_by(f64::total_cmp);
     let perfect = match ideal {
@@ -246,12 +249,12 @@ fn strip_over<'a>(rows: impl Iterator<Item = &'a Row<'a>>, ideal: Ideal) -> Stri
         [means[last / 4], means[last - last / 4]]
     };
     let room = WHISKERS * (quartiles[1] - quartiles[0]);
-    let within = |own: &f64| (quartiles[0] - room..=quartiles[1] + room).contains(own);
+    let within = |mean: &f64| (quartiles[0] - room..=quartiles[1] + room).contains(mean);
     Strip::over(means.into_iter().filter(within).chain(perfect))
 }
 
 /// Writes the cost of a filter, which sorts like the scores.
 fn cost(table: &CaseTable, filter: &FilterId) -> Markup {
     let cost = cost_of(table, filter);
-    html! { td.cost data-value=[cost.map(|own| own.seconds.median)] { (cost_text(cost)) } }
+    html! { td.cost data-value=[cost.map(|cost| cost.seconds.median)] { (cost_text(cost)) } }
 }

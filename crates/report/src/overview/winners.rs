@@ -32,7 +32,7 @@ pub fn winners(table: &CaseTable) -> Markup {
             @for group in &rank_for_summary(&table.run.cases) {
                 li {
                     (first_rank(group, "Best", "FLIP", number, link, weakest))
-                    @if let Some(last) = group.last().filter(|own| !own.may_be_best()) {
+                    @if let Some(last) = group.last().filter(|last| !last.may_be_best()) {
                         "; worst: " (link(last)) " (" (number(last.mean)) ")"
                     }
                     "."
@@ -46,9 +46,11 @@ pub fn winners(table: &CaseTable) -> Markup {
 /// Names the filters that rank behind all others because they change what stands still; nothing if
 /// none does.
 fn behind_all(group: &[RankedFilter]) -> Markup {
-    let ruining = group.iter().filter(|own| own.side_effects.ruins_still());
+    let ruining = group
+        .iter()
+        .filter(|filter| filter.side_effects.ruins_still());
     let names: Vec<String> = ruining
-        .map(|own| format!("{} ({})", own.name, own.side_effects.texts()[0]))
+        .map(|filter| format!("{} ({})", filter.name, filter.side_effects.texts()[0]))
         .collect();
     html! {
         @if !names.is_empty() {
@@ -67,7 +69,7 @@ pub fn sequence_winners(run: &Run) -> Markup {
         @if !groups.is_empty() {
             ul.winners {
                 @for group in &groups {
-                    @let ranked: Vec<RankedFilter> = group.iter().map(|own| own.ranked.clone()).collect();
+                    @let ranked: Vec<RankedFilter> = group.iter().map(|sequence| sequence.ranked.clone()).collect();
                     li { (first_rank(&ranked, "Best sequences", "JOD", number, name, scene)) "." }
                 }
             }
@@ -78,8 +80,8 @@ pub fn sequence_winners(run: &Run) -> Markup {
     }
 }
 
-/// Names the filters that share the first rank, and the first one's weakest scene; before them that
-/// none is better than no blur, if so.
+/// Names the filters that share the first rank, and the first one's weakest scene. If no filter is
+/// better than no blur, says that first.
 fn first_rank(
     group: &[RankedFilter],
     title: &str,
@@ -88,7 +90,7 @@ fn first_rank(
     name: impl Fn(&RankedFilter) -> Markup,
     weakest: impl Fn(&RankedFilter) -> Markup,
 ) -> Markup {
-    let mut first = group.iter().filter(|own| own.may_be_best());
+    let mut first = group.iter().filter(|filter| filter.may_be_best());
     let best = first.next();
     let no_gain = no_gain_text(group);
     let RankedFilter {
@@ -104,8 +106,8 @@ fn first_rank(
             @if let Some([low, high]) = best.interval { " (95 % CI " (number(low)) " to " (number(high)) ")" }
             "; weakest on " (weakest(best)) " (" (number(best.worst.1)) ")"
         }
-        @for (index, own) in first.enumerate() {
-            (if index == 0 { "; too close to tell apart: " } else { ", " }) (name(own)) " (" (number(own.mean)) ")"
+        @for (index, filter) in first.enumerate() {
+            (if index == 0 { "; too close to tell apart: " } else { ", " }) (name(filter)) " (" (number(filter.mean)) ")"
         }
     }
 }

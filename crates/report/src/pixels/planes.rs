@@ -46,8 +46,8 @@ impl Planes {
         [0, 1, 2].map(|index| self.add(&component(index))).to_vec()
     }
 
-    /// Writes every plane as JSON: a list of texts, each with the number of the plane that it is
-    /// the difference from, or none, a space, and the base64 of a zlib stream.
+    /// Writes every plane as JSON: a list of texts. Each is the number of the plane that it is the
+    /// difference from, if any, then a space, then the base64 of a zlib stream.
     pub fn json(&self) -> String {
         let references = self.choose_references();
         let texts: Vec<String> = (self.planes.par_iter().zip(references))
@@ -73,10 +73,10 @@ impl Planes {
             .collect();
         let mut chains = vec![0; samples.len()];
         let mut references = Vec::new();
-        for (number, own) in samples.iter().enumerate() {
+        for (number, sample) in samples.iter().enumerate() {
             let unequal = |other: &usize| {
-                let pairs = own.iter().zip(&samples[*other]);
-                (pairs.filter(|(own, other)| own != other).count(), *other)
+                let pairs = sample.iter().zip(&samples[*other]);
+                (pairs.filter(|(bits, other)| bits != other).count(), *other)
             };
             let short = (0..number)
                 .into_par_iter()

@@ -50,8 +50,8 @@ pub struct TruthFile {
     pub offset: frame::Vectors,
     /// Regions that scores are pooled over.
     pub regions: Regions,
-    /// Part of the mean squared error against `mean` where anything moves that is the truth's own
-    /// noise, in units of radiance.
+    /// The truth's own noise: its part of the mean squared error against `mean` where anything
+    /// moves, in units of radiance.
     pub noise: f64,
     /// Sides of each moving object's bleed, with the object's index.
     sides: Vec<(usize, frame::Raster<Side>)>,
@@ -81,9 +81,9 @@ impl SceneFiles {
         let mut whole = Frame::read(&path)?;
         let frame = whole.cropped();
         whole.coverage.clear();
-        let own = path.parent().unwrap_or(folder);
-        read_further_velocities(&mut whole, own)?;
-        let exclusion = read_exclusion(&whole, own)?;
+        let frame_folder = path.parent().unwrap_or(folder);
+        read_further_velocities(&mut whole, frame_folder)?;
+        let exclusion = read_exclusion(&whole, frame_folder)?;
         check_size(&path, frame.size(), (run.render.width, run.render.height))?;
         let mut accumulations = BTreeMap::new();
         for case in cases.iter().filter(|case| is_in_profiles(case)) {
@@ -184,14 +184,14 @@ impl SceneFiles {
 
     /// Reads the files of a case.
     pub fn read_case<'c>(&mut self, case: &'c Case) -> Result<CaseFiles<'c>, Error> {
-        let own = self.folder.join(&case.folder);
-        let file = read_exr(&own.join("output.exr"))?;
+        let folder = self.folder.join(&case.folder);
+        let file = read_exr(&folder.join("output.exr"))?;
         file.expect_finite()?;
         let errors = ErrorMaps::read(case, &self.folder)?;
         let output = file.color("")?;
-        let (found, size) = ((output.width, output.height), self.frame.size());
-        check_size(&own.join("output.exr"), found, size)?;
-        check_size(&own.join("errors.exr"), errors.size(), size)?;
+        let (pixels, size) = ((output.width, output.height), self.frame.size());
+        check_size(&folder.join("output.exr"), pixels, size)?;
+        check_size(&folder.join("errors.exr"), errors.size(), size)?;
         if !self.truths.contains_key(&case.alignment) {
             let truth = self.read_truth(case)?;
             self.truths.insert(case.alignment, truth);
@@ -229,9 +229,9 @@ impl SceneFiles {
     }
 }
 
-/// Averages the squared noise of a truth where anything moves. Scores of a report are products of
-/// the errors against both halves, which is the squared error against their mean less the square of
-/// half their difference.
+/// Averages the squared noise of a truth where anything moves. A report's score is the product of
+/// the errors against both halves: the squared error against the mean of the halves, less the
+/// square of half their difference.
 fn noise_where_moving(truth: &Truth, regions: &Regions) -> f64 {
     let [first, second] = truth.halves.each_ref().map(|half| &half.color.pixels);
     let square = |at: usize| -> f64 {
@@ -246,17 +246,19 @@ fn noise_where_moving(truth: &Truth, regions: &Regions) -> f64 {
 pub fn find_traced<'a>(run: &'a Run, case: &Case) -> Option<&'a Case> {
     let scene = case.drawn.as_ref()?.scene.as_ref()?;
     let mut cases = run.cases.iter();
-    cases.find(|own| own.drawn.is_none() && own.scene == *scene && own.exposure == case.exposure)
+    cases.find(|other| {
+        other.drawn.is_none() && other.scene == *scene && other.exposure == case.exposure
+    })
 }
 
 /// Refuses a file of another size than the run's pictures.
-fn check_size(path: &Path, found: (u32, u32), expected: (u32, u32)) -> Result<(), Error> {
-    if found == expected {
+fn check_size(path: &Path, size: (u32, u32), expected: (u32, u32)) -> Result<(), Error> {
+    if size == expected {
         return Ok(());
     }
-    let [found, expected] = [found, expected].map(|(width, height)| format!("{width}x{height}"));
+    let [size, expected] = [size, expected].map(|(width, height)| format!("{width}x{height}"));
     Err(Error::Usage(format!(
-        "{}: has {found} pixels, the run's pictures have {expected}; run it again",
+        "{}: has {size} pixels, the run's pictures have {expected}; run it again",
         path.display()
     )))
 }
@@ -275,7 +277,7 @@ fn read_bleeds(file: &ExrFile, objects: &[String], truth: &TruthFile) -> Result<
         let matte = file.plane(&format!("coverage.{}", objects[*object]))?;
         for (bleed, wanted) in bleeds.iter_mut().zip(wanted) {
             let share = |matte: &f32, side: &Side| if *side == wanted { *matte } else { 0.0 };
-            *bleed = bleed.zip(&matte.zip(sides, share), |sum, own| sum + own);
+            *bleed = bleed.zip(&matte.zip(sides, share), |sum, share| sum + share);
         }
     }
     Ok(bleeds)

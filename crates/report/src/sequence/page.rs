@@ -33,7 +33,11 @@ pub fn sequences_page(run: &Run, findings: &[Finding]) -> Option<String> {
     }
     let played: Vec<Value> = run.sequences.iter().map(play).collect();
     let data = Value::from(played).to_string();
-    let mut scenes: Vec<&SceneId> = run.sequences.iter().map(|own| &own.scene).collect();
+    let mut scenes: Vec<&SceneId> = run
+        .sequences
+        .iter()
+        .map(|sequence| &sequence.scene)
+        .collect();
     scenes.dedup();
     let frames = run.frames;
     let document = Document {
@@ -71,13 +75,13 @@ pub fn sequences_page(run: &Run, findings: &[Finding]) -> Option<String> {
 /// Writes the controls, and the frames for the pictures.
 fn player(run: &Run) -> Markup {
     let mut sequences = run.sequences.iter();
-    let first_filter = (sequences.position(|own| !own.is_reference)).unwrap_or(0);
+    let first_filter = (sequences.position(|sequence| !sequence.is_reference)).unwrap_or(0);
     let rates = rates(run.frames.per_second);
     html! {
         div.toolbar #player data-rate=(run.frames.per_second) {
             select #sequence aria-label="Sequence" {
-                @for (index, own) in run.sequences.iter().enumerate() {
-                    option value=(index) selected[index == first_filter] { (name(own)) }
+                @for (index, sequence) in run.sequences.iter().enumerate() {
+                    option value=(index) selected[index == first_filter] { (name(sequence)) }
                 }
             }
             button #play type="button" { "Play" }
@@ -107,21 +111,24 @@ fn player(run: &Run) -> Markup {
 }
 
 /// Lists the run's own rate, and the usual ones.
-fn rates(own: f64) -> Vec<f64> {
+fn rates(run_rate: f64) -> Vec<f64> {
     let mut rates = vec![60.0, 30.0, 12.0];
-    rates.retain(|rate| *rate != own);
-    rates.insert(0, own);
+    rates.retain(|rate| *rate != run_rate);
+    rates.insert(0, run_rate);
     rates
 }
 
-fn name(own: &Sequence) -> String {
-    format!("{} / {} ({})", own.scene, own.name, own.alignment)
+fn name(sequence: &Sequence) -> String {
+    format!(
+        "{} / {} ({})",
+        sequence.scene, sequence.name, sequence.alignment
+    )
 }
 
 /// Lists the player's data of a sequence. Paths are relative to the page; errors are roots of
 /// squares in thousandths of white.
-fn play(own: &Sequence) -> Value {
-    let truth = RenderFile::Truth(own.alignment).picture();
+fn play(sequence: &Sequence) -> Value {
+    let truth = RenderFile::Truth(sequence.alignment).picture();
     let path = |folder: &Path, name: &str| {
         let path = folder.join(name);
         let parts = path.iter().map(|part| part.to_string_lossy());
@@ -139,6 +146,6 @@ fn play(own: &Sequence) -> Value {
             "flicker": root(frame.flicker),
         })
     };
-    let frames: Vec<Value> = own.frames.iter().enumerate().map(frame).collect();
-    json!({ "name": name(own), "frames": frames })
+    let frames: Vec<Value> = sequence.frames.iter().enumerate().map(frame).collect();
+    json!({ "name": name(sequence), "frames": frames })
 }

@@ -13,7 +13,10 @@ pub fn ranking_tables(run: &Run, scenes: usize) -> Markup {
         ..=1 => Vec::new(),
         _ => rank_sequences(run),
     };
-    let is_tied = groups.iter().flatten().any(|own| own.ranked.is_tied());
+    let is_tied = groups
+        .iter()
+        .flatten()
+        .any(|sequence| sequence.ranked.is_tied());
     html! {
         @if !groups.is_empty() {
             h2 { "Ranking" }
@@ -23,7 +26,7 @@ pub fn ranking_tables(run: &Run, scenes: usize) -> Markup {
             }
             @for group in &groups {
                 h3 { (group[0].ranked.alignment) " shutter" @if let Some(rate) = group[0].ranked.rate { ", " (rate.text()) } }
-                (metric_table("Means over scenes", Some("worst scene"), &html! { @for own in group { (row(own, scenes)) } }))
+                (metric_table("Means over scenes", Some("worst scene"), &html! { @for sequence in group { (row(sequence, scenes)) } }))
             }
         }
     }
@@ -31,19 +34,19 @@ pub fn ranking_tables(run: &Run, scenes: usize) -> Markup {
 
 /// Writes a table of filters with a column for every score of sequences, and perhaps one more.
 pub fn metric_table(label: &str, last: Option<&'static str>, rows: &Markup) -> Markup {
-    let metrics = SequenceMetric::ALL.iter().map(|own| own.row().name);
+    let metrics = SequenceMetric::ALL.iter().map(|metric| metric.row().name);
     let columns = ["filter"].into_iter().chain(metrics).chain(last);
     let columns: Vec<Column> = columns.map(Column::Plain).collect();
     scroll_table(None, label, None, &columns, rows)
 }
 
-fn row(own: &RankedSequence, scenes: usize) -> Markup {
-    let ranked = &own.ranked;
+fn row(sequence: &RankedSequence, scenes: usize) -> Markup {
+    let ranked = &sequence.ranked;
     let (scene, worst) = &ranked.worst;
     html! {
         tr {
             th scope="row" { (ranked.rank_text()) " " (ranked.name) }
-            @for (metric, mean) in &own.means { td { (mean_text(*metric, mean.as_ref())) } }
+            @for (metric, mean) in &sequence.means { td { (mean_text(*metric, mean.as_ref())) } }
             td {
                 (scene) " " (RANKED_BY.shown_text(*worst))
                 @if ranked.scenes < scenes { span.note { " (" (ranked.scenes) " of " (scenes) " scenes)" } }

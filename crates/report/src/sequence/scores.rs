@@ -14,8 +14,8 @@ use crate::finding_text::{Status, limit_text};
 /// a rank.
 pub fn score_tables(run: &Run, findings: &[Finding]) -> Markup {
     let mut groups: Vec<(&SceneId, Alignment)> = Vec::new();
-    for own in &run.sequences {
-        let group = (&own.scene, own.alignment);
+    for sequence in &run.sequences {
+        let group = (&sequence.scene, sequence.alignment);
         if !groups.contains(&group) {
             groups.push(group);
         }
@@ -24,7 +24,7 @@ pub fn score_tables(run: &Run, findings: &[Finding]) -> Markup {
         @for (scene, alignment) in groups {
             h3 { (scene) ", " (alignment) " shutter" }
             (metric_table("Scores over time", None, &html! {
-                @for (index, rank, own) in order_rows(run, scene, alignment) { (row(index, &rank, own, findings)) }
+                @for (index, rank, sequence) in order_rows(run, scene, alignment) { (row(index, &rank, sequence, findings)) }
             }))
         }
         dl.facts {
@@ -43,42 +43,49 @@ fn order_rows<'a>(
     alignment: Alignment,
 ) -> Vec<(usize, String, &'a Sequence)> {
     let ranked: Vec<RankedSequence> = rank_sequences_on(run, scene).concat();
-    let place = |own: &Sequence| {
-        let mut ranked = ranked.iter().map(|own| &own.ranked);
-        ranked.position(|it| it.name == own.name && it.alignment == own.alignment)
+    let place = |sequence: &Sequence| {
+        let mut ranked = ranked.iter().map(|entry| &entry.ranked);
+        ranked.position(|filter| {
+            filter.name == sequence.name && filter.alignment == sequence.alignment
+        })
     };
     let all = run.sequences.iter().enumerate();
-    let rows = all.filter(|(_, own)| own.scene == *scene && own.alignment == alignment);
-    let mut rows: Vec<_> = rows.map(|(index, own)| (place(own), index, own)).collect();
-    rows.sort_by_key(|(place, _, own)| (!own.is_reference, place.unwrap_or(usize::MAX)));
-    let with_rank = rows.into_iter().map(|(place, index, own)| {
-        let place = place.filter(|_| !own.is_reference);
+    let rows =
+        all.filter(|(_, sequence)| sequence.scene == *scene && sequence.alignment == alignment);
+    let mut rows: Vec<_> = rows
+        .map(|(index, sequence)| (place(sequence), index, sequence))
+        .collect();
+    rows.sort_by_key(|(place, _, sequence)| (!sequence.is_reference, place.unwrap_or(usize::MAX)));
+    let with_rank = rows.into_iter().map(|(place, index, sequence)| {
+        let place = place.filter(|_| !sequence.is_reference);
         let rank = place.map(|at| ranked[at].ranked.rank_text() + " ");
-        (index, rank.unwrap_or_default(), own)
+        (index, rank.unwrap_or_default(), sequence)
     });
     with_rank.collect()
 }
 
-fn row(index: usize, rank: &str, own: &Sequence, findings: &[Finding]) -> Markup {
+fn row(index: usize, rank: &str, sequence: &Sequence, findings: &[Finding]) -> Markup {
     html! {
         tr {
             th scope="row" {
                 (rank)
                 a href=(format!("#{index}")) {
-                    @if own.is_reference { i { (own.name) } } @else { (own.name) }
+                    @if sequence.is_reference { i { (sequence.name) } } @else { (sequence.name) }
                 }
             }
-            @for metric in SequenceMetric::ALL { (cell(own, metric, finding_about(own, metric, findings))) }
+            @for metric in SequenceMetric::ALL { (cell(sequence, metric, finding_about(sequence, metric, findings))) }
         }
     }
 }
 
 /// Shows a score, and the status of its bound if it has one.
-fn cell(own: &Sequence, metric: SequenceMetric, finding: Option<&Finding>) -> Markup {
-    let score = own.scores.get(metric);
-    let status = finding.and_then(|own| Status::of(own.outcome));
+fn cell(sequence: &Sequence, metric: SequenceMetric, finding: Option<&Finding>) -> Markup {
+    let score = sequence.scores.get(metric);
+    let status = finding.and_then(|finding| Status::of(finding.outcome));
     let mut title = score_title(score);
-    title.extend(finding.map(|own| format!(", limit {}: {}", limit_text(own), own.place)));
+    title.extend(
+        finding.map(|finding| format!(", limit {}: {}", limit_text(finding), finding.place)),
+    );
     html! {
         td title=(title) class=[finding.and_then(Status::required_class)] {
             @if let Some(status) = status { (status) span.unseen { (status.word) " " } }
@@ -89,13 +96,13 @@ fn cell(own: &Sequence, metric: SequenceMetric, finding: Option<&Finding>) -> Ma
 
 /// Finds the finding about a score of a filter's sequence.
 fn finding_about<'a>(
-    own: &Sequence,
+    sequence: &Sequence,
     metric: SequenceMetric,
     findings: &'a [Finding],
 ) -> Option<&'a Finding> {
     findings.iter().find(|finding| {
         let key = (finding.metric, &finding.scene, &finding.filter);
-        !own.is_reference && key == (Metric::Sequence(metric), &own.scene, &own.name)
+        !sequence.is_reference && key == (Metric::Sequence(metric), &sequence.scene, &sequence.name)
     })
 }
 

@@ -18,9 +18,9 @@ pub fn summary(tuning: &Tuning) -> Markup {
         p.lead {
             @match tuning.advice() {
                 Advice::NoneIsBetter => "Keep the start: no trial beats it by more than the scenes can show.",
-                Advice::CannotTell(own) => {
+                Advice::CannotTell(difference) => {
                     "Keep the start: the scenes cannot separate trial " (choice.trial) " from it ("
-                    (own.text(percent)) ")."
+                    (difference.text(percent)) ")."
                 }
                 Advice::StartIsBetter(_) => {
                     "Keep the start: it is better than trial " (choice.trial) " on the held-out scenes."

@@ -32,11 +32,11 @@ impl TuneFolder {
         };
         let tuning_path = path.join("tune.json");
         let tuning: Option<Tuning> = read_json(&tuning_path)?;
-        if let Some(found) = tuning.as_ref().map(|own| own.format)
-            && found != TUNE_FORMAT
+        if let Some(format) = tuning.as_ref().map(|tuning| tuning.format)
+            && format != TUNE_FORMAT
         {
             return Err(Error::Usage(format!(
-                "{}: has format {found}; allowed: {TUNE_FORMAT}; tune anew with this version",
+                "{}: has format {format}; allowed: {TUNE_FORMAT}; tune anew with this version",
                 tuning_path.display()
             )));
         }

@@ -29,7 +29,7 @@ pub fn tuning_page(folder: &TuneFolder) -> Result<String, Error> {
             (scenes::tuned_on(tuning))
             (scenes::held_out(&tuning.held_out))
         }
-        @if let Some(found) = &folder.sensitivity { (parameters::importance(found)) }
+        @if let Some(sensitivity) = &folder.sensitivity { (parameters::importance(sensitivity)) }
         (parameters::slices(folder))
         @if let Some(tuning) = &folder.tuning { (failures(tuning)) }
         @if let Some(header) = &folder.header { (settings(header)) }
@@ -84,7 +84,11 @@ fn settings(header: &JournalHeader) -> Markup {
     } else {
         "none"
     };
-    let measured: Vec<&str> = header.objectives.iter().map(|it| it.name()).collect();
+    let measured: Vec<&str> = header
+        .objectives
+        .iter()
+        .map(|metric| metric.name())
+        .collect();
     let facts = [
         ("program", header.program.clone()),
         ("filter", format!("{}:{}", header.filter, header.start)),

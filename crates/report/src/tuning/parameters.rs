@@ -18,14 +18,14 @@ const LOG_FROM: f64 = 30.0;
 /// Largest error in a chart; larger ones are drawn here.
 const MAX_ERROR: f64 = 1.0;
 
-/// Draws one chart per parameter: every trial, and the line with all others at the start, if there
-/// is one.
+/// Draws one chart per parameter: every trial and, if it was studied, the line on which all other
+/// parameters are at the start.
 pub fn slices(folder: &TuneFolder) -> Markup {
     let trials = folder.trials.iter().filter(|trial| trial.error.is_some());
     let studied = folder
         .sensitivity
         .iter()
-        .flat_map(|found| found.parameters.keys());
+        .flat_map(|study| study.parameters.keys());
     let names: BTreeSet<&String> = trials
         .flat_map(|trial| trial.values.keys())
         .chain(studied)
@@ -51,20 +51,20 @@ pub fn slices(folder: &TuneFolder) -> Markup {
 fn slice(folder: &TuneFolder, name: &str) -> Markup {
     let trials = folder.trials.iter();
     let points: Vec<(&Value, f64, bool)> = trials
-        .filter_map(|own| {
+        .filter_map(|trial| {
             Some((
-                own.values.get(name)?,
-                own.error?.min(MAX_ERROR),
-                own.is_done(),
+                trial.values.get(name)?,
+                trial.error?.min(MAX_ERROR),
+                trial.is_done(),
             ))
         })
         .collect();
     let studies = folder
         .sensitivity
         .iter()
-        .filter_map(|found| found.parameters.get(name));
+        .filter_map(|study| study.parameters.get(name));
     let line: Vec<(&Value, f64)> = studies
-        .flat_map(|own| &own.slice)
+        .flat_map(|parameter| &parameter.slice)
         .map(|(value, error)| (value, error.min(MAX_ERROR)))
         .collect();
     // A line has the order of the filter's own choices.
@@ -110,7 +110,7 @@ fn place(value: &Value, words: &[String]) -> f64 {
     match value {
         Value::Integer(whole) => f64::from(*whole),
         Value::Real(real) => *real,
-        Value::Choice(word) => words.iter().position(|own| own == word).unwrap_or(0) as f64,
+        Value::Choice(word) => words.iter().position(|choice| choice == word).unwrap_or(0) as f64,
     }
 }
 
@@ -128,15 +128,15 @@ fn axis(name: &str, values: &[&Value], words: &[String]) -> Axis {
 }
 
 /// Lists the parameters, most important first.
-pub fn importance(found: &Sensitivity) -> Markup {
-    let mut rows: Vec<(&String, &ParameterSensitivity)> = found.parameters.iter().collect();
+pub fn importance(sensitivity: &Sensitivity) -> Markup {
+    let mut rows: Vec<(&String, &ParameterSensitivity)> = sensitivity.parameters.iter().collect();
     rows.sort_by(|(_, a), (_, b)| b.indices.total.value.total_cmp(&a.indices.total.value));
-    let rows = html! { tbody { @for (name, own) in rows { (row(name, own)) } } };
+    let rows = html! { tbody { @for (name, parameter) in rows { (row(name, parameter)) } } };
     html! {
         section {
             h2 { "Which parameters can become constants" }
             p {
-                "From " (found.candidates) " candidates all over the ranges; " (found.failed) " of them did not run. "
+                "From " (sensitivity.candidates) " candidates all over the ranges; " (sensitivity.failed) " of them did not run. "
                 "First and total (Sobol): share of the error's variance that the parameter causes alone, and with all others. "
                 "Lines are 95 % CIs."
             }
@@ -148,12 +148,12 @@ pub fn importance(found: &Sensitivity) -> Markup {
     }
 }
 
-fn row(name: &str, own: &ParameterSensitivity) -> Markup {
-    let (first, total) = (own.indices.first, own.indices.total);
+fn row(name: &str, parameter: &ParameterSensitivity) -> Markup {
+    let (first, total) = (parameter.indices.first, parameter.indices.total);
     html! {
         tr {
             th scope="row" { (name) }
-            td class=(if own.constant { "text better" } else { "text" }) { @if own.constant { "✓ yes" } @else { "no" } }
+            td class=(if parameter.constant { "text better" } else { "text" }) { @if parameter.constant { "✓ yes" } @else { "no" } }
             td { (format!("{:.3}", first.value)) }
             td { (format!("{:.3}", total.value)) span.note { (format!(" {:.3} to {:.3}", total.low, total.high)) } }
             td.chart { (bar(total.value, [total.low, total.high])) }

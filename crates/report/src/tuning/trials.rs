@@ -22,7 +22,9 @@ const AGAINST: [(&str, Measure); 2] = [
 
 /// Draws all trials, and lists those that no other beats.
 pub fn front_section(folder: &TuneFolder) -> Markup {
-    let done: Vec<&Trial> = (folder.trials.iter()).filter(|own| own.is_done()).collect();
+    let done: Vec<&Trial> = (folder.trials.iter())
+        .filter(|trial| trial.is_done())
+        .collect();
     let tuning = folder.tuning.as_ref();
     // A choice that is not recommended is an ordinary trial.
     let taken = tuning.filter(|tuning| tuning.advice() == Advice::Take);
