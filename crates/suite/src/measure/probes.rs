@@ -88,12 +88,12 @@ pub(crate) fn blur_with_probes(
 pub(crate) fn blur_picture(
     runner: &mut Runner,
     wide: Option<&mut Runner>,
-    (frame, own): (&FilterFrame, &Picture),
-    (before, own_before, frame_index): (&FilterFrame, &Picture, u32),
+    (frame, source): (&FilterFrame, &Picture),
+    (before, source_before, frame_index): (&FilterFrame, &Picture, u32),
     picture: [u32; 2],
 ) -> Result<Picture, FilterError> {
-    let mattes = pack_planes(&own.coverage);
-    let mattes_before = pack_planes(&own_before.coverage);
+    let mattes = pack_planes(&source.coverage);
+    let mattes_before = pack_planes(&source_before.coverage);
     let run = |runner: &mut Runner, colors: &[&Image], colors_before: &[&Image]| {
         let now = Input {
             frame_index,
@@ -103,7 +103,7 @@ pub(crate) fn blur_picture(
         let outputs = crop_all(outputs, frame.guard_band);
         Ok::<_, FilterError>(upscale_all(outputs, picture))
     };
-    let color = run(runner, &[&own.color], &[&own_before.color])?.remove(0);
+    let color = run(runner, &[&source.color], &[&source_before.color])?.remove(0);
     let mattes: Vec<&Image> = mattes.iter().collect();
     let mattes_before: Vec<&Image> = mattes_before.iter().collect();
     let mattes = match wide {
@@ -112,7 +112,7 @@ pub(crate) fn blur_picture(
     };
     Ok(Picture {
         color,
-        coverage: unpack_planes(&mattes, own.coverage.len()),
+        coverage: unpack_planes(&mattes, source.coverage.len()),
     })
 }
 

@@ -127,9 +127,9 @@ fn free_in_system() -> Option<u64> {
 /// group if a container hides the path to it.
 fn free_in_group() -> Option<u64> {
     let groups = fs::read_to_string("/proc/self/cgroup").unwrap_or_default();
-    let own = groups.lines().find_map(|line| line.strip_prefix("0::/"));
+    let group = groups.lines().find_map(|line| line.strip_prefix("0::/"));
     let folders = [
-        format!("/sys/fs/cgroup/{}", own.unwrap_or_default()),
+        format!("/sys/fs/cgroup/{}", group.unwrap_or_default()),
         "/sys/fs/cgroup".into(),
     ];
     let left = folders.iter().filter_map(|folder| {
