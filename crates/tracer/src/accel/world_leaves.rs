@@ -34,8 +34,8 @@ pub(crate) fn collect_world_leaves(
         let showing = (0..scene.objects.len()).filter(|&object| scene.objects[object].mesh == mesh);
         let (still, moving): (Vec<usize>, Vec<usize>) =
             showing.partition(|&object| poses.stands_still(object));
-        let own = usize::from(moving.is_empty());
-        let with_these = copies + still.len().saturating_sub(own) * tree.leaf_count();
+        let originals = usize::from(moving.is_empty());
+        let with_these = copies + still.len().saturating_sub(originals) * tree.leaf_count();
         if with_these > MAX_COPIES || tree.leaf_count() > max_leaves {
             continue;
         }

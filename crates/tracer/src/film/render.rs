@@ -219,8 +219,8 @@ impl<'a> Film<'a> {
         sampler: &Sampler,
         sample: &mut FilmSample,
     ) {
-        let own = eye.ray_at(time, self.canvas.place(pixel, within), sampler);
-        let ray = own.ray;
+        let eye_ray = eye.ray_at(time, self.canvas.place(pixel, within), sampler);
+        let ray = eye_ray.ray;
         let stage = self.integrator.stage;
         let then = &mut eye.instant;
         sample.clear(self.canvas.place(pixel, [0.5; 2]));
@@ -231,17 +231,17 @@ impl<'a> Film<'a> {
             let hit = layer.stop.map(|stop| stop.hit);
             let place = match &self.instant {
                 Some(instant) if sample.is_recalled => {
-                    let point = instant.look_back(stage, (poses, then), &own, hit.as_ref());
+                    let point = instant.look_back(stage, (poses, then), &eye_ray, hit.as_ref());
                     sample.unknowable += layer.share * f64::from(!point.is_shown);
                     if let Some(stop) = layer.stop {
                         let path = (radiance, bounces);
-                        let own =
+                        let shift =
                             instant.shift(&self.integrator, then, (&point, stop), path, sampler);
-                        sample.shift += layer.weight * own;
+                        sample.shift += layer.weight * shift;
                     }
                     point.place
                 }
-                Some(instant) => instant.find_place(stage, then, &own, hit.as_ref()),
+                Some(instant) => instant.find_place(stage, then, &eye_ray, hit.as_ref()),
                 None => None,
             };
             sample.seen.push(SeenPoint {

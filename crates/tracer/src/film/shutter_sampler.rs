@@ -127,8 +127,11 @@ mod tests {
                     let part = 0.5 / f64::from(subframes);
                     let index = ((time - shutter.open) / part).floor();
                     let middle = shutter.open + (index + 0.5) * part;
-                    let found = sampler.subframe_time(number, subframes, 3, 9);
-                    assert!((found - middle).abs() < 1e-12, "{found} {middle}");
+                    let subframe_time = sampler.subframe_time(number, subframes, 3, 9);
+                    assert!(
+                        (subframe_time - middle).abs() < 1e-12,
+                        "{subframe_time} {middle}"
+                    );
                 }
             }
         }
