@@ -163,10 +163,10 @@ impl RawLayout {
         let mut file = ExrFile::new(self.width, self.height);
         file.path = path.to_owned();
         for (at, name) in CHANNELS.iter().take(self.components).enumerate() {
-            let own = (rows.iter()).flat_map(|row| row.iter().skip(at).step_by(self.components));
+            let values = (rows.iter()).flat_map(|row| row.iter().skip(at).step_by(self.components));
             file.channels.push(Channel {
                 name: (*name).to_owned(),
-                samples: Samples::F32(own.copied().collect()),
+                samples: Samples::F32(values.copied().collect()),
             });
         }
         Ok(file)
