@@ -54,7 +54,7 @@ impl Accumulation {
         let others = others.filter(|(index, _)| *index != group);
         Self {
             subframes: self.subframes,
-            groups: others.map(|(_, own)| own.clone()).collect(),
+            groups: others.map(|(_, picture)| picture.clone()).collect(),
         }
     }
 }
