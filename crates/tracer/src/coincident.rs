@@ -9,8 +9,8 @@ use crate::geometry::ray::Hit;
 use crate::scene::Scene;
 use crate::stage::Stage;
 
-/// Number of rays through the picture of the instant: with three of them, a hundredth of a
-/// hundredth of the picture is found.
+/// Number of rays through the picture of the instant: about three of them meet a ten-thousandth of
+/// the picture.
 const RAYS: u32 = 32_768;
 /// Rays that must see a pair before it counts: one may meet the edge at which two surfaces touch.
 const LEAST_RAYS: usize = 3;

@@ -61,7 +61,7 @@ pub enum Cause {
     DrawnEarly(u32),
     /// A factor on radiance.
     Brightness(f64),
-    /// Mean radiance of an object: found, and correct.
+    /// Mean radiance of an object in the engine's picture, and the correct one.
     OtherColor([f64; 3], [f64; 3]),
     /// A factor on depth.
     DepthScale(f64),

@@ -8,8 +8,8 @@ use crate::audit::clear_pixels::{
     ClearPixels, MIN_PIXELS, is_inside, neighbours, select_clear_pixels,
 };
 
-/// Part of the pixels with known depth that is needed to see, without ids, what the engine shows
-/// there.
+/// Part of the pixels that must have a known depth: without ids, only depth tells what the engine
+/// shows there.
 const LEAST_KNOWN: f64 = 0.3;
 
 /// Part of each object that must be in the scene's place, within a pixel at edges.

@@ -118,10 +118,10 @@ fn follow_cubic(times: &[f64], value: &dyn Fn(f64) -> DVec3) -> Track<3> {
     }
 }
 
-/// Samples a turn with keys so dense that both ways of players are the turn's own: the shorter way
-/// at a constant angular velocity, as glTF says, and quaternions interpolated by components, as in
-/// Blender. Between two times the turn is at most as fast as `fastest` of them, in radians per
-/// frame.
+/// Samples a turn with keys so dense that players of both kinds show the turn itself: those that go
+/// the shorter way at a constant angular velocity, as glTF says, and those that interpolate
+/// quaternions by components, as Blender does. Between two times the turn is at most as fast as
+/// `fastest` of them, in radians per frame.
 fn follow_turns(
     times: &[f64],
     rotation: &dyn Fn(f64) -> DQuat,

@@ -20,8 +20,8 @@ const MIN_SUBFRAMES: usize = 4;
 const MAX_SUBFRAMES: usize = 4096;
 /// Halves of the truth, from alternate sub-frames.
 const HALVES: usize = 2;
-/// Smallest ratio of the truth's sub-frames to an accumulation's that is compared with it: a mean
-/// of nearly as many would share the truth's errors.
+/// Smallest ratio of the truth's sub-frames to those of an accumulation that is compared with the
+/// truth: a mean of nearly as many would share the truth's errors.
 const TRUTH_PER_MEAN: usize = 4;
 /// Provenance of pictures that were not traced.
 pub(super) const NOT_TRACED: &str = "none";

@@ -35,8 +35,8 @@ impl ExrFile {
         }
     }
 
-    /// Refuses colours that the file's attribute `colorInteropID` calls other than linear, or names
-    /// primaries of, without stating them.
+    /// Refuses colours if the file's attribute `colorInteropID` calls them other than linear, or
+    /// names their primaries without stating them.
     pub(super) fn expect_linear(&self) -> Result<(), FileError> {
         const NAME: &str = "colorInteropID";
         let Some(space) = self.attributes.get(NAME) else {

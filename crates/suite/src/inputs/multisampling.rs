@@ -88,7 +88,7 @@ impl Multisampling {
     }
 }
 
-/// Takes a raster that few frames have, of the chosen samples; none if a sample lacks it.
+/// Takes from the chosen samples a raster that few frames have; none if a sample lacks it.
 fn take_further<T: Copy>(
     taken: &Raster<usize>,
     samples: &[Frame],

@@ -184,10 +184,10 @@ impl SceneContext<'_> {
         }
     }
 
-    /// Makes the parts of the frame, given by its replicates, and of an alignment's truth, if
-    /// filters get intervals or, with a ladder, counts of equivalent sub-frames. Makes none for an
-    /// engine's scene: sub-frames are no random samples, and a truth without some of them has
-    /// holes.
+    /// Makes the parts of the frame, given by its replicates, and of an alignment's truth. Filters'
+    /// intervals need them and, with a ladder, so do counts of equivalent sub-frames; otherwise
+    /// there are none. An engine's scene has none either: sub-frames are no random samples, and a
+    /// truth without some of them has holes.
     fn truth_parts(
         &self,
         alignment: Alignment,

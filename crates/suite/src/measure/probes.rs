@@ -22,11 +22,11 @@ pub(crate) struct FilterOutput {
     pub is_rounded: bool,
 }
 
-/// Runs the filter on the frame's colour and, each in the colour's place, on the instant's coverage
-/// of each object, on the probes, and on a mixture of colour and probe, with the noise of one
-/// frame. All but the picture comes from `wide`, the filter with 32-bit colours, if there is one.
-/// `before` is the previous frame, for filters with history; its pictures are replaced like the
-/// frame's. The output is upscaled to `picture` if the frame shows it smaller.
+/// Runs the filter with the noise of one frame: on the frame's colour and, in the colour's place,
+/// on the instant's coverage of each object, on the probes, and on a mixture of colour and probe.
+/// All but the picture comes from `wide`, the filter with 32-bit colours, if there is one. `before`
+/// is the previous frame, for filters with history; its pictures are replaced like the frame's. The
+/// output is upscaled to `picture` if the frame shows it smaller.
 pub(crate) fn blur_with_probes(
     runner: &mut Runner,
     wide: Option<&mut Runner>,

@@ -14,8 +14,8 @@ pub(crate) struct TruthReferences<'a> {
     pub oracle: Picture,
     /// All that pictures are compared with.
     pub reference: Reference<'a>,
-    /// References without one group of replicates of frame, truth and ladder each; empty if nothing
-    /// gets intervals.
+    /// References that each lack one group of replicates, of frame, truth and ladder; empty if
+    /// nothing gets intervals.
     pub parts: Vec<Reference<'a>>,
     /// Scores of the frame itself where nothing moves, if there are parts: see
     /// [`intervals`](crate::intervals).

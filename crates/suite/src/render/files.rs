@@ -51,8 +51,8 @@ impl Rendering<'_> {
         files
     }
 
-    /// Lists the frame and the truths that all given folders lack, by the headers of files: for
-    /// each truth its own and its last replicate's and rung's.
+    /// Lists the frame and the truths that all given folders lack. Headers of files decide: for
+    /// each truth, those of its own file, its last replicate and its last rung.
     pub(crate) fn find_missing(
         &self,
         alignments: &[Alignment],

@@ -23,8 +23,8 @@ const PICTURES_OF_TRUTH: u64 = 7;
 /// Pictures of a frame, of the truth that filters are measured by, and of the measured case, for
 /// any number of replicates.
 const PICTURES_MEASURED: u64 = 14;
-/// Pictures of each part of frame and truth that intervals leave out replicates of: its own, and
-/// all that is prepared to measure by it.
+/// Pictures of each part of frame and truth, from which intervals leave out replicates: the part's
+/// own, and all that is prepared to measure by the part.
 const PICTURES_OF_PART: u64 = 10;
 /// Pictures of each further truth.
 const PICTURES_OF_FURTHER_TRUTH: u64 = 6;

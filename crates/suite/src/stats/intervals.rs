@@ -69,10 +69,10 @@ pub(crate) fn sequence_intervals(whole: &SequenceScores, parts: &[SequenceScores
         .collect()
 }
 
-/// Slowest power of the number of replicates by which noise in a mean of absolute errors falls, and
-/// the same for errors over the whole picture, most of which is still: its noise is of few samples,
-/// and FLIP raises small differences to the power of 0.7.
+/// Slowest power of the number of replicates by which noise in a mean of absolute errors falls.
 const ROOT: f64 = 0.5;
+/// The same for errors over the whole picture. Most of the picture is still: its noise is of few
+/// samples, and FLIP raises small differences to the power of 0.7.
 const SLOW: f64 = 0.3;
 
 /// Grain that no picture shows: the slope of the root is finite.
@@ -106,9 +106,9 @@ fn interval(
     jackknife_of(whole.value()?, &without, find_rise(metric))
 }
 
-/// Extends the interval of a score over still pixels downwards by the score of the frame there, all
-/// of which may be noise. Where only few samples see what light changes, parts of the samples do
-/// not tell how much of it is.
+/// Extends the interval of a score over still pixels downwards by the frame's own score there,
+/// since all of that may be noise. Where only few samples see what light changes, parts of the
+/// samples do not tell how much of it is.
 fn reach_below(interval: Interval, frame: &Measured, metric: Metric) -> Interval {
     let is_raised = find_rise(metric) != Rise::Inverse;
     let noise = frame.value().filter(|_| is_raised).unwrap_or(0.0);
@@ -180,8 +180,8 @@ fn psnr_interval(
 }
 
 /// Computes the interval of the worst object's score. The worst object of noisy pictures need not
-/// be the worst without noise: any whose interval reaches the least that the worst must have may be
-/// it.
+/// be the worst without noise. Every object may be the worst, if its interval reaches the least
+/// that the worst must have.
 fn worst_interval(
     whole: &Scores,
     parts: &[Scores],

@@ -4,8 +4,8 @@ use std::cmp::Ordering;
 
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-/// Probability that the mean over all such scenes is below a two-sided 95 % interval, and that it
-/// is above it.
+/// Probability that the mean over all such scenes is below a two-sided 95 % interval; the same for
+/// above.
 pub const TWO_SIDED: f64 = 0.025;
 /// Probability that the mean over all such scenes is beyond either one-sided 95 % limit.
 pub const ONE_SIDED: f64 = 0.05;

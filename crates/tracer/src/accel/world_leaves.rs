@@ -6,8 +6,8 @@ use crate::geometry::aabb::Aabb;
 use crate::motion::poses::Poses;
 use crate::scene::Scene;
 
-/// Upper limit on instanced leaves that are copied into the world tree, those of up to 2 million
-/// triangles.
+/// Upper limit on instanced leaves that are copied into the world tree; so many hold up to 2
+/// million triangles.
 const MAX_COPIES: usize = 1 << 18;
 /// Least mean size of an object's leaves, as a part of the scene's greatest coordinate. A ray's
 /// boxes are grown by 2e-6 of that coordinate, so by a fifth of a leaf at most.

@@ -21,8 +21,8 @@ use crate::stage::Stage;
 
 /// Pixels that a thread takes at a time; between two tasks it reports progress.
 const PIXELS_PER_TASK: usize = 64;
-/// One sample of a recalled pixel in so many is shaded at the instant, too, but at least one. One
-/// in eight would make the noise floor of frozen shading 2.5 times as high.
+/// A recalled pixel has one in so many of its samples shaded at the instant, too, and at least one
+/// sample. One in eight would make the noise floor of frozen shading 2.5 times as high.
 const ONE_RECALLED_IN: u32 = 4;
 
 /// Times of the samples of a picture.
@@ -47,8 +47,8 @@ pub(crate) struct Film<'a> {
     pub times: &'a [Times<'a>],
     /// View of the instant, if samples are looked up there; the stage must then hold `t = 0`.
     pub instant: Option<InstantView>,
-    /// Per picture, the pixels whose first samples are shaded at the instant, too; without a
-    /// picture's, none of its are.
+    /// Per picture, the pixels whose first samples are shaded at the instant, too; a picture
+    /// without a raster has no such pixels.
     pub recalled: &'a [&'a Raster<bool>],
     /// Independent, complete sets of samples, by the numbers that seed them.
     pub replicates: Range<u32>,

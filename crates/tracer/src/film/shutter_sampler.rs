@@ -66,8 +66,8 @@ impl ShutterSampler {
         self.time(self.sample_part(number), row, height)
     }
 
-    /// The time of that sample's sub-frame: the middle of the one of `subframes` equal parts of the
-    /// light that has [`ShutterSampler::sample_time`].
+    /// The time of that sample's sub-frame. Sub-frames are `subframes` equal parts of the light;
+    /// this is the middle of the part that has [`ShutterSampler::sample_time`].
     pub fn subframe_time(&self, number: f64, subframes: u32, row: u32, height: u32) -> f64 {
         let subframes = f64::from(subframes);
         let index = (self.sample_part(number) * subframes).floor();

@@ -16,7 +16,7 @@ use crate::sampler::{Sampler, Stream, pixel_seed};
 /// Rays per pixel, a power of two. Parts that cover less of a pixel than one ray represents may be
 /// missed.
 const SAMPLES: u32 = 64;
-/// Rays per pixel if they and those of all eight neighbours met the same.
+/// Rays per pixel where they and the rays of all eight neighbours found the same.
 const FIRST_SAMPLES: u32 = 16;
 /// Factor on both for a camera with a lens, which spreads what is seen over more pixels and covers
 /// less of each.
@@ -92,8 +92,8 @@ pub(crate) fn trace_supports(
         .collect())
 }
 
-/// Adds samples to the probes that `before` returns, in each of the pixels at those of the film's
-/// times that `is_probed` names.
+/// Adds samples of each of the pixels to the probes that `before` returns. A sample has those of
+/// the film's times that `is_probed` names.
 fn probe_pixels(
     film: &Film,
     pixels: &[u32],
