@@ -8,8 +8,8 @@ use crate::exr::{ExrFile, read_exr, write_small_exr};
 use crate::shutter::{get_shutter, set_shutter};
 use crate::{Alignment, FileError, Picture, Provenance, Shutter, ShutterProfile};
 
-/// Most groups of samples that scores' intervals leave out in turn, of a frame, a truth and its
-/// ladder together.
+/// Upper limit on the groups of samples that scores' intervals leave out in turn. A group is left
+/// out of a frame, a truth and its ladder together.
 pub const MOST_GROUPS: u32 = 4;
 
 /// Mean of `subframes` instants in the middles of equal parts of the shutter's light. By instant k
@@ -54,7 +54,7 @@ impl Accumulation {
         let others = others.filter(|(index, _)| *index != group);
         Self {
             subframes: self.subframes,
-            groups: others.map(|(_, own)| own.clone()).collect(),
+            groups: others.map(|(_, picture)| picture.clone()).collect(),
         }
     }
 }

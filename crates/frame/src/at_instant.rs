@@ -70,7 +70,7 @@ impl AtInstant {
     /// Sets offsets and their squares to 0 outside a region. Where nothing moves they are the means
     /// of places within a pixel, which no score is about, and which fill a third of a file.
     pub fn within(self, region: &Raster<bool>) -> AtInstant {
-        let keep = |own: &[f32; 2], inside: &bool| if *inside { *own } else { [0.0; 2] };
+        let keep = |vector: &[f32; 2], inside: &bool| if *inside { *vector } else { [0.0; 2] };
         AtInstant {
             offset: self.offset.zip(region, keep),
             spread: self.spread.zip(region, keep),

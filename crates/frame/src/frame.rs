@@ -71,8 +71,11 @@ impl Frame {
             guard_band: 0,
             color: self.color.cropped(band),
             velocity: self.velocity.cropped(band),
-            velocity_next: self.velocity_next.as_ref().map(|it| it.cropped(band)),
-            velocity_z: self.velocity_z.as_ref().map(|it| it.cropped(band)),
+            velocity_next: self
+                .velocity_next
+                .as_ref()
+                .map(|velocity| velocity.cropped(band)),
+            velocity_z: self.velocity_z.as_ref().map(|plane| plane.cropped(band)),
             depth: self.depth.cropped(band),
             object_id: self.object_id.cropped(band),
             coverage: self

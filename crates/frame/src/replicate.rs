@@ -71,8 +71,14 @@ impl Replicate {
     /// Names a property that replicates of one truth share and these two do not; `None` if there is
     /// none.
     pub(crate) fn find_difference(&self, other: &Replicate) -> Option<&'static str> {
-        let shutter = |own: &Replicate| (own.shutter, own.alignment, own.shutter_profile.clone());
-        let samples = |own: &Replicate| own.provenance.samples_per_pixel;
+        let shutter = |replicate: &Replicate| {
+            (
+                replicate.shutter,
+                replicate.alignment,
+                replicate.shutter_profile.clone(),
+            )
+        };
+        let samples = |replicate: &Replicate| replicate.provenance.samples_per_pixel;
         let same = [
             ("size", self.picture.color.same_size(&other.picture.color)),
             (

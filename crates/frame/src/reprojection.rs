@@ -82,8 +82,8 @@ mod tests {
             .as_flattened()
             .iter()
             .zip(turn.rows.as_flattened());
-        for (found, expected) in rows {
-            assert!((found - expected).abs() < 1e-12);
+        for (value, expected) in rows {
+            assert!((value - expected).abs() < 1e-12);
         }
     }
 }

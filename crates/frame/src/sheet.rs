@@ -11,7 +11,8 @@ pub fn tile_pictures(pictures: &[Image], columns: u32, gap: u32, color: [f32; 3]
     Raster::from_fn(columns * width - gap, rows * height - gap, |x, y| {
         let index = (y / height) * columns + x / width;
         let picture = pictures.get(index as usize);
-        let inside = picture.filter(|it| x % width < it.width && y % height < it.height);
+        let inside =
+            picture.filter(|picture| x % width < picture.width && y % height < picture.height);
         inside.map_or(color, |picture| *picture.at(x % width, y % height))
     })
 }

@@ -22,8 +22,8 @@ impl Support {
     /// Marks the pixels where object `id` was seen and nothing else.
     pub fn throughout(&self, id: usize) -> Raster<bool> {
         let others = self.seen.iter().enumerate().filter(|(at, _)| *at != id);
-        others.fold(self.seen[id].clone(), |own, (_, other)| {
-            own.zip(other, |own, other| *own && !*other)
+        others.fold(self.seen[id].clone(), |seen, (_, other)| {
+            seen.zip(other, |seen, other| *seen && !*other)
         })
     }
 

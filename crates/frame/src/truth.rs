@@ -95,16 +95,17 @@ impl Truth {
         let expected = &first.provenance.content_hash;
         for (index, replicate) in (0..).zip(replicates) {
             if replicate.index != index {
-                let found = replicate.index;
-                return Err(TruthError::Index { index, found });
+                return Err(TruthError::Index {
+                    index,
+                    found: replicate.index,
+                });
             }
-            let found = &replicate.provenance.content_hash;
-            if found != expected {
-                let (found, expected) = (found.clone(), expected.clone());
+            let hash = &replicate.provenance.content_hash;
+            if hash != expected {
                 return Err(TruthError::Foreign {
                     index,
-                    found,
-                    expected,
+                    found: hash.clone(),
+                    expected: expected.clone(),
                 });
             }
             if let Some(what) = first.find_difference(replicate) {
@@ -112,8 +113,10 @@ impl Truth {
             }
         }
         let half = |first: usize| replicates.iter().skip(first).step_by(2);
-        let pictures = || [0, 1].map(|first| Picture::mean(half(first).map(|own| &own.picture)));
-        let at_instant = |first| AtInstant::mean(half(first).map(|own| &own.at_instant));
+        let pictures =
+            || [0, 1].map(|first| Picture::mean(half(first).map(|replicate| &replicate.picture)));
+        let at_instant =
+            |first| AtInstant::mean(half(first).map(|replicate| &replicate.at_instant));
         let (halves, (at_instant, standard_error)) = rayon::join(pictures, || {
             ([0, 1].map(at_instant), estimate_error(replicates))
         });
@@ -277,7 +280,8 @@ pub fn truth_hash(replicate_hash: &str, count: u32) -> String {
 /// Estimates the standard error of the replicates' mean.
 fn estimate_error(replicates: &[Replicate]) -> Image {
     let count = replicates.len() as f64;
-    let colors: Vec<&Image> = (replicates.iter().map(|own| &own.picture.color)).collect();
+    let colors: Vec<&Image> =
+        (replicates.iter().map(|replicate| &replicate.picture.color)).collect();
     gather(&colors, |pixel| {
         std::array::from_fn(|component| {
             let values = (colors.iter()).map(|color| f64::from(color.pixels[pixel][component]));

@@ -25,8 +25,8 @@ macro_rules! words {
             type Err = String;
 
             fn from_str(text: &str) -> Result<Self, String> {
-                let found = Self::ALL.into_iter().find(|value| value.name() == text);
-                found.ok_or_else(|| {
+                let value = Self::ALL.into_iter().find(|value| value.name() == text);
+                value.ok_or_else(|| {
                     let words = Self::ALL.map(Self::name).join(", ");
                     format!("{} \"{text}\" is unknown; allowed: {words}", $what)
                 })

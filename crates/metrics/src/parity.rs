@@ -101,9 +101,9 @@ fn scores_are_those_of_the_tools_of_the_field() {
     let expected: Expected = serde_json::from_str(text).expect("metrics.json holds numbers");
     assert_eq!(expected.len(), PAIRS.len());
     for (pair, output, truth) in PAIRS {
-        let found = scores(&plane(output), &plane(truth));
-        assert_eq!(found.len(), expected[pair].len());
-        for (name, value) in found {
+        let scores = scores(&plane(output), &plane(truth));
+        assert_eq!(scores.len(), expected[pair].len());
+        for (name, value) in scores {
             let expected = expected[pair][name];
             // Sums of 2623 terms in f64, in another order.
             assert!(

@@ -47,8 +47,8 @@ struct Fill {
 /// nearer hide the farther, fills each hole with the farthest of the pixels that are nearest to it
 /// in the four directions, and averages. The picture is as large as the frame, guard band included.
 pub fn scatter_oracle(frame: &Frame, shutter: Shutter, profile: &ShutterProfile) -> Picture {
-    let own = frame.picture();
-    scatter_oracles(frame, &[&own], shutter, profile).remove(0)
+    let picture = frame.picture();
+    scatter_oracles(frame, &[&picture], shutter, profile).remove(0)
 }
 
 /// Scatters several pictures as [`scatter_oracle`] does the frame's own, all with the frame's
@@ -98,12 +98,14 @@ pub fn make_oracle(frame: &Frame, truth: &Truth) -> Picture {
 /// Makes the oracle's pictures of the frame and of parts of its replicates, as [`make_oracle`]
 /// does.
 pub fn make_oracles(frame: &Frame, parts: &[Picture], truth: &Truth) -> (Picture, Vec<Picture>) {
-    let own = frame.picture();
-    let pictures: Vec<&Picture> = std::iter::once(&own).chain(parts).collect();
+    let picture = frame.picture();
+    let pictures: Vec<&Picture> = std::iter::once(&picture).chain(parts).collect();
     let made = scatter_oracles(frame, &pictures, truth.shutter, &truth.shutter_profile);
-    let mut made = made.into_iter().map(|own| own.cropped(frame.guard_band));
-    let own = made.next().expect("the frame is one of them");
-    (own, made.collect())
+    let mut made = made
+        .into_iter()
+        .map(|picture| picture.cropped(frame.guard_band));
+    let oracle = made.next().expect("the frame is one of them");
+    (oracle, made.collect())
 }
 
 /// Lists times of the shutter, each with its share of the light.
@@ -187,8 +189,8 @@ impl Content {
                 let coverage = picture.coverage.iter().map(|plane| plane.pixels[pixel]);
                 color.chain(coverage).collect::<Vec<f32>>()
             };
-            let own = (0..).zip(pictures.iter().flat_map(of_picture));
-            numbers.extend(own.filter(|(_, number)| *number != 0.0));
+            let content = (0..).zip(pictures.iter().flat_map(of_picture));
+            numbers.extend(content.filter(|(_, number)| *number != 0.0));
             starts.push(numbers.len());
         }
         Self { starts, numbers }

@@ -25,8 +25,8 @@ pub fn gather<'a>(
     parts: impl IntoIterator<Item = (&'a Path, Vec<PathBuf>)>,
 ) -> Result<Files, Error> {
     let mut files = Files::new();
-    for (part, own) in parts {
-        for below in own {
+    for (part, paths) in parts {
+        for below in paths {
             let file = part.join(&below);
             match files.get(&below) {
                 Some(other) => check_same(other, &file)?,
@@ -71,8 +71,9 @@ pub fn place_files(files: &Files, out: &Path) -> Result<(), FileError> {
 /// Fails if `from` is not a regular file, if `to` is a folder, or if a file cannot be read or
 /// written.
 pub fn place_file(from: &Path, to: &Path) -> Result<(), FileError> {
-    let found = fs::symlink_metadata(from).map_err(|source| FileError::io(from, "read", source))?;
-    if !found.is_file() {
+    let metadata =
+        fs::symlink_metadata(from).map_err(|source| FileError::io(from, "read", source))?;
+    if !metadata.is_file() {
         return Err(FileError::Foreign {
             path: from.to_owned(),
             reason: "is no regular file; allowed: files as this program writes them".to_owned(),

@@ -109,7 +109,7 @@ impl<T> Record<T> {
     fn altered_files(&self, path: &Path) -> Vec<PathBuf> {
         let paths = (self.files.iter()).map(|(name, hash)| (path.with_file_name(name), hash));
         paths
-            .filter(|(path, hash)| !hash_file(path).is_ok_and(|found| found == **hash))
+            .filter(|(path, hash)| !hash_file(path).is_ok_and(|file_hash| file_hash == **hash))
             .map(|(path, _)| path)
             .collect()
     }

@@ -46,7 +46,7 @@ impl RenderFile {
             .map(|part| part.to_str())
             .collect::<Option<_>>()?;
         let stem = parts.last()?.strip_suffix(".exr")?;
-        let found = match parts.as_slice() {
+        let file = match parts.as_slice() {
             ["frame.exr"] => Self::Frame,
             [_] => Self::Truth(stem.strip_prefix("truth_")?.parse().ok()?),
             [folder, _] => match folder.strip_prefix("ladder_") {
@@ -61,12 +61,12 @@ impl RenderFile {
             },
             _ => return None,
         };
-        let is_made = match found {
+        let is_made = match file {
             Self::Replicate(_, index) => index < MAX_REPLICATES,
             Self::Rung(_, subframes) => LADDER.contains(&subframes),
             _ => true,
         };
-        (is_made && found.path() == path).then_some(found)
+        (is_made && file.path() == path).then_some(file)
     }
 
     /// Returns the index of a replicate, or the number of sub-frames of a rung; 0 for any other.
@@ -196,12 +196,12 @@ const DEPTH: usize = 4;
 /// A folder cannot be read.
 pub fn list_renders(root: &Path) -> Result<Vec<RenderPath>, FileError> {
     let files = list_files(root)?;
-    let mut found: Vec<RenderPath> = files
+    let mut renders: Vec<RenderPath> = files
         .iter()
-        .filter_map(|it| RenderPath::parse(it))
+        .filter_map(|file| RenderPath::parse(file))
         .collect();
-    found.sort();
-    Ok(found)
+    renders.sort();
+    Ok(renders)
 }
 
 /// Lists the files at most as deep below a run's folder as its own, except hidden ones: a killed
@@ -241,8 +241,8 @@ mod tests {
             "fan@64px/truth_centred/replicate_1000.exr",
             "fan/ladder_leading/n64.exr",
         ] {
-            let found = RenderPath::parse(Path::new(below)).expect(below);
-            assert_eq!(found.to_string(), below);
+            let render = RenderPath::parse(Path::new(below)).expect(below);
+            assert_eq!(render.to_string(), below);
         }
         for below in [
             "frame.exr",

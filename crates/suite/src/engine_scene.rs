@@ -70,16 +70,16 @@ impl EngineScene {
         let path = folder.join(INGESTED_FILE);
         let reason = match serde_json::from_str::<Self>(&read_text(&path)?) {
             Err(error) => format!("no ingested capture: {error}"),
-            Ok(found) if found.format != INGESTED_FORMAT => {
-                format!("has format {}; allowed: {INGESTED_FORMAT}", found.format)
+            Ok(scene) if scene.format != INGESTED_FORMAT => {
+                format!("has format {}; allowed: {INGESTED_FORMAT}", scene.format)
             }
-            Ok(found) if !is_engine_scene(&found.id) => format!(
+            Ok(scene) if !is_engine_scene(&scene.id) => format!(
                 "name \"{}\"; allowed: names of a folder and of an engine, such as railing@three.js_0.187.0",
-                found.id
+                scene.id
             ),
-            Ok(mut found) => {
-                found.folder = folder.to_owned();
-                return Ok(found);
+            Ok(mut scene) => {
+                scene.folder = folder.to_owned();
+                return Ok(scene);
             }
         };
         Err(Error::Usage(format!(
@@ -90,7 +90,7 @@ impl EngineScene {
 
     /// Finds what a filter reads and the frame lacks.
     pub fn find_lacking(&self, choice: &FilterChoice) -> Option<&'static str> {
-        let is_there = |name: &&str| self.further_inputs.iter().any(|own| own == name);
+        let is_there = |name: &&str| self.further_inputs.iter().any(|input| input == name);
         let mut further = choice.filter.further_inputs().into_iter();
         if choice.filter.reads_camera(&choice.settings) {
             Some("the camera")

@@ -21,7 +21,7 @@ pub fn open_gpu(
     adapter: Option<&str>,
     monitor: Monitor,
 ) -> Result<Option<Gpu>, FilterError> {
-    if adapter.is_none() && choices.iter().all(|own| own.filter.command.is_some()) {
+    if adapter.is_none() && choices.iter().all(|choice| choice.filter.command.is_some()) {
         return Ok(None);
     }
     let gpu = open_adapter(adapter, monitor)?;

@@ -9,8 +9,8 @@ use crate::geometry::ray::Hit;
 use crate::scene::Scene;
 use crate::stage::Stage;
 
-/// Number of rays through the picture of the instant: with three of them, a hundredth of a
-/// hundredth of the picture is found.
+/// Number of rays through the picture of the instant: about three of them meet a ten-thousandth of
+/// the picture.
 const RAYS: u32 = 32_768;
 /// Rays that must see a pair before it counts: one may meet the edge at which two surfaces touch.
 const LEAST_RAYS: usize = 3;
@@ -44,10 +44,10 @@ pub fn find_coincident_surfaces(scene: &Scene) -> Result<Vec<String>, TraceError
                     [0, 1].map(|axis| (0.5 + f64::from(index) * STEPS[axis]).fract() * size[axis]);
                 let ray = view.ray(place[0], place[1]);
                 let first: Hit = stage.closest(poses.at(0.0), &ray)?;
-                let own = painted(first.object, first.triangle);
-                let is_other = |object, triangle| painted(object, triangle).1 != own.1;
+                let surface = painted(first.object, first.triangle);
+                let is_other = |object, triangle| painted(object, triangle).1 != surface.1;
                 let other = stage.coincident(poses, &ray, &first, &is_other)?;
-                let mut pair = [own, painted(other.object, other.triangle)];
+                let mut pair = [surface, painted(other.object, other.triangle)];
                 pair.sort_unstable();
                 Some((pair, place))
             },

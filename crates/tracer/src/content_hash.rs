@@ -15,12 +15,12 @@ const PROGRAM: &str = concat!("shuttertruth ", env!("CARGO_PKG_VERSION"));
 /// It covers the scene's own hash, the settings and the tracer's sources, so equal hashes mean
 /// equal pixels.
 pub fn frame_hash(scene: &Scene, settings: &RenderSettings) -> String {
-    let own = RenderSettings {
+    let settings = RenderSettings {
         exposure: Some(settings.exposure(scene)),
         ..*settings
     };
     // Its samples are chosen for the time that its truths' shutters are open.
-    content_hash(scene, "frame", &(own, &scene.shutter_profile))
+    content_hash(scene, "frame", &(settings, &scene.shutter_profile))
 }
 
 /// The content hash of the frame that [`trace_frame_part`](crate::trace_frame_part) would render;

@@ -97,11 +97,11 @@ fn find_recipe(
     for index in 0..SAMPLES {
         let sampler = Sampler::new(seed, index);
         let [x, y, ..] = sampler.camera();
-        let own = eye.ray_at(0.0, canvas.place(pixel, [x, y]), &sampler);
-        let hit = stage.closest_in_sight(&mut eye.poses, &own.ray, Sight::Buffers);
+        let eye_ray = eye.ray_at(0.0, canvas.place(pixel, [x, y]), &sampler);
+        let hit = stage.closest_in_sight(&mut eye.poses, &eye_ray.ray, Sight::Buffers);
         let from_centre = EyeRay {
             from: LensPoint::CENTRE,
-            ..own
+            ..eye_ray
         };
         let poses = (&mut eye.poses, &mut eye.instant);
         let point = pinhole.look_back(stage, poses, &from_centre, hit.as_ref());
@@ -115,7 +115,7 @@ fn find_recipe(
             }
             None => {
                 let stop = hit.map(Stop::scattering);
-                let path = integrator.follow_path(&mut eye.poses, own.ray, stop, &sampler);
+                let path = integrator.follow_path(&mut eye.poses, eye_ray.ray, stop, &sampler);
                 hidden += path.0.as_dvec3();
                 hidden_objects.push(hit.map_or(0, |hit| hit.object as u32 + 1));
             }

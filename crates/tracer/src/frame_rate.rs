@@ -67,12 +67,12 @@ impl FrameRate {
             (rate, "") => (rate, None),
             (rate, rest) => (rate, Some(rest.strip_prefix("_1-")?.strip_suffix('s')?)),
         };
-        let own = Self {
+        let rate = Self {
             per_second: rate.parse().ok()?,
             shutters_per_second: shutter.map(str::parse).transpose().ok()?,
         };
         // One rate has one name.
-        (own.per_second.is_finite() && own.word() == word).then_some(own)
+        (rate.per_second.is_finite() && rate.word() == word).then_some(rate)
     }
 
     /// Refuses numbers beyond the limits; the reason says what is allowed.

@@ -71,12 +71,12 @@ pub fn trace_frame(
     settings: &RenderSettings,
     watch: Watch,
 ) -> Result<Frame, TraceError> {
-    let own = PixelGrid::of_picture(settings.width, settings.height);
+    let grid = PixelGrid::of_picture(settings.width, settings.height);
     let single = RenderSettings {
         replicates: 1,
         ..*settings
     };
-    Ok(trace_frame_part(scene, &single, &own, None, watch)?.frame)
+    Ok(trace_frame_part(scene, &single, &grid, None, watch)?.frame)
 }
 
 /// The time around the instant that a frame's samples are chosen for.
@@ -220,8 +220,8 @@ pub fn trace_motion(
     settings: &RenderSettings,
     motion: &PointMotion,
 ) -> Result<PointLayers, TraceError> {
-    let own = PixelGrid::of_picture(settings.width, settings.height);
-    trace_motion_on(scene, settings, motion, &own)
+    let grid = PixelGrid::of_picture(settings.width, settings.height);
+    trace_motion_on(scene, settings, motion, &grid)
 }
 
 /// Samples a rasteriser's output as [`trace_motion`] does, on another grid of pixels over the
@@ -260,8 +260,8 @@ pub fn trace_further_velocities(
     grid: &PixelGrid,
 ) -> Result<(Vectors, Plane), TraceError> {
     check_next_frame(scene)?;
-    let own = trace_motion_on(scene, settings, &PointMotion::RIGHT, grid)?;
-    check_layer(scene, "velocity_z", &own.velocity_z.map(|z| [*z]))?;
+    let layers = trace_motion_on(scene, settings, &PointMotion::RIGHT, grid)?;
+    check_layer(scene, "velocity_z", &layers.velocity_z.map(|z| [*z]))?;
     let motion = match settings.options.velocity {
         VelocityKind::CameraOnly => PointMotion {
             objects_before: ObjectsBefore::Now,
@@ -272,18 +272,18 @@ pub fn trace_further_velocities(
     let mut settings = *settings;
     settings.options.velocity = VelocityKind::Instantaneous;
     let next = trace_motion_on(scene, &settings, &motion, grid)?;
-    Ok((next.velocity, own.velocity_z))
+    Ok((next.velocity, layers.velocity_z))
 }
 
 /// Makes the canvas of a grid; refuses a grid of an impossible size.
 fn check_canvas(settings: &RenderSettings, grid: &PixelGrid) -> Result<Canvas, TraceError> {
     let [width, height] = grid.size;
-    let own = RenderSettings {
+    let grid_settings = RenderSettings {
         width,
         height,
         ..*settings
     };
-    own.check_sizes()?;
+    grid_settings.check_sizes()?;
     let band = settings.guard_band;
     Ok(Canvas::new(settings.width, settings.height, band, grid))
 }

@@ -106,9 +106,9 @@ impl Location {
         let Some(bundle) = self.bundle else {
             return read_bounded(&self.path, limit);
         };
-        let found = self.name_in(bundle).and_then(|name| (bundle.unpack)(&name));
+        let contents = self.name_in(bundle).and_then(|name| (bundle.unpack)(&name));
         let missing = || FileError::io(&self.path, "read", io::ErrorKind::NotFound.into());
-        let bytes = found.ok_or_else(missing)?;
+        let bytes = contents.ok_or_else(missing)?;
         if bytes.len() as u64 <= limit {
             Ok(bytes)
         } else {

@@ -135,10 +135,10 @@ mod tests {
     use super::*;
 
     /// Compares two poses. Coordinates of some 100 m are rounded to 1e-14 of their size.
-    fn assert_same(found: glam::DAffine3, expected: glam::DAffine3, what: &str) {
+    fn assert_same(pose: glam::DAffine3, expected: glam::DAffine3, what: &str) {
         assert!(
-            found.abs_diff_eq(expected, 1e-9),
-            "{what}: {found} {expected}"
+            pose.abs_diff_eq(expected, 1e-9),
+            "{what}: {pose} {expected}"
         );
     }
 
@@ -152,20 +152,20 @@ mod tests {
                 for time in [-1.0, -0.3, 0.0, 0.2] {
                     let then = time + f64::from(frame);
                     for object in 0..scene.objects.len() {
-                        let [found, expected] = [(&later, time), (&scene, then)]
+                        let [pose, expected] = [(&later, time), (&scene, then)]
                             .map(|(scene, time)| scene.object_to_world(object, time));
-                        assert_same(found, expected, name);
+                        assert_same(pose, expected, name);
                     }
-                    let [found, expected] = [(&later, time), (&scene, then)]
+                    let [pose, expected] = [(&later, time), (&scene, then)]
                         .map(|(scene, time)| scene.camera.motion.at(time));
-                    assert_same(found, expected, name);
-                    let [found, expected] = [(&later, time), (&scene, then)]
+                    assert_same(pose, expected, name);
+                    let [angle, expected] = [(&later, time), (&scene, then)]
                         .map(|(scene, time)| scene.camera.vertical_fov_at(time));
-                    assert!((found - expected).abs() < 1e-12);
-                    for (found, expected) in later.meshes.iter().zip(&scene.meshes) {
-                        let [found, expected] = [(found, time), (expected, then)]
+                    assert!((angle - expected).abs() < 1e-12);
+                    for (mesh, expected) in later.meshes.iter().zip(&scene.meshes) {
+                        let [point, expected] = [(mesh, time), (expected, then)]
                             .map(|(mesh, time)| mesh.at(time).positions().next().unwrap());
-                        assert!(found.distance(expected) < 1e-9, "{name}");
+                        assert!(point.distance(expected) < 1e-9, "{name}");
                     }
                 }
                 assert_ne!(later.hash, scene.hash);

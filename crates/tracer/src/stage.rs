@@ -72,7 +72,8 @@ impl<'a> Stage<'a> {
             glossy_materials: scene.materials.iter().map(GlossyMaterial::new).collect(),
             poses,
             traversal: Traversal::best(),
-            has_translucency: (scene.materials.iter()).any(|own| own.translucency.is_some()),
+            has_translucency: (scene.materials.iter())
+                .any(|material| material.translucency.is_some()),
         })
     }
 
@@ -83,7 +84,11 @@ impl<'a> Stage<'a> {
 
     /// Returns true if all surfaces look the same from everywhere.
     pub(crate) fn is_diffuse(&self) -> bool {
-        let is_glass = |own: &Material| own.translucency.is_some_and(|own| own.glass.is_some());
+        let is_glass = |material: &Material| {
+            material
+                .translucency
+                .is_some_and(|translucency| translucency.glass.is_some())
+        };
         self.glossy_materials.iter().all(Option::is_none)
             && !self.scene.materials.iter().any(is_glass)
     }

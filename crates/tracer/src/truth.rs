@@ -116,7 +116,7 @@ impl<'a> TruthTracer<'a> {
         let film = self.film(&times, samples, index..index + 1, Stream::Picture);
         let meter = Meter::new(watch, film.work(&pixels));
         let supports = self.supports(&film, &meter)?;
-        let recalled: Vec<&Raster<bool>> = supports.iter().map(|own| &own.shaded).collect();
+        let recalled: Vec<&Raster<bool>> = supports.iter().map(|support| &support.shaded).collect();
         let film = Film {
             recalled: &recalled,
             ..film
@@ -378,10 +378,10 @@ mod tests {
     #[test]
     fn a_pixel_that_is_not_finite_is_refused_by_layer_and_place() {
         for radiance in [f32::INFINITY, f32::NAN, f32::MAX] {
-            let found = trace_small(|scene| {
+            let result = trace_small(|scene| {
                 scene.background = Background::Constant(glam::Vec3::splat(radiance));
             });
-            let Err(TraceError::NotFinite { layer, x, y, .. }) = found else {
+            let Err(TraceError::NotFinite { layer, x, y, .. }) = result else {
                 panic!("{radiance} went into a truth");
             };
             assert_eq!((layer.as_str(), x, y), ("color", 0, 0));
@@ -391,12 +391,12 @@ mod tests {
     #[test]
     fn an_object_too_far_away_is_refused_by_name() {
         for far in [1e16, f64::INFINITY, f64::NAN] {
-            let found = trace_small(|scene| {
+            let result = trace_small(|scene| {
                 for key in &mut scene.objects[1].motion.keys {
                     key.translation.x = far;
                 }
             });
-            let Err(TraceError::TooFar { object, .. }) = found else {
+            let Err(TraceError::TooFar { object, .. }) = result else {
                 panic!("{far} m is allowed");
             };
             assert!(!object.is_empty());

@@ -16,18 +16,18 @@ const GAP: u32 = 5;
 /// and the longest right velocity of the picture is full colour.
 pub fn write_audit_picture(
     path: &Path,
-    found: &Vectors,
+    buffer: &Vectors,
     right: &Vectors,
     place: [u32; 2],
 ) -> Result<(), FileError> {
     let speeds = right.pixels.iter().map(|[x, y]| x.hypot(*y));
     let fastest = speeds.fold(1.0, f32::max);
-    let error = found.zip(right, |found, right| {
-        [found[0] - right[0], found[1] - right[1]]
+    let error = buffer.zip(right, |vector, right| {
+        [vector[0] - right[0], vector[1] - right[1]]
     });
     let tile = Tile::around(place, SIDE, (right.width, right.height));
     let shade = |part: f32| (0.5 + 0.5 * part / fastest).clamp(0.0, 1.0);
-    let parts = [found, right, &error].map(|vectors| {
+    let parts = [buffer, right, &error].map(|vectors| {
         let shown = vectors.part(tile).map(|[x, y]| [shade(*x), shade(*y), 0.5]);
         shown.enlarged(ENLARGED)
     });

@@ -89,7 +89,7 @@ pub fn audit_capture(
     if !shows_other_view && missed.iter().all(|finding| finding.object.is_some()) {
         wrong.extend(wrong_velocity);
         if !is_view(Buffer::Depth) {
-            let word = |it| word_depth(it, &shown, ids.is_some());
+            let word = |defect| word_depth(defect, &shown, ids.is_some());
             wrong.extend(wrong_depth.into_iter().filter_map(word));
         }
         if !is_view(Buffer::Color) {
@@ -139,8 +139,8 @@ fn word_depth(wrong: Defect, shown: &Shown, has_ids: bool) -> Option<Defect> {
 /// Words what the engine shows too little of: the whole picture, or single objects.
 fn word_missed(shown: &Shown, has_ids: bool) -> Vec<Defect> {
     let other = |object: Option<&str>, part: f64, text: &str| {
-        let found = Explanation::by(Cause::OtherView, 1.0 - part);
-        Defect::new(Buffer::Picture, object, found).with(text)
+        let explanation = Explanation::by(Cause::OtherView, 1.0 - part);
+        Defect::new(Buffer::Picture, object, explanation).with(text)
     };
     let by = if has_ids {
         "by its ids"

@@ -61,7 +61,7 @@ pub enum Cause {
     DrawnEarly(u32),
     /// A factor on radiance.
     Brightness(f64),
-    /// Mean radiance of an object: found, and correct.
+    /// Mean radiance of an object in the engine's picture, and the correct one.
     OtherColor([f64; 3], [f64; 3]),
     /// A factor on depth.
     DepthScale(f64),
@@ -131,10 +131,10 @@ impl Cause {
             Self::DrawnLate(count) => format!("is drawn {} late", frames(count)),
             Self::DrawnEarly(count) => format!("is drawn {} early", frames(count)),
             Self::Brightness(scale) => format!("is {scale:.3} times as bright"),
-            Self::OtherColor(found, right) => {
-                let [found, right] = [found, right]
+            Self::OtherColor(mean, right) => {
+                let [mean, right] = [mean, right]
                     .map(|[red, green, blue]| format!("({red:.3}, {green:.3}, {blue:.3})"));
-                format!("is {found} in the mean, not {right}")
+                format!("is {mean} in the mean, not {right}")
             }
             Self::DepthScale(scale) => format!("is {scale:.4} times as large"),
             Self::DepthAlongRay => {

@@ -29,12 +29,12 @@ pub fn select_clear_pixels(
     objects: usize,
     is_same: &dyn Fn(usize) -> bool,
 ) -> Vec<ClearPixels> {
-    let own = &right.object_id;
+    let ids = &right.object_id;
     (0..objects as u32)
         .map(|object| ClearPixels {
             object,
-            pixels: (0..own.pixels.len())
-                .filter(|at| own.pixels[*at] == object && is_same(*at) && is_inside(own, *at))
+            pixels: (0..ids.pixels.len())
+                .filter(|at| ids.pixels[*at] == object && is_same(*at) && is_inside(ids, *at))
                 .collect(),
         })
         .collect()

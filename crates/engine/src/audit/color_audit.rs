@@ -17,10 +17,10 @@ const DARKEST: f64 = 0.002;
 /// Samples per pixel of the correct colour, needed for edges within a texture and for lenses.
 const SAMPLES: u32 = 16;
 
-/// Mean colour of an object, found and correct.
+/// Mean colour of an object in the engine's picture, and the correct one.
 struct ObjectColor {
     object: u32,
-    found: [f64; 3],
+    engine: [f64; 3],
     right: [f64; 3],
 }
 
@@ -28,8 +28,8 @@ impl ObjectColor {
     /// Returns whether the colour is correct after dividing by a factor.
     fn is_right_at(&self, scale: f64) -> bool {
         let brightest = self.right.into_iter().fold(0.0, f64::max);
-        let pairs = std::iter::zip(self.found, self.right);
-        let errors = pairs.map(|(found, right)| (found / scale - right).abs());
+        let pairs = std::iter::zip(self.engine, self.right);
+        let errors = pairs.map(|(channel, right)| (channel / scale - right).abs());
         errors.fold(0.0, f64::max) <= TOLERANCE * brightest + DARKEST
     }
 }
@@ -37,7 +37,7 @@ impl ObjectColor {
 /// Compares the colour of each object with the scene's. Finds nothing in a lit scene: engines light
 /// as they like.
 pub fn audit_color(
-    found: &Image,
+    picture: &Image,
     scene: &Scene,
     regions: &[ClearPixels],
     names: &[String],
@@ -45,12 +45,12 @@ pub fn audit_color(
     if !scene.is_unlit() {
         return Ok(Vec::new());
     }
-    let size = [found.width, found.height];
+    let size = [picture.width, picture.height];
     let right = render_view(scene, size, SAMPLES, ColorSampling::default())?.color;
     let colors: Vec<ObjectColor> = (select_judged(regions).into_iter())
         .map(|region| ObjectColor {
             object: region.object,
-            found: mean_color(found, &region.pixels),
+            engine: mean_color(picture, &region.pixels),
             right: mean_color(&right, &region.pixels),
         })
         .collect();
@@ -60,7 +60,7 @@ pub fn audit_color(
         return Ok(Vec::new());
     }
     let brightness = |color: &[f64; 3]| color.iter().sum::<f64>();
-    let ratios = (wrong.iter()).map(|it| brightness(&it.found) / brightness(&it.right));
+    let ratios = (wrong.iter()).map(|color| brightness(&color.engine) / brightness(&color.right));
     let scale = median(ratios);
     if scale > 0.0 && colors.iter().all(|color| color.is_right_at(scale)) {
         let cause = Explanation::by(Cause::Brightness(scale), 1.0);
@@ -68,7 +68,7 @@ pub fn audit_color(
     }
     let findings = wrong.into_iter().map(|color| {
         let name = &names[color.object as usize];
-        let cause = Explanation::by(Cause::OtherColor(color.found, color.right), 1.0);
+        let cause = Explanation::by(Cause::OtherColor(color.engine, color.right), 1.0);
         Defect::new(Buffer::Color, Some(name), cause)
     });
     Ok(findings.collect())

@@ -59,7 +59,7 @@ pub struct Defect {
     pub object: Option<String>,
     /// Its cause.
     #[serde(flatten)]
-    pub found: Explanation,
+    pub explanation: Explanation,
     /// Affected part of the object; none for all of it.
     pub part: Option<f64>,
     /// Description of the defect, and its remedy.
@@ -68,7 +68,7 @@ pub struct Defect {
 
 impl Defect {
     /// Words a defect.
-    pub fn new(buffer: Buffer, object: Option<&str>, found: Explanation) -> Self {
+    pub fn new(buffer: Buffer, object: Option<&str>, explanation: Explanation) -> Self {
         let whose = match object {
             Some(object) => format!("of `{object}` "),
             None => String::new(),
@@ -77,19 +77,23 @@ impl Defect {
             Some(_) => cause.name_on_object(),
             None => cause.name(),
         };
-        let turn = found.turned.as_ref();
+        let turn = explanation.turned.as_ref();
         let turn = turn.map_or(String::new(), |turn| format!("{} and ", name(turn)));
-        let mut text = format!("{} {whose}{turn}{}", buffer.name(), name(&found.cause));
-        if !found.looks_like.is_empty() {
-            let others: Vec<String> = found.looks_like.iter().map(name).collect();
+        let mut text = format!(
+            "{} {whose}{turn}{}",
+            buffer.name(),
+            name(&explanation.cause)
+        );
+        if !explanation.looks_like.is_empty() {
+            let others: Vec<String> = explanation.looks_like.iter().map(name).collect();
             text += &format!(
                 "; in this scene that looks the same as: {}",
                 others.join(", ")
             );
         }
-        let causes = found.turned.into_iter().chain([found.cause]);
+        let causes = explanation.turned.into_iter().chain([explanation.cause]);
         let (fits, advised): (Vec<Cause>, Vec<Cause>) =
-            causes.partition(|cause| found.convention_holds && cause.is_of_convention());
+            causes.partition(|cause| explanation.convention_holds && cause.is_of_convention());
         if !fits.is_empty() {
             text += "; the convention fits other objects";
         }
@@ -102,7 +106,7 @@ impl Defect {
         Self {
             buffer,
             object: object.map(str::to_owned),
-            found,
+            explanation,
             part: None,
             text,
         }

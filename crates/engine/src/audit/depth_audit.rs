@@ -34,7 +34,7 @@ pub struct DepthAudit {
 /// An engine's depth and the scene's.
 pub struct DepthPair<'a> {
     /// The engine's, in metres.
-    pub found: &'a Plane,
+    pub buffer: &'a Plane,
     /// The scene's.
     right: &'a PointLayers,
     /// Near plane of a buffer that is not linear: such a buffer is coarse far away, and its planes
@@ -47,7 +47,7 @@ impl<'a> DepthPair<'a> {
     pub fn of(capture: &'a Capture, right: &'a PointLayers) -> Self {
         let is_linear = capture.convention.depth == DepthKind::Linear;
         Self {
-            found: &capture.depth,
+            buffer: &capture.depth,
             right,
             near: capture.convention.near.filter(|_| !is_linear),
         }
@@ -55,17 +55,20 @@ impl<'a> DepthPair<'a> {
 
     /// Returns whether two depths are within 1 % or within the rounding of the buffer, or both the
     /// background's.
-    pub fn is_close(&self, found: f32, expected: f32) -> bool {
-        let steps = (1.0 / f64::from(found) - 1.0 / f64::from(expected)).abs();
+    pub fn is_close(&self, depth: f32, expected: f32) -> bool {
+        let steps = (1.0 / f64::from(depth) - 1.0 / f64::from(expected)).abs();
         let is_rounded = |near| steps * near <= BUFFER_ROUNDING;
-        relative_difference(found, expected) <= TOLERANCE || self.near.is_some_and(is_rounded)
+        relative_difference(depth, expected) <= TOLERANCE || self.near.is_some_and(is_rounded)
     }
 
     /// Compares depth on clear pixels.
     pub fn compare(&self, regions: &[ClearPixels]) -> DepthAudit {
-        let pixels: Vec<usize> = regions.iter().flat_map(|it| it.pixels.clone()).collect();
+        let pixels: Vec<usize> = regions
+            .iter()
+            .flat_map(|region| region.pixels.clone())
+            .collect();
         let difference =
-            |at: &usize| relative_difference(self.found.pixels[*at], self.right.depth.pixels[*at]);
+            |at: &usize| relative_difference(self.buffer.pixels[*at], self.right.depth.pixels[*at]);
         let mut differences: Vec<f64> = pixels.iter().map(difference).collect();
         differences.sort_by(f64::total_cmp);
         DepthAudit {
@@ -92,21 +95,26 @@ impl<'a> DepthPair<'a> {
             return (Vec::new(), self.mark(right));
         }
         let along_ray = self.along_ray(scene);
-        let all: Vec<usize> = wrong.iter().flat_map(|it| it.pixels.clone()).collect();
+        let all: Vec<usize> = wrong
+            .iter()
+            .flat_map(|region| region.pixels.clone())
+            .collect();
         let is_all = wrong.len() > 1 || wrong.len() == judged.len();
         let of_all = |plane: &Plane| {
-            let shares = judged.iter().map(|it| self.share(&it.pixels, plane));
+            let shares = judged
+                .iter()
+                .map(|region| self.share(&region.pixels, plane));
             shares.fold(1.0, f64::min)
         };
         let causes = self.list_causes(&all, &along_ray, self.near.is_some());
-        if is_all && let Some((found, plane)) = find_cause(causes, &of_all) {
-            let defect = Defect::new(Buffer::Depth, None, found);
+        if is_all && let Some((explanation, plane)) = find_cause(causes, &of_all) {
+            let defect = Defect::new(Buffer::Depth, None, explanation);
             return (vec![defect], self.mark(&plane));
         }
         let (findings, explained) = self.explain_objects(&wrong, names, &along_ray);
         let unknown = findings
             .iter()
-            .filter(|it| it.found.cause == Cause::Unknown)
+            .filter(|defect| defect.explanation.cause == Cause::Unknown)
             .count();
         if findings.len() == 1 || 2 * unknown <= findings.len() {
             return (findings, explained);
@@ -133,19 +141,20 @@ impl<'a> DepthPair<'a> {
         let findings = wrong.iter().map(|region| {
             // A projection's planes apply to every object.
             let causes = self.list_causes(&region.pixels, along_ray, false);
-            let found = find_cause(causes, &|plane| self.share(&region.pixels, plane));
-            if let Some((_, plane)) = &found {
+            let fit = find_cause(causes, &|plane| self.share(&region.pixels, plane));
+            if let Some((_, plane)) = &fit {
                 let ids = self.right.object_id.pixels.iter();
                 let marks = self.mark(plane).pixels;
-                let own = explained.pixels.iter_mut().zip(ids.zip(marks));
-                own.filter(|(_, (id, _))| **id == region.object)
+                let pixels = explained.pixels.iter_mut().zip(ids.zip(marks));
+                pixels
+                    .filter(|(_, (id, _))| **id == region.object)
                     .for_each(|(explained, (_, mark))| *explained = mark);
             }
             let unknown = Explanation::by(Cause::Unknown, 0.0);
-            let found = found.map_or(unknown, |(found, _)| found);
-            let is_background = matches!(found.cause, Cause::DepthOfBackground(_));
+            let explanation = fit.map_or(unknown, |(explanation, _)| explanation);
+            let is_background = matches!(explanation.cause, Cause::DepthOfBackground(_));
             let object = (!is_background).then(|| names[region.object as usize].as_str());
-            Defect::new(Buffer::Depth, object, found)
+            Defect::new(Buffer::Depth, object, explanation)
         });
         (findings.collect(), explained)
     }
@@ -159,10 +168,10 @@ impl<'a> DepthPair<'a> {
         has_planes: bool,
     ) -> Vec<(Cause, Plane)> {
         let right = &self.right.depth;
-        let pairs = (pixels.iter()).map(|at| [self.found.pixels[*at], right.pixels[*at]]);
+        let pairs = (pixels.iter()).map(|at| [self.buffer.pixels[*at], right.pixels[*at]]);
         let (background, surfaces): (Vec<_>, Vec<_>) =
-            (pairs.map(|it| it.map(f64::from))).partition(|[_, right]| is_far(*right as f32));
-        let metres = median(background.iter().map(|[found, _]| *found));
+            (pairs.map(|pair| pair.map(f64::from))).partition(|[_, right]| is_far(*right as f32));
+        let metres = median(background.iter().map(|[depth, _]| *depth));
         let of_surfaces = |depth: &dyn Fn(f64) -> f64| {
             right.map(|right| {
                 if is_far(*right) {
@@ -187,12 +196,12 @@ impl<'a> DepthPair<'a> {
             return causes;
         }
         causes.push((Cause::DepthAlongRay, along_ray.clone()));
-        let scale = median(surfaces.iter().map(|[found, right]| found / right));
+        let scale = median(surfaces.iter().map(|[depth, right]| depth / right));
         let scaled = of_surfaces(&|depth| depth * scale);
         causes.push((Cause::DepthScale(scale), scaled));
         if has_planes {
             // A projection with other planes changes 1 / depth by a factor and a constant.
-            let points = (surfaces.iter()).map(|[found, right]| [1.0 / right, 1.0 / found]);
+            let points = (surfaces.iter()).map(|[depth, right]| [1.0 / right, 1.0 / depth]);
             let [factor, constant] = fit_line(points);
             let fitted = of_surfaces(&|depth| 1.0 / (factor / depth + constant));
             causes.push((Cause::DepthPlanes(1.0 / factor), fitted));
@@ -215,20 +224,20 @@ impl<'a> DepthPair<'a> {
     }
 
     /// Returns whether a plane explains a depth; NaN allows any.
-    fn is_explained(&self, found: f32, expected: f32) -> bool {
-        expected.is_nan() || self.is_close(found, expected)
+    fn is_explained(&self, depth: f32, expected: f32) -> bool {
+        expected.is_nan() || self.is_close(depth, expected)
     }
 
     fn mark(&self, plane: &Plane) -> Raster<bool> {
-        (self.found).zip(plane, |found, expected| {
-            self.is_explained(*found, *expected)
+        (self.buffer).zip(plane, |depth, expected| {
+            self.is_explained(*depth, *expected)
         })
     }
 
     /// Computes the part of some pixels at which the engine's depth matches a plane.
     fn share(&self, pixels: &[usize], plane: &Plane) -> f64 {
         let is_explained =
-            |at: &&usize| self.is_explained(self.found.pixels[**at], plane.pixels[**at]);
+            |at: &&usize| self.is_explained(self.buffer.pixels[**at], plane.pixels[**at]);
         let explained = pixels.iter().filter(is_explained);
         explained.count() as f64 / pixels.len().max(1) as f64
     }
@@ -250,10 +259,10 @@ fn is_far(depth: f32) -> bool {
     depth >= 0.1 * FAR_DEPTH
 }
 
-fn relative_difference(found: f32, expected: f32) -> f64 {
-    match (is_far(found), is_far(expected)) {
+fn relative_difference(depth: f32, expected: f32) -> f64 {
+    match (is_far(depth), is_far(expected)) {
         (true, true) => 0.0,
-        (false, false) => f64::from((found - expected).abs() / expected),
+        (false, false) => f64::from((depth - expected).abs() / expected),
         _ => 1.0,
     }
 }

@@ -36,7 +36,7 @@ impl ExpectedMotion {
             Cause::SwappedAxes,
         ];
         for turn in turns {
-            mistaken.push((turn, right.velocity.map(|it| turn.apply(*it))));
+            mistaken.push((turn, right.velocity.map(|vector| turn.apply(*vector))));
         }
         let motions = [
             (Cause::ObjectMotionMissing, PointMotion::WITHOUT_OBJECTS),

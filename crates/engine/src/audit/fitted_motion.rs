@@ -1,4 +1,4 @@
-//! Causes of wrong velocity with a number, fitted to the velocity found.
+//! Causes of wrong velocity with a number, fitted to the engine's velocity.
 
 use std::ops::RangeInclusive;
 
@@ -27,9 +27,9 @@ const NO_SCALE: f64 = 1e-3;
 pub type Candidate = (Cause, Vectors);
 
 /// Lists causes with a number, fitted to some pixels, with each one's velocity; the simplest first.
-pub fn fit_candidates(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Vec<Candidate> {
+pub fn fit_candidates(buffer: &Vectors, right: &Vectors, pixels: &[usize]) -> Vec<Candidate> {
     let mut candidates = Vec::new();
-    let fit = |axes: &[usize]| fit_scale(found, right, pixels, axes);
+    let fit = |axes: &[usize]| fit_scale(buffer, right, pixels, axes);
     let scaled = |scales: [f64; 2]| {
         right.map(|right| [0, 1].map(|axis| (scales[axis] * f64::from(right[axis])) as f32))
     };
@@ -43,13 +43,13 @@ pub fn fit_candidates(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Vec
     if scales.iter().all(is_scale) {
         candidates.push((Cause::ScaleOfAxes(scales), scaled(scales)));
     }
-    candidates.extend(list_cut(found, right, pixels));
-    candidates.extend(find_steps(found, right, pixels));
+    candidates.extend(list_cut(buffer, right, pixels));
+    candidates.extend(find_steps(buffer, right, pixels));
     candidates
 }
 
-/// Fits the factor from the correct velocity to the one found, on some axes.
-pub fn fit_scale(found: &Vectors, right: &Vectors, pixels: &[usize], axes: &[usize]) -> f64 {
+/// Fits the factor from the correct velocity to the engine's, on some axes.
+pub fn fit_scale(buffer: &Vectors, right: &Vectors, pixels: &[usize], axes: &[usize]) -> f64 {
     let product = |a: &Vectors, b: &Vectors| -> f64 {
         let terms = pixels.iter().flat_map(|at| {
             axes.iter()
@@ -57,13 +57,13 @@ pub fn fit_scale(found: &Vectors, right: &Vectors, pixels: &[usize], axes: &[usi
         });
         terms.sum()
     };
-    product(found, right) / product(right, right)
+    product(buffer, right) / product(right, right)
 }
 
 /// Fits one vector added to all.
-pub fn find_offset(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Candidate {
+pub fn find_offset(buffer: &Vectors, right: &Vectors, pixels: &[usize]) -> Candidate {
     let offset = [0, 1].map(|axis| {
-        let error = |at: &usize| f64::from(found.pixels[*at][axis] - right.pixels[*at][axis]);
+        let error = |at: &usize| f64::from(buffer.pixels[*at][axis] - right.pixels[*at][axis]);
         median(pixels.iter().map(error))
     });
     let moved = right.map(|right| [0, 1].map(|axis| right[axis] + offset[axis] as f32));
@@ -72,14 +72,14 @@ pub fn find_offset(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Candid
 
 /// Lists causes of an object's velocity like [`fit_candidates`], without factors of no unit. An
 /// offset as small as jitter comes before limits and steps, which may look like it.
-pub fn fit_to_object(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Vec<Candidate> {
-    let mut candidates = fit_candidates(found, right, pixels);
+pub fn fit_to_object(buffer: &Vectors, right: &Vectors, pixels: &[usize]) -> Vec<Candidate> {
+    let mut candidates = fit_candidates(buffer, right, pixels);
     candidates.retain(|(cause, _)| !is_of_no_unit(cause));
     let factors = candidates
         .iter()
         .filter(|(cause, _)| cause.is_of_convention());
     let after_factors = factors.count();
-    let offset = find_offset(found, right, pixels);
+    let offset = find_offset(buffer, right, pixels);
     if is_of_jitter(&offset.0) {
         candidates.insert(after_factors, offset);
     }
@@ -101,12 +101,12 @@ fn is_of_jitter(cause: &Cause) -> bool {
 }
 
 /// Lists limits on the length and on the axes, if any velocity is cut.
-fn list_cut(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Vec<Candidate> {
+fn list_cut(buffer: &Vectors, right: &Vectors, pixels: &[usize]) -> Vec<Candidate> {
     let largest = |[x, y]: [f64; 2]| f64::max(x.abs(), y.abs());
     let find_limit = |measure: fn([f64; 2]) -> f64| {
         let measured = |vectors: &Vectors, at: usize| measure(vectors.pixels[at].map(f64::from));
         let limit = (pixels.iter())
-            .map(|at| measured(found, *at))
+            .map(|at| measured(buffer, *at))
             .fold(0.0, f64::max);
         let beyond = pixels
             .iter()
@@ -116,8 +116,8 @@ fn list_cut(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Vec<Candidate
     };
     let shorter = find_limit(length).map(|limit| {
         let cut = right.map(|right| {
-            let own = length(right.map(f64::from)).max(f64::MIN_POSITIVE);
-            right.map(|part| (f64::from(part) * (limit / own).min(1.0)) as f32)
+            let speed = length(right.map(f64::from)).max(f64::MIN_POSITIVE);
+            right.map(|part| (f64::from(part) * (limit / speed).min(1.0)) as f32)
         });
         (Cause::Clipped(limit), cut)
     });
@@ -130,7 +130,7 @@ fn list_cut(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Vec<Candidate
 
 /// Checks whether the numbers are on a grid of few steps, each next to the correct number; returns
 /// that grid's velocity.
-fn find_steps(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Option<Candidate> {
+fn find_steps(buffer: &Vectors, right: &Vectors, pixels: &[usize]) -> Option<Candidate> {
     let count = |vectors: &Vectors, axis: usize| {
         let mut numbers: Vec<f32> = pixels.iter().map(|at| vectors.pixels[*at][axis]).collect();
         numbers.sort_by(f32::total_cmp);
@@ -138,16 +138,17 @@ fn find_steps(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Option<Cand
         numbers
     };
     let gaps = [0, 1].map(|axis| {
-        let (own, exact) = (count(found, axis), count(right, axis));
-        let is_coarse = own.len() >= 2 && own.len() <= MAX_STEPS && exact.len() >= 2 * own.len();
-        is_coarse.then(|| median(own.windows(2).map(|pair| f64::from(pair[1] - pair[0]))))
+        let (values, exact) = (count(buffer, axis), count(right, axis));
+        let is_coarse =
+            values.len() >= 2 && values.len() <= MAX_STEPS && exact.len() >= 2 * values.len();
+        is_coarse.then(|| median(values.windows(2).map(|pair| f64::from(pair[1] - pair[0]))))
     });
     let step = gaps.into_iter().flatten().reduce(f64::max)?;
     // Numbers already nearest on the grid explain themselves.
-    let nearest = found.zip(right, |found, right| {
-        let is_near = |axis: usize| f64::from((found[axis] - right[axis]).abs()) <= 0.6 * step;
+    let nearest = buffer.zip(right, |vector, right| {
+        let is_near = |axis: usize| f64::from((vector[axis] - right[axis]).abs()) <= 0.6 * step;
         if is_near(0) && is_near(1) {
-            *found
+            *vector
         } else {
             *right
         }

@@ -8,8 +8,8 @@ use crate::audit::clear_pixels::{
     ClearPixels, MIN_PIXELS, is_inside, neighbours, select_clear_pixels,
 };
 
-/// Part of the pixels with known depth that is needed to see, without ids, what the engine shows
-/// there.
+/// Part of the pixels that must have a known depth: without ids, only depth tells what the engine
+/// shows there.
 const LEAST_KNOWN: f64 = 0.3;
 
 /// Part of each object that must be in the scene's place, within a pixel at edges.
@@ -53,16 +53,16 @@ impl Shown {
         names: &[String],
         shows: &dyn Fn(usize, usize) -> bool,
     ) -> Self {
-        let own = &right.object_id;
-        let count = own.pixels.len();
+        let right_ids = &right.object_id;
+        let count = right_ids.pixels.len();
         let alike = (0..count).filter(|at| shows(*at, *at)).count() as f64 / count as f64;
         let mut shown = Self {
             alike,
-            objects: count_shown(own, ids, names, shows),
+            objects: count_shown(right_ids, ids, names, shows),
             regions: Vec::new(),
         };
         let is_clear = |at: usize| {
-            let name = &names[own.pixels[at] as usize];
+            let name = &names[right_ids.pixels[at] as usize];
             (alike < LEAST_KNOWN || shows(at, at)) && !shown.is_missed(name)
         };
         shown.regions = select_clear_pixels(right, names.len(), &is_clear);

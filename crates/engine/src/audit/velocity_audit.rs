@@ -39,14 +39,14 @@ pub struct ObjectAudit {
 
 /// Compares velocity object by object; also returns what is wrong.
 pub fn audit_velocity(
-    found: &Vectors,
+    buffer: &Vectors,
     expected: &ExpectedMotion,
     regions: &[ClearPixels],
     names: &[String],
 ) -> (Vec<ObjectAudit>, Vec<Defect>) {
     let judged = select_judged(regions);
     let objects: Vec<ObjectAudit> = (judged.iter())
-        .map(|region| audit_object(found, expected, region, &names[region.object as usize]))
+        .map(|region| audit_object(buffer, expected, region, &names[region.object as usize]))
         .collect();
     let wrong: Vec<&ClearPixels> = (judged.iter().zip(&objects))
         .filter(|(_, object)| !object.is_right)
@@ -57,7 +57,7 @@ pub fn audit_velocity(
     }
     let right = (judged.iter().zip(&objects)).filter(|(_, object)| object.is_right);
     let search = Search {
-        found,
+        buffer,
         expected,
         right: right.clone().map(|(region, _)| *region).collect(),
         some_move_right: right.clone().any(|(_, object)| object.speed >= LEAST_PROOF),
@@ -70,13 +70,13 @@ pub fn audit_velocity(
 }
 
 fn audit_object(
-    found: &Vectors,
+    buffer: &Vectors,
     expected: &ExpectedMotion,
     region: &ClearPixels,
     name: &str,
 ) -> ObjectAudit {
     let right = &expected.right.velocity;
-    let error = |at: usize| length(difference(found.pixels[at], right.pixels[at]));
+    let error = |at: usize| length(difference(buffer.pixels[at], right.pixels[at]));
     let mut errors: Vec<f64> = region.pixels.iter().map(|at| error(*at)).collect();
     errors.sort_by(f64::total_cmp);
     let worst = (region.pixels.iter().copied())
@@ -85,7 +85,7 @@ fn audit_object(
     let speed = |at: &usize| length(right.pixels[*at].map(f64::from));
     let speed = median(region.pixels.iter().map(speed));
     let at_part = |part: f64| percentile(&errors, part).expect("a judged object has pixels");
-    let width = found.width as usize;
+    let width = buffer.width as usize;
     ObjectAudit {
         object: name.to_owned(),
         pixels: region.pixels.len(),
@@ -94,7 +94,7 @@ fn audit_object(
         p95: at_part(0.95),
         worst: error(worst),
         worst_at: [(worst % width) as u32, (worst / width) as u32],
-        scale: (speed > TOLERANCE).then(|| fit_scale(found, right, &region.pixels, &[0, 1])),
-        is_right: share(found, right, &region.pixels) >= LEAST_EXPLAINED,
+        scale: (speed > TOLERANCE).then(|| fit_scale(buffer, right, &region.pixels, &[0, 1])),
+        is_right: share(buffer, right, &region.pixels) >= LEAST_EXPLAINED,
     }
 }

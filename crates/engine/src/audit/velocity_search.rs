@@ -25,7 +25,7 @@ const TURNS: [Option<Cause>; 4] = [
 
 /// What the causes of a wrong velocity are searched in.
 pub struct Search<'a> {
-    pub found: &'a Vectors,
+    pub buffer: &'a Vectors,
     pub expected: &'a ExpectedMotion,
     /// Objects with the right velocity.
     pub right: Vec<&'a ClearPixels>,
@@ -73,13 +73,13 @@ impl Search<'_> {
     ) -> Option<Explanation> {
         let right = &self.expected.right.velocity;
         TURNS.into_iter().find_map(|turn| {
-            let found = turn_back(self.found, turn);
-            let mut fitted = fit_candidates(&found, right, wrong);
+            let buffer = turn_back(self.buffer, turn);
+            let mut fitted = fit_candidates(&buffer, right, wrong);
             // Jitter moves the whole picture.
-            fitted.push(find_offset(&found, right, wrong));
+            fitted.push(find_offset(&buffer, right, wrong));
             let explains = |velocity: &Vectors| {
                 let shares = judged.iter();
-                let shares = shares.map(|region| share(&found, velocity, &region.pixels));
+                let shares = shares.map(|region| share(&buffer, velocity, &region.pixels));
                 shares.fold(1.0, f64::min)
             };
             let candidates = self.expected.mistaken.iter().chain(&fitted);
@@ -130,7 +130,7 @@ impl Search<'_> {
 
     fn select_wrong(&self, pixels: &[usize]) -> Vec<usize> {
         let right = &self.expected.right.velocity;
-        let is_wrong = |at: &usize| !is_close(self.found.pixels[*at], right.pixels[*at]);
+        let is_wrong = |at: &usize| !is_close(self.buffer.pixels[*at], right.pixels[*at]);
         pixels.iter().copied().filter(is_wrong).collect()
     }
 
@@ -140,8 +140,8 @@ impl Search<'_> {
         turn: Option<Cause>,
         is_tried: &dyn Fn(&Cause) -> bool,
     ) -> Option<Explanation> {
-        let found = turn_back(self.found, turn);
-        let fitted = fit_to_object(&found, &self.expected.right.velocity, pixels);
+        let buffer = turn_back(self.buffer, turn);
+        let fitted = fit_to_object(&buffer, &self.expected.right.velocity, pixels);
         // The most specific words first.
         let is_specific =
             |cause: &Cause| matches!(cause, Cause::DeformationMissing | Cause::OwnMotionMissing);
@@ -150,28 +150,28 @@ impl Search<'_> {
         let others = words().filter(|(cause, _)| !is_specific(cause));
         let candidates = specific.chain(others).chain(&fitted);
         let tried = candidates.filter(|(cause, _)| is_tried(cause));
-        find_cause(tried, turn, &|velocity| share(&found, velocity, pixels))
+        find_cause(tried, turn, &|velocity| share(&buffer, velocity, pixels))
     }
 
     /// Returns whether a unit, sign or axis as wrong as an object's would make right objects wrong.
     fn right_objects_contradict(&self, cause: &Explanation) -> bool {
         let right = &self.expected.right.velocity;
-        let found = turn_back(self.found, cause.turned);
+        let buffer = turn_back(self.buffer, cause.turned);
         let [velocity, turned] = [
             right.map(|vector| cause.cause.apply(*vector)),
             right.clone(),
         ];
-        let contradicts = |found: &Vectors, velocity: &Vectors| {
+        let contradicts = |buffer: &Vectors, velocity: &Vectors| {
             let mut regions = self.right.iter();
-            regions.any(|region| share(found, velocity, &region.pixels) < LEAST_EXPLAINED)
+            regions.any(|region| share(buffer, velocity, &region.pixels) < LEAST_EXPLAINED)
         };
-        contradicts(&found, &velocity) || cause.turned.is_some() && contradicts(&found, &turned)
+        contradicts(&buffer, &velocity) || cause.turned.is_some() && contradicts(&buffer, &turned)
     }
 }
 
 /// Undoes a wrong sign or axis.
-fn turn_back(found: &Vectors, turn: Option<Cause>) -> Vectors {
-    found.map(|vector| turn.map_or(*vector, |turn| turn.apply(*vector)))
+fn turn_back(buffer: &Vectors, turn: Option<Cause>) -> Vectors {
+    buffer.map(|vector| turn.map_or(*vector, |turn| turn.apply(*vector)))
 }
 
 /// Finds the first cause that explains the most, and equally good ones. After a turn, the cause is

@@ -69,7 +69,7 @@ pub fn find_other_views(
     depth: &DepthPair,
     scene: &Scene,
 ) -> Result<Vec<Defect>, TraceError> {
-    let size = [depth.found.width, depth.found.height];
+    let size = [depth.buffer.width, depth.buffer.height];
     let right = trace_view(scene, size, 0, Cause::Unknown)?;
     let mut views = vec![View {
         cause: Cause::UpsideDown,
@@ -102,12 +102,12 @@ pub fn find_other_views(
         let is_alone = tally.iter().any(|tally| tally.shows(tally.right));
         let buffer = if is_alone { buffer } else { Buffer::Picture };
         let explained = tally[at].part(tally[at].other).unwrap_or(0.0);
-        let found = Explanation {
+        let explanation = Explanation {
             looks_like: best.map(|(cause, _)| *cause).collect(),
             ..Explanation::by(*cause, explained)
         };
         if findings.iter().all(|finding| finding.buffer != buffer) {
-            findings.push(Defect::new(buffer, None, found));
+            findings.push(Defect::new(buffer, None, explanation));
         }
     }
     Ok(findings)
@@ -123,34 +123,34 @@ fn tally_buffers(capture: &Capture, depth: &DepthPair, right: &View, view: &View
         capture.object_id.as_ref().map_or(Tally::default(), |ids| {
             tally(ids, [&right.object_id, &view.object_id], u32::eq)
         }),
-        tally(depth.found, [&right.depth, &view.depth], is_close),
+        tally(depth.buffer, [&right.depth, &view.depth], is_close),
         tally_colors(&capture.color, right, view),
     ]
 }
 
 /// Counts what one buffer shows on pixels where two views differ.
-fn tally<T>(found: &Raster<T>, views: [&Raster<T>; 2], is_same: impl Fn(&T, &T) -> bool) -> Tally {
-    let places = 0..found.pixels.len();
+fn tally<T>(buffer: &Raster<T>, views: [&Raster<T>; 2], is_same: impl Fn(&T, &T) -> bool) -> Tally {
+    let places = 0..buffer.pixels.len();
     Tally::of(places.filter_map(|at| {
         let [right, other] = views.map(|view| &view.pixels[at]);
-        let shows = [right, other].map(|own| is_same(&found.pixels[at], own));
+        let shows = [right, other].map(|value| is_same(&buffer.pixels[at], value));
         (!is_same(right, other)).then_some(shows)
     }))
 }
 
 /// Counts what colour shows. Since engines light as they like, light is fitted to the whole picture
 /// and to each object; the more decisive fit counts.
-fn tally_colors(found: &Image, right: &View, view: &View) -> Tally {
+fn tally_colors(picture: &Image, right: &View, view: &View) -> Tally {
     let whole = [right, view].map(|shown| {
-        let places: Vec<usize> = (0..found.pixels.len()).collect();
-        let light = fit_light(found, &shown.color, &places);
+        let places: Vec<usize> = (0..picture.pixels.len()).collect();
+        let light = fit_light(picture, &shown.color, &places);
         shown.color.map(|color| light_up(*color, light))
     });
-    let tallies = [whole, light_objects(found, right, view)].map(|[right, other]| {
-        Tally::of((0..found.pixels.len()).filter_map(|at| {
+    let tallies = [whole, light_objects(picture, right, view)].map(|[right, other]| {
+        Tally::of((0..picture.pixels.len()).filter_map(|at| {
             let [right, other] = [right.pixels[at], other.pixels[at]];
             let [from_right, from_other] =
-                [right, other].map(|color| distance(found.pixels[at], color));
+                [right, other].map(|color| distance(picture.pixels[at], color));
             let is_right = from_right < from_other;
             is_other_color(right, other).then_some([is_right, !is_right])
         }))
@@ -166,12 +166,12 @@ fn tally_colors(found: &Image, right: &View, view: &View) -> Tally {
 
 /// Lights the objects of two views as in a picture: each by its pixels where both views look the
 /// same or, with too few, by its pixels in each view.
-fn light_objects(found: &Image, right: &View, view: &View) -> [Image; 2] {
+fn light_objects(picture: &Image, right: &View, view: &View) -> [Image; 2] {
     let objects = right.object_id.pixels.iter().chain(&view.object_id.pixels);
     let last = objects.max().copied().unwrap_or(0) as usize;
     let pixels_of = |shown: &View, is_chosen: &dyn Fn(usize) -> bool| {
         let mut by_object = vec![Vec::new(); last + 1];
-        for at in (0..found.pixels.len()).filter(|at| is_chosen(*at)) {
+        for at in (0..picture.pixels.len()).filter(|at| is_chosen(*at)) {
             by_object[shown.object_id.pixels[at] as usize].push(at);
         }
         by_object
@@ -188,7 +188,7 @@ fn light_objects(found: &Image, right: &View, view: &View) -> [Image; 2] {
             _ => same,
         });
         let lights: Vec<[f32; 3]> = chosen
-            .map(|pixels| fit_light(found, &shown.color, pixels))
+            .map(|pixels| fit_light(picture, &shown.color, pixels))
             .collect();
         (shown.color).zip(&shown.object_id, |color, object| {
             light_up(*color, lights[*object as usize])
@@ -201,13 +201,13 @@ fn light_up(color: [f32; 3], light: [f32; 3]) -> [f32; 3] {
 }
 
 /// Fits a factor per channel from one picture to the other; 0 where the second is black.
-fn fit_light(found: &Image, surface: &Image, pixels: &[usize]) -> [f32; 3] {
+fn fit_light(picture: &Image, surface: &Image, pixels: &[usize]) -> [f32; 3] {
     [0, 1, 2].map(|channel| {
         let pairs = pixels
             .iter()
-            .map(|at| [found, surface].map(|image| f64::from(image.pixels[*at][channel])));
+            .map(|at| [picture, surface].map(|image| f64::from(image.pixels[*at][channel])));
         let lit = pairs.filter(|[_, surface]| *surface > 0.0);
-        let light = median(lit.map(|[found, surface]| found / surface)) as f32;
+        let light = median(lit.map(|[value, surface]| value / surface)) as f32;
         if light.is_nan() { 0.0 } else { light }
     })
 }

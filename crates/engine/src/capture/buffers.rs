@@ -36,9 +36,9 @@ pub fn find_picture(folder: &Path, stem: &str) -> Result<Option<PathBuf>, Error>
 /// Finds the file of another buffer: its own, or one of several buffers that has its channel. None
 /// if there is neither.
 pub fn find_buffer(folder: &Path, stem: &str, channel: &str) -> Result<Option<PathBuf>, Error> {
-    let own = find_file(folder, stem, &BUFFER_ENDINGS)?;
-    if own.is_some() {
-        return Ok(own);
+    let file = find_file(folder, stem, &BUFFER_ENDINGS)?;
+    if file.is_some() {
+        return Ok(file);
     }
     let shared = SHARED_FILES.map(|name| folder.join(name));
     for path in shared.into_iter().filter(|path| path.is_file()) {
@@ -50,9 +50,11 @@ pub fn find_buffer(folder: &Path, stem: &str, channel: &str) -> Result<Option<Pa
 }
 
 fn find_file(folder: &Path, stem: &str, endings: &[&str]) -> Result<Option<PathBuf>, Error> {
-    let paths = endings.iter().map(|it| folder.join(format!("{stem}.{it}")));
-    let mut found = paths.filter(|path| path.is_file());
-    match (found.next(), found.next()) {
+    let paths = endings
+        .iter()
+        .map(|ending| folder.join(format!("{stem}.{ending}")));
+    let mut files = paths.filter(|path| path.is_file());
+    match (files.next(), files.next()) {
         (Some(one), Some(other)) => refuse!(
             other,
             "is in one folder with {}; remove one of them",
@@ -68,7 +70,8 @@ pub fn is_png(path: &Path) -> bool {
 }
 
 fn has_ending(path: &Path, ending: &str) -> bool {
-    path.extension().is_some_and(|own| own == ending)
+    path.extension()
+        .is_some_and(|extension| extension == ending)
 }
 
 /// Scene-linear radiance, and what its file lost or was converted from.
@@ -116,9 +119,9 @@ pub fn read_velocity(
     buffer: &str,
 ) -> Result<Vectors, Error> {
     let file = open(path, description, buffer)?;
-    let own = ["X", "Y"].map(|axis| format!("{buffer}.{axis}"));
+    let channels = ["X", "Y"].map(|axis| format!("{buffer}.{axis}"));
     let pairs = [
-        own.each_ref().map(String::as_str),
+        channels.each_ref().map(String::as_str),
         ["velocity.X", "velocity.Y"],
         ["X", "Y"],
         ["R", "G"],
@@ -300,7 +303,13 @@ fn check_finite(file: &ExrFile, names: &[&str]) -> Result<(), Error> {
     let allowed = "every number must be finite: look for a division by 0 in the engine, or for a half float that overflowed";
     let mut names = names.iter();
     names.try_for_each(|name| {
-        check_values(file, name, &file.plane(name)?, |it| it.is_finite(), allowed)
+        check_values(
+            file,
+            name,
+            &file.plane(name)?,
+            |value| value.is_finite(),
+            allowed,
+        )
     })
 }
 
@@ -317,6 +326,6 @@ fn check_values(
     };
     let (value, width) = (plane.pixels[at], plane.width as usize);
     let (x, y) = (at % width, at / width);
-    let found = format!("channel \"{name}\" holds {value} at pixel ({x}, {y})");
-    refuse!(file.path, "{found}; {allowed}")
+    let finding = format!("channel \"{name}\" holds {value} at pixel ({x}, {y})");
+    refuse!(file.path, "{finding}; {allowed}")
 }

@@ -244,22 +244,24 @@ fn refuse_key<T>(folder: &Path, key: &str, about: &str) -> Result<T, Error> {
 
 /// Lists the sub-frames by their numbers from 0; none without a folder of them.
 fn list_subframes(folder: &Path, color: &Path) -> Result<Vec<PathBuf>, Error> {
-    let own = folder.join(SUBFRAMES);
+    let subframe_folder = folder.join(SUBFRAMES);
     let ending = color.extension().and_then(|ending| ending.to_str());
     let ending = ending.unwrap_or_default();
     let mut paths = Vec::new();
-    if own.is_dir() {
-        let fail = |source| FileError::io(&own, "read", source);
-        for entry in fs::read_dir(&own).map_err(fail)? {
+    if subframe_folder.is_dir() {
+        let fail = |source| FileError::io(&subframe_folder, "read", source);
+        for entry in fs::read_dir(&subframe_folder).map_err(fail)? {
             let path = entry.map_err(fail)?.path();
-            let found = path.extension().and_then(|found| found.to_str());
-            if let Some(found) = found.filter(|own| *own != ending && COLOR_ENDINGS.contains(own)) {
+            let extension = path.extension().and_then(|extension| extension.to_str());
+            if let Some(extension) = extension
+                .filter(|extension| *extension != ending && COLOR_ENDINGS.contains(extension))
+            {
                 return refuse!(
                     path,
-                    "is a .{found}, the colour a .{ending}; allowed: sub-frames in the form of the colour"
+                    "is a .{extension}, the colour a .{ending}; allowed: sub-frames in the form of the colour"
                 );
             }
-            paths.extend((found == Some(ending)).then_some(path));
+            paths.extend((extension == Some(ending)).then_some(path));
         }
     }
     paths.sort();

@@ -18,14 +18,14 @@ const CHANNELS: [&str; 4] = ["R", "G", "B", "A"];
 const LEAST_FLOAT: f32 = 1e-6;
 /// Largest usual magnitude of a number in any unit.
 const LARGEST: f32 = 1e6;
-/// Upper limit on different halves without a leading digit that are byte-swapped round numbers.
-/// More are small numbers.
+/// Upper limit on different halves without a leading digit that are taken for byte-swapped round
+/// numbers. More of them are small numbers.
 const FEW: usize = 16;
 /// Largest part of the numbers, apart from zeros, that may be unusual in a dump whose bytes are in
 /// order.
 const MOST_UNUSUAL: f64 = 0.01;
-/// Smallest ratio of the unusual numbers as they are to those in the other order of bytes that
-/// shows a big-endian dump.
+/// Smallest ratio that shows a big-endian dump: unusual numbers as they are, over those in the
+/// other order of bytes.
 const TELLING: usize = 10;
 
 /// Layout of a dump: little-endian numbers, pixel by pixel and row by row, without padding.
@@ -163,10 +163,10 @@ impl RawLayout {
         let mut file = ExrFile::new(self.width, self.height);
         file.path = path.to_owned();
         for (at, name) in CHANNELS.iter().take(self.components).enumerate() {
-            let own = (rows.iter()).flat_map(|row| row.iter().skip(at).step_by(self.components));
+            let values = (rows.iter()).flat_map(|row| row.iter().skip(at).step_by(self.components));
             file.channels.push(Channel {
                 name: (*name).to_owned(),
-                samples: Samples::F32(own.copied().collect()),
+                samples: Samples::F32(values.copied().collect()),
             });
         }
         Ok(file)

@@ -89,7 +89,8 @@ impl Manifest {
             let shutter = shutter.expect("a scene's exposure was checked when it was read");
             (alignment.name(), shutter)
         });
-        let ends = |shutter: Shutter| [shutter.open, shutter.close].map(|it| timeline.seconds(it));
+        let ends =
+            |shutter: Shutter| [shutter.open, shutter.close].map(|time| timeline.seconds(time));
         let midpoints = |shutter: Shutter| -> Vec<f64> {
             let parts = (0..subframes).map(|at| (f64::from(at) + 0.5) / f64::from(subframes));
             parts
@@ -107,8 +108,10 @@ impl Manifest {
             previous: timeline.seconds(-1.0),
             next: timeline.seconds(1.0),
             exposure: scene.exposure,
-            shutter: shutters.map(|(name, own)| (name, ends(own))).into(),
-            subframes: shutters.map(|(name, own)| (name, midpoints(own))).into(),
+            shutter: shutters.map(|(name, shutter)| (name, ends(shutter))).into(),
+            subframes: shutters
+                .map(|(name, shutter)| (name, midpoints(shutter)))
+                .into(),
             has_shutter_profile: scene.shutter_profile != frame::ShutterProfile::default(),
             vertical_fov: scene.camera.vertical_fov_at(0.0).to_degrees(),
             lens: scene.camera.lens,

@@ -95,9 +95,13 @@ fn push_target(
     is_smooth: bool,
     pick: &impl Fn(&[Vec3]) -> Vec<[f32; 3]>,
 ) -> Value {
-    let difference = |own: &[Vec3], first: &[Vec3]| {
-        let pairs = own.iter().zip(first);
-        pick(&pairs.map(|(own, first)| own - first).collect::<Vec<_>>())
+    let difference = |vectors: &[Vec3], first: &[Vec3]| {
+        let pairs = vectors.iter().zip(first);
+        pick(
+            &pairs
+                .map(|(vector, first)| vector - first)
+                .collect::<Vec<_>>(),
+        )
     };
     let normals = is_smooth.then(|| {
         let normals = difference(&shape.normals, &mesh.normals);

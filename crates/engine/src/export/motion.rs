@@ -81,7 +81,7 @@ fn follow_linear(times: &[f64], value: &dyn Fn(f64) -> DVec3) -> Track<3> {
     let values: Vec<DVec3> = times.iter().map(|time| value(*time)).collect();
     Track {
         first: floats(values[0]),
-        is_still: values.iter().all(|own| is_close(*own, values[0])),
+        is_still: values.iter().all(|point| is_close(*point, values[0])),
         times: times.to_vec(),
         values: values.into_iter().map(floats).collect(),
         interpolation: "LINEAR",
@@ -101,7 +101,7 @@ fn follow_cubic(times: &[f64], value: &dyn Fn(f64) -> DVec3) -> Track<3> {
         let duration = to - from;
         // The value at a key may belong to the next piece, which has the same value there.
         let [a, b, c, d] = [0.0, 1.0, 2.0, 3.0].map(|third| value(from + duration * third / 3.0));
-        is_still &= [b, c, d].iter().all(|own| is_close(*own, a));
+        is_still &= [b, c, d].iter().all(|point| is_close(*point, a));
         let per_frame = 1.0 / (2.0 * duration);
         let slopes = [
             (-11.0 * a + 18.0 * b - 9.0 * c + 2.0 * d) * per_frame,
@@ -118,10 +118,10 @@ fn follow_cubic(times: &[f64], value: &dyn Fn(f64) -> DVec3) -> Track<3> {
     }
 }
 
-/// Samples a turn with keys so dense that both ways of players are the turn's own: the shorter way
-/// at a constant angular velocity, as glTF says, and quaternions interpolated by components, as in
-/// Blender. Between two times the turn is at most as fast as `fastest` of them, in radians per
-/// frame.
+/// Samples a turn with keys so dense that players of both kinds show the turn itself: those that go
+/// the shorter way at a constant angular velocity, as glTF says, and those that interpolate
+/// quaternions by components, as Blender does. Between two times the turn is at most as fast as
+/// `fastest` of them, in radians per frame.
 fn follow_turns(
     times: &[f64],
     rotation: &dyn Fn(f64) -> DQuat,
@@ -150,12 +150,12 @@ fn follow_turns(
     }
     let turn = |turn: DQuat| turn.as_quat().normalize().to_array();
     let first = keys[0].1;
-    let is_first = |(_, own): &(f64, DQuat)| own.angle_between(first) < TOLERANCE;
+    let is_first = |(_, rotation): &(f64, DQuat)| rotation.angle_between(first) < TOLERANCE;
     Track {
         first: turn(first),
         is_still: keys.iter().all(is_first),
         times: keys.iter().map(|(time, _)| *time).collect(),
-        values: keys.iter().map(|(_, own)| turn(*own)).collect(),
+        values: keys.iter().map(|(_, rotation)| turn(*rotation)).collect(),
         interpolation: "LINEAR",
     }
 }
@@ -170,8 +170,8 @@ fn refine(
 ) {
     let ends = [from, to].map(rotation);
     let strays = [0.25, 0.5, 0.75].into_iter().any(|part| {
-        let own = rotation(from + part * (to - from));
-        own.angle_between(ends[0].lerp(ends[1], part)) > TOLERANCE
+        let rotation = rotation(from + part * (to - from));
+        rotation.angle_between(ends[0].lerp(ends[1], part)) > TOLERANCE
     });
     if strays && halvings > 0 {
         let middle = 0.5 * (from + to);

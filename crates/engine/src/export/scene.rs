@@ -68,8 +68,8 @@ pub fn export_gltf(
 /// Refuses a field of view that changes within the animation.
 fn refuse_zoom(scene: &Scene, timeline: &Timeline) -> Result<(), Error> {
     let times = timeline.cut(scene.camera.vertical_fov.iter().map(|(time, _)| *time));
-    let own = scene.camera.vertical_fov_at(0.0);
-    let is_other = |time: &f64| (scene.camera.vertical_fov_at(*time) - own).abs() > 1e-9;
+    let angle = scene.camera.vertical_fov_at(0.0);
+    let is_other = |time: &f64| (scene.camera.vertical_fov_at(*time) - angle).abs() > 1e-9;
     if times.iter().any(is_other) {
         Err(Error::Usage(format!(
             "scene {}: the camera's field of view changes between frames {} and {}, which glTF 2.0 cannot animate; \
@@ -93,7 +93,7 @@ fn push_nodes(document: &mut Document, scene: &Scene, timeline: &Timeline) -> Re
         },
         "type": "perspective",
     });
-    let children = |parent| Some(list_children(scene, parent)).filter(|own| !own.is_empty());
+    let children = |parent| Some(list_children(scene, parent)).filter(|list| !list.is_empty());
     let node = json!({
         "camera": document.push("cameras", camera),
         "children": children(Parent::Camera),
@@ -145,8 +145,10 @@ fn push_meshes(document: &mut Document, scene: &Scene) -> Vec<usize> {
 /// different light or gloss.
 fn list_extensions(document: &Document, scene: &Scene) -> Option<BTreeSet<String>> {
     let materials = document.list("materials").iter();
-    let own = materials.filter_map(|material| material["extensions"].as_object());
-    let mut used: BTreeSet<String> = own.flat_map(|own| own.keys().cloned()).collect();
+    let extensions = materials.filter_map(|material| material["extensions"].as_object());
+    let mut used: BTreeSet<String> = extensions
+        .flat_map(|extensions| extensions.keys().cloned())
+        .collect();
     used.extend(scene.sun.map(|_| SUN_EXTENSION.to_owned()));
     (!used.is_empty()).then_some(used)
 }

@@ -70,10 +70,11 @@ impl<'a> Textures<'a> {
     /// file for both, and from a tint. It has the size of the larger one; the smaller one is
     /// sampled at the nearest texel.
     fn join(&self, textures: [Option<usize>; 2], tint: Vec3) -> (String, Vec<u8>) {
-        let [color, opacity] = textures.map(|it| it.map(|index| &self.scene.textures[index]));
+        let [color, opacity] =
+            textures.map(|texture| texture.map(|index| &self.scene.textures[index]));
         let both = || [color, opacity].into_iter().flatten();
-        let width = both().map(|own| own.width).max().unwrap_or(1);
-        let height = both().map(|own| own.height).max().unwrap_or(1);
+        let width = both().map(|texture| texture.width).max().unwrap_or(1);
+        let height = both().map(|texture| texture.height).max().unwrap_or(1);
         let place = |x: u32, y: u32| {
             [(x, width), (y, height)].map(|(at, side)| (f64::from(at) + 0.5) / f64::from(side))
         };

@@ -134,7 +134,7 @@ fn median_ratio(picture: &Image, other: &Image, left_out: &Raster<bool>) -> Opti
     let pairs = picture.pixels.iter().zip(&other.pixels);
     let ratios = (pairs.zip(&left_out.pixels))
         .filter(|((_, other), left_out)| !**left_out && radiance(other) > 0.0)
-        .map(|((own, other), _)| radiance(own) / radiance(other));
+        .map(|((pixel, other), _)| radiance(pixel) / radiance(other));
     Some(median(ratios)).filter(|ratio| ratio.is_finite())
 }
 

@@ -20,8 +20,8 @@ const MIN_SUBFRAMES: usize = 4;
 const MAX_SUBFRAMES: usize = 4096;
 /// Halves of the truth, from alternate sub-frames.
 const HALVES: usize = 2;
-/// Smallest ratio of the truth's sub-frames to an accumulation's that is compared with it: a mean
-/// of nearly as many would share the truth's errors.
+/// Smallest ratio of the truth's sub-frames to those of an accumulation that is compared with the
+/// truth: a mean of nearly as many would share the truth's errors.
 const TRUTH_PER_MEAN: usize = 4;
 /// Provenance of pictures that were not traced.
 pub(super) const NOT_TRACED: &str = "none";
@@ -106,7 +106,7 @@ fn subtract_truth(means: &[(u32, Halves)], truth: &Halves) -> Vec<Accumulation> 
     let rung = |(subframes, halves): &(u32, Halves)| Accumulation {
         subframes: *subframes,
         groups: (halves.iter().zip(truth))
-            .map(|(own, truth)| own.minus(truth))
+            .map(|(half, truth)| half.minus(truth))
             .collect(),
     };
     means.iter().map(rung).collect()
@@ -186,8 +186,11 @@ fn read_subframes(
     };
     let every_other = |half| (half..count).step_by(HALVES).collect();
     let mut means = vec![mean(count as u32, &every_other)];
-    let ladder = (LADDER.into_iter()).filter(|own| *own as usize * TRUTH_PER_MEAN <= count);
-    means.extend(ladder.map(|own| mean(own, &|half| pick_subframes(own, count, half))));
+    let ladder =
+        (LADDER.into_iter()).filter(|subframes| *subframes as usize * TRUTH_PER_MEAN <= count);
+    means.extend(
+        ladder.map(|subframes| mean(subframes, &|half| pick_subframes(subframes, count, half))),
+    );
     let mut range = ColorRange::new(size, capture.description.stops.unwrap_or(0.0));
     for index in 0..count {
         Progress::report(watch, index, count)?;

@@ -13,12 +13,12 @@ impl ExrFile {
     /// Refuses a file of another kind, or with altered content.
     pub fn expect_kind(&self, kind: &str) -> Result<(), FileError> {
         match self.attributes.get("kind").map(String::as_str) {
-            Some(found) if found == kind => {
+            Some(file_kind) if file_kind == kind => {
                 self.expect_checksum()?;
                 self.expect_plain_pixels()?;
                 self.expect_finite()
             }
-            Some(found) => Err(self.foreign(format!("is a {found}; a {kind} is needed"))),
+            Some(file_kind) => Err(self.foreign(format!("is a {file_kind}; a {kind} is needed"))),
             None => Err(self.foreign(format!(
                 "was not written by shuttertruth (no attribute \"kind\"); a {kind} is needed: make one with \
                  `shuttertruth truths render`"
@@ -35,8 +35,8 @@ impl ExrFile {
         }
     }
 
-    /// Refuses colours that the file's attribute `colorInteropID` calls other than linear, or names
-    /// primaries of, without stating them.
+    /// Refuses colours if the file's attribute `colorInteropID` calls them other than linear, or
+    /// names their primaries without stating them.
     pub(super) fn expect_linear(&self) -> Result<(), FileError> {
         const NAME: &str = "colorInteropID";
         let Some(space) = self.attributes.get(NAME) else {
@@ -99,8 +99,8 @@ impl ExrFile {
 
     /// Refuses altered content.
     fn expect_checksum(&self) -> Result<(), FileError> {
-        let found: String = self.get(CHECKSUM)?;
-        if found == self.compute_checksum() {
+        let checksum: String = self.get(CHECKSUM)?;
+        if checksum == self.compute_checksum() {
             return Ok(());
         }
         Err(self.foreign(

@@ -146,10 +146,10 @@ mod tests {
         meaning.to_rec_709()
     }
 
-    fn assert_near(found: DMat3, due: [[f64; 3]; 3]) {
+    fn assert_near(matrix: DMat3, due: [[f64; 3]; 3]) {
         // Published with that many digits.
         let due = DMat3::from_cols_array_2d(&due).transpose();
-        assert!(found.abs_diff_eq(due, 5e-4), "{found} {due}");
+        assert!(matrix.abs_diff_eq(due, 5e-4), "{matrix} {due}");
     }
 
     #[test]

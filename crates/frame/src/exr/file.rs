@@ -91,7 +91,10 @@ impl ExrFile {
     /// Adds `X Y`, in a named layer.
     pub fn push_vectors(&mut self, layer: &str, vectors: &Vectors) {
         for (component, name) in ["X", "Y"].into_iter().enumerate() {
-            self.push_owned_plane(&in_layer(layer, name), vectors.map(|it| it[component]));
+            self.push_owned_plane(
+                &in_layer(layer, name),
+                vectors.map(|vector| vector[component]),
+            );
         }
     }
 

@@ -48,7 +48,8 @@ fn shorten(floats: Vec<f32>) -> FlatSamples {
             let widened = &mut widened[..floats.len()];
             halves.convert_from_f32_slice(floats);
             halves.convert_to_f32_slice(widened);
-            (floats.iter().zip(widened)).all(|(own, widened)| own.to_bits() == widened.to_bits())
+            (floats.iter().zip(widened))
+                .all(|(float, widened)| float.to_bits() == widened.to_bits())
         });
     if is_lossless {
         FlatSamples::F16(halves)

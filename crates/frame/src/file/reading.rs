@@ -59,10 +59,10 @@ fn refuse_unfit(path: &Path, metadata: &Metadata, limit: u64) -> Result<(), File
     Ok(())
 }
 
-fn too_large(path: &Path, found: u64, limit: u64) -> FileError {
+fn too_large(path: &Path, size: u64, limit: u64) -> FileError {
     FileError::foreign(
         path,
-        format!("holds {found} bytes, and at most {limit} are read; use a smaller file"),
+        format!("holds {size} bytes, and at most {limit} are read; use a smaller file"),
     )
 }
 

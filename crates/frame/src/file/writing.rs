@@ -55,11 +55,11 @@ pub fn write_streamed<E: From<FileError>>(
 fn refuse_to_replace(path: &Path) -> Result<(), FileError> {
     match std::fs::metadata(path) {
         // Renaming fails at a folder by itself.
-        Ok(found) if !found.is_file() && !found.is_dir() => Err(FileError::foreign(
+        Ok(metadata) if !metadata.is_file() && !metadata.is_dir() => Err(FileError::foreign(
             path,
             format!(
                 "is {}, where a file is to be written; name another file",
-                kind_of(&found)
+                kind_of(&metadata)
             ),
         )),
         _ => Ok(()),

@@ -49,7 +49,7 @@ fn delay(per_second: f64) -> (u16, u16) {
     // Slow sequences need a large numerator, fast ones a large denominator.
     let numerator = [1000.0, 100.0, 10.0, 1.0]
         .into_iter()
-        .find(|it| it * per_second <= most);
+        .find(|numerator| numerator * per_second <= most);
     let numerator = numerator.unwrap_or(1.0);
     let denominator = (numerator * per_second).round().clamp(1.0, most);
     (numerator as u16, denominator as u16)

@@ -106,8 +106,9 @@ fn multiply_differences(gain: &Raster<f64>, errors: [ChannelError; 2]) -> [Raste
         .map(|error| [0, 1, 2].map(|c| index_pixels(gain, |at| error(at, c) * gain.pixels[at])));
     let (fine, coarse) = (fine(), coarse());
     [&fine[..], &coarse[..]].map(|taps| {
-        let [f, g] = (scaled.each_ref())
-            .map(|channels| (channels.each_ref()).map(|own| filter_separably(own, taps, taps)));
+        let [f, g] = (scaled.each_ref()).map(|channels| {
+            (channels.each_ref()).map(|channel| filter_separably(channel, taps, taps))
+        });
         index_pixels(gain, |at| {
             let products = f.iter().zip(&g).map(|(f, g)| f.pixels[at] * g.pixels[at]);
             products.sum::<f64>() / 3.0
@@ -124,9 +125,9 @@ fn average(map: &Raster<f64>) -> Raster<f64> {
 /// Averages the squared grain; `None` if there are no pixels.
 pub fn pool_grain<'a>(pixels: impl Iterator<Item = &'a PixelGrain>) -> Option<f64> {
     let (mut sum, mut weights) = (0.0, 0.0);
-    for own in pixels {
-        sum += own.weight * own.squared;
-        weights += own.weight;
+    for pixel in pixels {
+        sum += pixel.weight * pixel.squared;
+        weights += pixel.weight;
     }
     (weights > 0.0).then(|| sum / weights)
 }
@@ -136,9 +137,9 @@ pub fn pool_grain<'a>(pixels: impl Iterator<Item = &'a PixelGrain>) -> Option<f6
 /// product is the mean of (2 noise)² / 3; neighbours correlate.
 pub fn scatter_grain<'a>(pixels: impl Iterator<Item = &'a PixelGrain>) -> Option<f64> {
     let (mut fourths, mut weights) = (0.0, 0.0);
-    for own in pixels {
-        fourths += (own.weight * 2.0 * own.noise).powi(2);
-        weights += own.weight;
+    for pixel in pixels {
+        fourths += (pixel.weight * 2.0 * pixel.noise).powi(2);
+        weights += pixel.weight;
     }
     (weights > 0.0).then(|| (CORRELATION * fourths / 3.0).sqrt() / weights)
 }

@@ -83,11 +83,11 @@ mod tests {
             let x = f32::from_bits(0x0080_0000 + step * 53_687);
             for y in [1.0 / 3.0, 0.5, 0.7, 0.03, 1.0_f32] {
                 let expected = f64::from(x).powf(f64::from(y));
-                let found = f64::from(power(x, y));
+                let value = f64::from(power(x, y));
                 // Half a step of 32 bits, and 1e-10 for the series.
                 assert!(
-                    (found - expected).abs() <= (0.5 * f64::from(f32::EPSILON) + 1e-9) * expected,
-                    "{x} to {y}: {found}, expected {expected}"
+                    (value - expected).abs() <= (0.5 * f64::from(f32::EPSILON) + 1e-9) * expected,
+                    "{x} to {y}: {value}, expected {expected}"
                 );
             }
         }

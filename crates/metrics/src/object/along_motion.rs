@@ -125,16 +125,16 @@ mod tests {
 
     #[test]
     fn rows_keep_their_mass_up_to_a_quarter_of_a_pixel_which_is_then_the_floor() {
-        let near = |found: f64, expected: f64| (found - expected).abs() < 1e-3;
+        let near = |value: f64, expected: f64| (value - expected).abs() < 1e-3;
         // Ten rows that lack 0.4 px are 0.2 px of 20.
-        let found = floor(4.4).unwrap();
-        assert!(near(found.loss, 0.2) && near(found.gain, 0.0), "{found:?}");
-        let found = floor(3.6).unwrap();
+        let mass = floor(4.4).unwrap();
+        assert!(near(mass.loss, 0.2) && near(mass.gain, 0.0), "{mass:?}");
+        let mass = floor(3.6).unwrap();
         assert!(
-            near(found.loss, 0.0) && near(found.gain + found.growth, 0.2),
-            "{found:?}"
+            near(mass.loss, 0.0) && near(mass.gain + mass.growth, 0.2),
+            "{mass:?}"
         );
-        assert!(found.gain > 0.19, "{found:?}");
+        assert!(mass.gain > 0.19, "{mass:?}");
         let reason = floor(4.6).unwrap_err();
         assert!(
             reason.contains("alters the silhouette by 0.30 px"),

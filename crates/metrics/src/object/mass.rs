@@ -53,11 +53,11 @@ mod tests {
         let measure = |core: &Raster<bool>| measure_mass(&output, &truth, core).unwrap();
         assert_eq!(measure(&core).hole, None);
         (core.pixels[0], core.pixels[1]) = (true, true);
-        let found = measure(&core);
+        let mass = measure(&core);
         // Both core pixels lack a quarter of an opaque object, even where the truth lacks more.
-        assert_eq!(found.hole, Some(0.25));
-        assert_eq!(found.deficit, 0.25 / 1.5);
-        assert_eq!(found.energy, 1.75 / 1.5);
+        assert_eq!(mass.hole, Some(0.25));
+        assert_eq!(mass.deficit, 0.25 / 1.5);
+        assert_eq!(mass.energy, 1.75 / 1.5);
         let empty = matte([0.0; 4]);
         assert_eq!(measure_mass(&output, &empty, &core), None);
     }

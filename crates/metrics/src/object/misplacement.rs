@@ -24,13 +24,13 @@ pub fn measure_misplacement(output: &Grid, truth: &Grid) -> Option<Misplacement>
     let (mut weight, mut distance) = (0.0, 0.0);
     let (mut variance, mut true_variance) = (0.0, 0.0);
     for (output, truth) in output.rows().zip(truth.rows()) {
-        let (Some(found), Some(expected)) = (measure_moments(output), measure_moments(truth))
+        let (Some(moments), Some(expected)) = (measure_moments(output), measure_moments(truth))
         else {
             continue;
         };
         weight += expected.mass;
-        distance += expected.mass * distance_between(output, found.mass, truth, expected.mass);
-        variance += expected.mass * found.variance;
+        distance += expected.mass * distance_between(output, moments.mass, truth, expected.mass);
+        variance += expected.mass * moments.variance;
         true_variance += expected.mass * expected.variance;
     }
     (weight > 0.0 && true_variance > 0.0).then(|| Misplacement {
@@ -91,11 +91,11 @@ mod tests {
             1 if (4..8).contains(&x) => 0.5,
             _ => 0.0,
         });
-        let found = measure_misplacement(&rows.spread(&output), &rows.spread(&truth))
+        let misplacement = measure_misplacement(&rows.spread(&output), &rows.spread(&truth))
             .expect("both have mass");
         // 6 of 8 px of mass are 4 px ahead; the mean over rows would be 2. Exact in binary.
-        assert_eq!(found.centroid, 3.0);
-        assert_eq!(found.distance, 2.0);
+        assert_eq!(misplacement.centroid, 3.0);
+        assert_eq!(misplacement.distance, 2.0);
     }
 
     #[test]
@@ -110,10 +110,13 @@ mod tests {
             })
         });
         let [truth, output] = mattes.map(|matte| rows.spread(&matte));
-        let found = measure_misplacement(&output, &truth).expect("both have mass");
+        let misplacement = measure_misplacement(&output, &truth).expect("both have mass");
         // The second row is 4 px ahead, and so is the third, which is left out. Mattes have 32
         // bits.
-        assert!((found.distance - 0.04 / 2.01).abs() < 1e-6, "{found:?}");
+        assert!(
+            (misplacement.distance - 0.04 / 2.01).abs() < 1e-6,
+            "{misplacement:?}"
+        );
     }
 
     #[test]
@@ -125,10 +128,13 @@ mod tests {
             0 | 19 => -0.25,
             _ => 0.0,
         });
-        let found = measure_misplacement(&rows.spread(&output), &rows.spread(&truth))
+        let misplacement = measure_misplacement(&rows.spread(&output), &rows.spread(&truth))
             .expect("both have mass");
-        assert_eq!(found.extent, None);
-        assert!(found.distance > 0.0 && found.centroid == 0.0, "{found:?}");
+        assert_eq!(misplacement.extent, None);
+        assert!(
+            misplacement.distance > 0.0 && misplacement.centroid == 0.0,
+            "{misplacement:?}"
+        );
     }
 
     #[test]

@@ -49,20 +49,20 @@ impl Mover {
         let displacements = frame
             .velocity
             .map(|v| v.map(|component| f64::from(component) * frame.exposure));
-        let own: Vec<[f64; 2]> = seen
+        let vectors: Vec<[f64; 2]> = seen
             .pixels
             .iter()
             .zip(&displacements.pixels)
             .filter_map(|(seen, displacement)| seen.then_some(*displacement))
             .collect();
-        if own.iter().all(|d| length(*d) < LEAST_DISPLACEMENT) {
+        if vectors.iter().all(|d| length(*d) < LEAST_DISPLACEMENT) {
             return Err("does not move");
         }
-        let displacement = mean(&own);
-        let squares = own
+        let displacement = mean(&vectors);
+        let squares = vectors
             .iter()
             .map(|d| length([d[0] - displacement[0], d[1] - displacement[1]]).powi(2));
-        let deviation = (squares.sum::<f64>() / own.len() as f64).sqrt();
+        let deviation = (squares.sum::<f64>() / vectors.len() as f64).sqrt();
         let directions = sources.map(|[x, y]| unit(*displacements.at(*x, *y)));
         let silhouette = Silhouette::new(&frame.coverage[id as usize], &directions);
         let mover = Self {

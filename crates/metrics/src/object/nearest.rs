@@ -13,7 +13,7 @@ pub fn find_nearest(set: &Raster<bool>) -> Option<Raster<[u32; 2]>> {
         return None;
     }
     let columns = find_in_columns(set);
-    let mut found = Raster::filled(set.width, set.height, [0, 0]);
+    let mut nearest = Raster::filled(set.width, set.height, [0, 0]);
     for y in 0..set.height {
         let row = y as usize * set.width as usize..(y as usize + 1) * set.width as usize;
         let parabolas: Vec<(i64, u32)> = (0..set.width)
@@ -24,12 +24,12 @@ pub fn find_nearest(set: &Raster<bool>) -> Option<Raster<[u32; 2]>> {
             })
             .collect();
         let sources = find_lowest(&parabolas, set.width);
-        for (pixel, x) in found.pixels[row].iter_mut().zip(sources) {
+        for (pixel, x) in nearest.pixels[row].iter_mut().zip(sources) {
             let source_row = columns.at(x, y).expect("a parabola's column has a pixel");
             *pixel = [x, source_row];
         }
     }
-    Some(found)
+    Some(nearest)
 }
 
 /// Returns the squared distance between the centres of two pixels, in pixels.
@@ -54,7 +54,7 @@ pub fn find_on_circle<'a>(
 
 /// Lists every whole offset, right and down, of exactly this squared length above 0.
 pub fn list_circle(squared: u64) -> Vec<[i64; 2]> {
-    let mut found = Vec::new();
+    let mut offsets = Vec::new();
     // Along the circle's first quadrant, both ends of an axis counted once.
     let squared = squared as i64;
     let (mut right, mut down) = (squared.isqrt(), 0);
@@ -62,7 +62,7 @@ pub fn list_circle(squared: u64) -> Vec<[i64; 2]> {
         let excess = right * right + down * down - squared;
         if excess == 0 {
             // Quarter turns of one offset.
-            found.extend([
+            offsets.extend([
                 [right, down],
                 [-down, right],
                 [-right, -down],
@@ -75,7 +75,7 @@ pub fn list_circle(squared: u64) -> Vec<[i64; 2]> {
             down += 1;
         }
     }
-    found
+    offsets
 }
 
 /// Finds for every pixel the row of the nearest set pixel in its own column.
@@ -149,9 +149,9 @@ mod tests {
             let set = Raster::from_fn(width, height, |x, y| {
                 (x * x * 7 + y * 13 + x * y) % step == 0
             });
-            let found = find_nearest(&set).expect("each scatter has a pixel");
+            let nearest = find_nearest(&set).expect("each scatter has a pixel");
             for (y, x) in (0..height).flat_map(|y| (0..width).map(move |x| (y, x))) {
-                let source = *found.at(x, y);
+                let source = *nearest.at(x, y);
                 assert!(
                     *set.at(source[0], source[1]),
                     "({x}, {y}) is led outside the set"
@@ -177,15 +177,15 @@ mod tests {
         let at = |at: [u32; 2], squared: u64| -> Vec<[u32; 2]> {
             find_on_circle(&set, at, &list_circle(squared)).collect()
         };
-        let mut found = at([20, 20], 25);
+        let mut pixels = at([20, 20], 25);
         assert!(
-            found
+            pixels
                 .iter()
                 .all(|pixel| distance_squared([20, 20], *pixel) == 25)
         );
-        found.sort_unstable();
-        found.dedup();
-        assert_eq!(found.len(), 12);
+        pixels.sort_unstable();
+        pixels.dedup();
+        assert_eq!(pixels.len(), 12);
         assert_eq!(at([0, 0], 25).len(), 4);
         assert_eq!(at([20, 20], 3), Vec::<[u32; 2]>::new());
     }

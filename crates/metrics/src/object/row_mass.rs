@@ -124,20 +124,20 @@ mod tests {
     }
 
     #[track_caller]
-    fn assert_near(found: f64, expected: f64) {
+    fn assert_near(value: f64, expected: f64) {
         // Mattes are single-precision, and a hundredth of a gain of 2 px in 20 is not granted: 0.02
         // px in 10 rows of 40 px.
-        assert!((found - expected).abs() < 0.006, "{found} for {expected}");
+        assert!((value - expected).abs() < 0.006, "{value} for {expected}");
     }
 
     #[test]
     fn widening_and_gain_are_told_apart_but_for_the_row_at_the_rim() {
-        let found = compare(2.0, TRUE_TOP - 2.0);
+        let mass = compare(2.0, TRUE_TOP - 2.0);
         // Two rows of 22 px more on one side; the row at the rim is granted a third of the 2 px
         // that the others gain.
         let rim = 22.0 - 20.0 / 3.0 - 2.0 / 3.0;
-        assert_near(found.growth, (rim + 22.0 + 22.0 / 3.0) / 40.0);
-        assert_near(found.gain, (10.0 * 2.0 + 2.0 / 3.0) / 40.0);
+        assert_near(mass.growth, (rim + 22.0 + 22.0 / 3.0) / 40.0);
+        assert_near(mass.gain, (10.0 * 2.0 + 2.0 / 3.0) / 40.0);
     }
 
     #[test]
@@ -152,7 +152,7 @@ mod tests {
         let truth = rows([20, 19]);
         let instant = InstantRows::new(&truth);
         // The shorter row grows alone: that is no gain of all rows.
-        let found = RowMass::new(&rows([20, 21]), &truth, &instant, 4.0);
-        assert_eq!([found.growth, found.gain, found.loss], [0.5, 0.0, 0.0]);
+        let mass = RowMass::new(&rows([20, 21]), &truth, &instant, 4.0);
+        assert_eq!([mass.growth, mass.gain, mass.loss], [0.5, 0.0, 0.0]);
     }
 }

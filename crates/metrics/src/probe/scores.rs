@@ -45,11 +45,12 @@ impl OriginReference {
                 .then(|| Difference::new(find_gathered_origin(probes, at), self.expected.at(at)))?
         });
         let inside = regions.indices(Region::Knowable);
-        let found = average(inside.filter_map(|at| errors.pixels[at]));
+        let mean = average(inside.filter_map(|at| errors.pixels[at]));
         let score = |part: fn(&Difference) -> f64| {
-            let [found, noise] = [&found, &self.noise].map(|it| it.as_ref().map(part));
+            let [mean, noise] =
+                [&mean, &self.noise].map(|difference| difference.as_ref().map(part));
             Measured::of(
-                found,
+                mean,
                 noise,
                 "no moving pixel is seen whole in the frame of the instant",
             )
@@ -83,12 +84,12 @@ struct Difference {
 
 impl Difference {
     /// Compares two origins; `None` unless both exist.
-    fn new(found: Option<Origin>, expected: Option<Origin>) -> Option<Self> {
-        let (found, expected) = (found?, expected?);
-        let [x, y] = [0, 1].map(|axis| found.offset[axis] - expected.offset[axis]);
+    fn new(origin: Option<Origin>, expected: Option<Origin>) -> Option<Self> {
+        let (origin, expected) = (origin?, expected?);
+        let [x, y] = [0, 1].map(|axis| origin.offset[axis] - expected.offset[axis]);
         Some(Self {
             offset: x.hypot(y),
-            spread: (found.spread - expected.spread).abs(),
+            spread: (origin.spread - expected.spread).abs(),
         })
     }
 }

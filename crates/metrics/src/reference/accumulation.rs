@@ -59,8 +59,8 @@ impl Reference<'_> {
         let counts = &mut measurement.scores.equivalent_subframes;
         for metric in EquivalentMetric::ALL {
             if let Equivalent::Subframes(count) = counts.get(metric).clone() {
-                let own = Subframes::of_rung(rung.subframes, count.floor);
-                *counts.get_mut(metric) = Equivalent::Subframes(own);
+                let subframes = Subframes::of_rung(rung.subframes, count.floor);
+                *counts.get_mut(metric) = Equivalent::Subframes(subframes);
             }
         }
         Ok(measurement)

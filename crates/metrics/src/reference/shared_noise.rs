@@ -22,9 +22,9 @@ pub fn mark_shared(
         let square = |at: usize| (0..3).map(|c| f64::from(error(at, c)).powi(2)).sum::<f64>();
         still.map(square).sum()
     };
-    let own = sum(&|at, c| instant.pixels[at][c] - mean.pixels[at][c]);
+    let difference = sum(&|at, c| instant.pixels[at][c] - mean.pixels[at][c]);
     let noise = sum(&|at, c| 0.5 * (a.pixels[at][c] - b.pixels[at][c]));
-    index_pixels(mean, |at| own < 0.5 * noise && is_still(at))
+    index_pixels(mean, |at| difference < 0.5 * noise && is_still(at))
 }
 
 /// Returns the halves of a truth for the squared error of a picture that a filter made from the
@@ -40,8 +40,8 @@ pub fn halves_for(
     (halves, mean): ([&Image; 2], &Image),
 ) -> [Image; 2] {
     let is_handed_on = |at: usize| {
-        let [own, color] = [output, instant].map(|image| image.pixels[at]);
-        let is_left = |c: usize| (own[c] - color[c]).abs() <= ROUNDING * color[c].abs();
+        let [value, color] = [output, instant].map(|image| image.pixels[at]);
+        let is_left = |c: usize| (value[c] - color[c]).abs() <= ROUNDING * color[c].abs();
         shared.pixels[at] && (0..3).all(is_left)
     };
     halves.map(|half| {
@@ -69,9 +69,9 @@ mod tests {
         let shared = Raster::from_fn(4, 1, |x, _| x < 3);
         // Left alone, rounded, changed, and left alone where something moves.
         let output = image([1.0, 1.0005, 1.01, 1.0]);
-        let found = halves_for(&output, (&mean, &shared), ([&a, &b], &mean));
-        assert_eq!(found[0], image([1.0, 1.0, 0.5, 0.5]));
-        assert_eq!(found[1], image([1.0, 1.0, 1.5, 1.5]));
+        let pair = halves_for(&output, (&mean, &shared), ([&a, &b], &mean));
+        assert_eq!(pair[0], image([1.0, 1.0, 0.5, 0.5]));
+        assert_eq!(pair[1], image([1.0, 1.0, 1.5, 1.5]));
     }
 
     #[test]

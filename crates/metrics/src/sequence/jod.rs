@@ -31,8 +31,8 @@ pub fn video_jod(
         let display = DisplayModel::from_name(display)?;
         let metric = Cvvdp::new(display, Options::default())?;
         let (pictures, truths) = (convert(pictures)?, convert(truths)?);
-        let found = metric.predict_video(&pictures, &truths, per_second as f32, Color::Srgb)?;
-        Ok(found.jod)
+        let score = metric.predict_video(&pictures, &truths, per_second as f32, Color::Srgb)?;
+        Ok(score.jod)
     };
     predict().map(f64::from).map_err(|error| error.to_string())
 }

@@ -46,14 +46,19 @@ impl SequenceReference {
     pub fn new(instants: Vec<Instant>, viewing: &Viewing, per_second: f64) -> Self {
         let first = instants.first().expect("a sequence has a frame");
         assert!(
-            instants.iter().all(|it| it.moving.same_size(&first.moving)),
+            instants
+                .iter()
+                .all(|instant| instant.moving.same_size(&first.moving)),
             "the frames of a sequence have one size"
         );
         let moves = |instant: &Instant| instant.moving.pixels.contains(&true);
         let anything_moves = instants.iter().any(moves);
         let mask = |instant: &Instant| instant.moving.map(|moves| *moves || !anything_moves);
         let masks: Vec<Raster<bool>> = instants.iter().map(mask).collect();
-        let halves: Vec<[Image; 2]> = instants.iter().map(|it| it.halves.clone()).collect();
+        let halves: Vec<[Image; 2]> = instants
+            .iter()
+            .map(|instant| instant.halves.clone())
+            .collect();
         let half = |half: usize| -> Vec<Image> {
             let pictures: Vec<Image> = halves.iter().map(|halves| halves[half].clone()).collect();
             accumulate(&pictures, &instants)
@@ -218,9 +223,9 @@ impl SequenceReference {
     /// its halves.
     fn jod(&self, pictures: &[Image]) -> Measured {
         let (per_second, stops) = self.shown;
-        let own = displayed(pictures, stops);
+        let pictures = displayed(pictures, stops);
         match (
-            jod_of_several(&own, &self.displayed, per_second),
+            jod_of_several(&pictures, &self.displayed, per_second),
             &self.half_jod,
         ) {
             (Ok(value), Ok(floor)) => Measured::score(value, *floor),
@@ -278,7 +283,8 @@ fn find_worst_frames(
         let known = (first..)
             .zip(values)
             .filter_map(|(at, value)| Some((at, (*value)?)));
-        let largest = known.reduce(|largest, own| if own.1 > largest.1 { own } else { largest });
+        let largest =
+            known.reduce(|largest, value| if value.1 > largest.1 { value } else { largest });
         Some((metric, largest?.0))
     });
     worst.collect()

@@ -31,15 +31,15 @@ pub fn accumulate(pictures: &[Image], instants: &[Instant]) -> Vec<Image> {
 }
 
 fn blend(history: &Image, new: &Image, instant: &Instant, at: usize) -> [f32; 3] {
-    let own = new.pixels[at];
+    let color = new.pixels[at];
     let velocity = instant.velocity.pixels[nearest_around(instant, at)];
     let width = new.width as usize;
     let [x, y] = [at % width, at / width].map(|index| index as f32);
     let Some(place) = inside(instant, [x - velocity[0], y - velocity[1]]) else {
-        return own;
+        return color;
     };
     let history = bilinear(history, place);
-    let (mut least, mut greatest) = (own, own);
+    let (mut least, mut greatest) = (color, color);
     for near in around(new, at, 1) {
         for c in 0..3 {
             least[c] = least[c].min(new.pixels[near][c]);
@@ -48,7 +48,7 @@ fn blend(history: &Image, new: &Image, instant: &Instant, at: usize) -> [f32; 3]
     }
     std::array::from_fn(|c| {
         let history = history[c].clamp(least[c], greatest[c]);
-        history + NEW_SHARE * (own[c] - history)
+        history + NEW_SHARE * (color[c] - history)
     })
 }
 

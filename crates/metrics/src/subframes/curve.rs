@@ -140,11 +140,11 @@ mod tests {
 
     #[test]
     fn a_rungs_own_error_is_its_own_count() {
-        let own = curve(&[(1, 0.3), (2, 0.17), (4, 0.071), (16, 0.0123)], 0.0);
+        let curve = curve(&[(1, 0.3), (2, 0.17), (4, 0.071), (16, 0.0123)], 0.0);
         for (error, count) in [(0.3, 1.0), (0.17, 2.0), (0.071, 4.0), (0.0123, 16.0)] {
-            assert_eq!(own.find(error), (count, LadderRange::Within));
-            assert_eq!(own.lowest(error), Some(count));
-            assert_eq!(own.highest(error), Some(count));
+            assert_eq!(curve.find(error), (count, LadderRange::Within));
+            assert_eq!(curve.lowest(error), Some(count));
+            assert_eq!(curve.highest(error), Some(count));
         }
     }
 

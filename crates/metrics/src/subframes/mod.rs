@@ -172,8 +172,8 @@ mod tests {
     #[test]
     fn open_ends_of_an_interval_are_the_ladders() {
         let interval = |low, high| {
-            let own = count(8.0, low, high, LadderRange::Within).interval([1, 64]);
-            [own.low, own.high]
+            let ends = count(8.0, low, high, LadderRange::Within).interval([1, 64]);
+            [ends.low, ends.high]
         };
         assert_eq!(interval(Some(6.0), Some(9.0)), [6.0, 9.0]);
         assert_eq!(interval(None, None), [1.0, 64.0]);

@@ -50,12 +50,12 @@ impl Bench {
             ));
         }
         let cases = bench.cases.iter();
-        let passes = (cases.clone().flat_map(|own| &own.passes)).map(|pass| (&pass.seconds, 0.0));
+        let passes = (cases.clone().flat_map(|case| &case.passes)).map(|pass| (&pass.seconds, 0.0));
         let points = bench.reaches.iter().flat_map(|reach| &reach.points);
         let points = points.filter_map(|point| Some((point.seconds.as_ref()?, 0.0)));
-        let whole = cases.map(|own| (&own.seconds, SHORTEST));
-        for (own, shortest) in whole.chain(passes).chain(points) {
-            let times = [own.median, own.lower_quartile, own.upper_quartile];
+        let whole = cases.map(|case| (&case.seconds, SHORTEST));
+        for (spread, shortest) in whole.chain(passes).chain(points) {
+            let times = [spread.median, spread.lower_quartile, spread.upper_quartile];
             let is_possible = |seconds: &&f64| (shortest..=LONGEST).contains(*seconds);
             if let Some(seconds) = times.iter().find(|seconds| !is_possible(seconds)) {
                 return Err(format!(
@@ -124,9 +124,9 @@ impl Bench {
 
     /// Adds an older bench's times of other presets.
     fn join(&mut self, older: Self) -> Result<(), String> {
-        let how = |own: &Self| {
-            let (rounds, frame) = (own.rounds, own.frame_text());
-            format!("{rounds} rounds on {frame} by {}", own.clock_text())
+        let how = |bench: &Self| {
+            let (rounds, frame) = (bench.rounds, bench.frame_text());
+            format!("{rounds} rounds on {frame} by {}", bench.clock_text())
         };
         let [old, new] = [how(&older), how(self)];
         if old != new {
@@ -135,20 +135,22 @@ impl Bench {
             ));
         }
         let timed: Vec<_> = (self.cases.iter())
-            .map(|own| (own.filter.clone(), own.preset.clone()))
+            .map(|case| (case.filter.clone(), case.preset.clone()))
             .collect();
         let is_other = |filter: &String, preset: &String| {
-            timed.iter().all(|own| (&own.0, &own.1) != (filter, preset))
+            timed
+                .iter()
+                .all(|pair| (&pair.0, &pair.1) != (filter, preset))
         };
         let cases = older
             .cases
             .into_iter()
-            .filter(|own| is_other(&own.filter, &own.preset));
+            .filter(|case| is_other(&case.filter, &case.preset));
         self.cases.splice(0..0, cases);
         let reaches = older
             .reaches
             .into_iter()
-            .filter(|own| is_other(&own.filter, &own.preset));
+            .filter(|reach| is_other(&reach.filter, &reach.preset));
         self.reaches.splice(0..0, reaches);
         Ok(())
     }

@@ -98,7 +98,9 @@ impl Timer<'_> {
     /// Times every filter preset at [`SPEED`], and the memory copy in the same rounds.
     fn time_presets(&self) -> Result<(CopyCost, Vec<CaseCost>), Error> {
         let filters = &self.plan.filters;
-        let timed = filters.iter().map(|own| (own, &own.settings, SPEED));
+        let timed = filters
+            .iter()
+            .map(|choice| (choice, &choice.settings, SPEED));
         let buffers = BufferCopy::new(self.gpu)?;
         let (runs, copies) = self.time(&timed.collect::<Vec<_>>(), || buffers.time())?;
         let seconds = Spread::of(copies);
@@ -123,7 +125,9 @@ impl Timer<'_> {
         let settings: BTreeMap<u32, Settings> = (REACHES.into_iter())
             .filter_map(|pixels| Some((pixels, settings(pixels)?)))
             .collect();
-        let timed = settings.iter().map(|(pixels, own)| (choice, own, *pixels));
+        let timed = settings
+            .iter()
+            .map(|(pixels, setting)| (choice, setting, *pixels));
         let (runs, _) = self.time(&timed.collect::<Vec<_>>(), || Ok(()))?;
         let gaps = (REACHES.len() - settings.len()) as u64;
         self.advance(gaps * u64::from(self.plan.rounds + 1))?;

@@ -43,8 +43,8 @@ pub(crate) fn repeat_border(frame: &Frame, margin: u32) -> Frame {
         guard_band: frame.guard_band + margin,
         color: wide(&frame.color, margin),
         velocity: wide(&frame.velocity, margin),
-        velocity_next: (frame.velocity_next.as_ref()).map(|own| wide(own, margin)),
-        velocity_z: (frame.velocity_z.as_ref()).map(|own| wide(own, margin)),
+        velocity_next: (frame.velocity_next.as_ref()).map(|velocity| wide(velocity, margin)),
+        velocity_z: (frame.velocity_z.as_ref()).map(|velocity| wide(velocity, margin)),
         depth: wide(&frame.depth, margin),
         object_id: wide(&frame.object_id, margin),
         coverage: (frame.coverage.iter())

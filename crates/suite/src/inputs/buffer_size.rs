@@ -49,9 +49,9 @@ impl BufferSize {
         });
         let velocity = places.map(|&[x, y]| *frame.velocity.at(x, y));
         let next = frame.velocity_next.as_ref();
-        let velocity_next = next.map(|own| places.map(|&[x, y]| *own.at(x, y)));
+        let velocity_next = next.map(|plane| places.map(|&[x, y]| *plane.at(x, y)));
         let z = frame.velocity_z.as_ref();
-        let velocity_z = z.map(|own| places.map(|&[x, y]| *own.at(x, y)));
+        let velocity_z = z.map(|plane| places.map(|&[x, y]| *plane.at(x, y)));
         let depth = places.map(|&[x, y]| *frame.depth.at(x, y));
         Frame {
             velocity,
@@ -64,9 +64,9 @@ impl BufferSize {
 }
 
 /// Finds the nearest surface of a block of pixels, row by row, up to `end`. Only a nearer one
-/// replaces `own`, and the first of equals stays.
-fn nearest(depth: &Plane, own: [u32; 2], begin: [u32; 2], end: [u32; 2]) -> [u32; 2] {
-    let mut best = own;
+/// replaces `first`, and the first of equals stays.
+fn nearest(depth: &Plane, first: [u32; 2], begin: [u32; 2], end: [u32; 2]) -> [u32; 2] {
+    let mut best = first;
     for y in begin[1]..end[1].min(depth.height) {
         for x in begin[0]..end[0].min(depth.width) {
             if depth.at(x, y) < depth.at(best[0], best[1]) {

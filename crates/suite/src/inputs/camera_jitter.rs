@@ -119,8 +119,8 @@ mod tests {
             [1.0 / 8.0, 4.0 / 9.0],
         ];
         for (frame, expected) in (0..).zip(expected) {
-            for (found, expected) in jitter(frame).iter().zip(expected) {
-                assert!((found + 0.5 - expected).abs() < 1e-12, "{frame}: {found}");
+            for (offset, expected) in jitter(frame).iter().zip(expected) {
+                assert!((offset + 0.5 - expected).abs() < 1e-12, "{frame}: {offset}");
             }
         }
         assert_eq!(jitter(3), jitter(3 + PHASES));

@@ -142,8 +142,8 @@ impl InputFormat {
         let mut pictures = Vec::new();
         for (index, replicate) in replicates.iter().enumerate() {
             renders.replicate = Some(index);
-            let own = self.apply_with(&frame.showing(replicate), scene, &renders, monitor)?;
-            pictures.push(own.into_picture());
+            let output = self.apply_with(&frame.showing(replicate), scene, &renders, monitor)?;
+            pictures.push(output.into_picture());
         }
         Ok((whole, pictures))
     }
@@ -196,9 +196,10 @@ mod tests {
                 assert_eq!(form.format.change().as_ref(), Some(&place));
                 let check = |has_scene| form.format.check(VelocityKind::Instantaneous, has_scene);
                 assert!(check(true).is_ok());
-                let found = check(false).err().map(|error| error.to_string());
-                let found = found.filter(|text| text.starts_with(&(place + ": needs the scene, ")));
-                assert_eq!(found.is_some(), needs_scene.contains(&kind.name));
+                let refusal = check(false).err().map(|error| error.to_string());
+                let refusal =
+                    refusal.filter(|text| text.starts_with(&(place + ": needs the scene, ")));
+                assert_eq!(refusal.is_some(), needs_scene.contains(&kind.name));
             }
         }
     }

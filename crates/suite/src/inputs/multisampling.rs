@@ -67,8 +67,8 @@ impl Multisampling {
             }),
             coverage: coverage.collect(),
             velocity: Raster::from_fn(width, height, |x, y| *each(x, y).velocity.at(x, y)),
-            velocity_next: take_further(&taken, samples, |own| own.velocity_next.as_ref()),
-            velocity_z: take_further(&taken, samples, |own| own.velocity_z.as_ref()),
+            velocity_next: take_further(&taken, samples, |sample| sample.velocity_next.as_ref()),
+            velocity_z: take_further(&taken, samples, |sample| sample.velocity_z.as_ref()),
             depth: Raster::from_fn(width, height, |x, y| *each(x, y).depth.at(x, y)),
             object_id: Raster::from_fn(width, height, |x, y| *each(x, y).object_id.at(x, y)),
             ..frame
@@ -79,16 +79,16 @@ impl Multisampling {
     fn choose(self, depths: impl Iterator<Item = f32>) -> usize {
         let chosen = depths
             .enumerate()
-            .reduce(|best, own| match (self, own.1 < best.1) {
-                (Self::Nearest, true) => own,
-                (Self::Farthest, _) if own.1 > best.1 => own,
+            .reduce(|best, sample| match (self, sample.1 < best.1) {
+                (Self::Nearest, true) => sample,
+                (Self::Farthest, _) if sample.1 > best.1 => sample,
                 _ => best,
             });
         chosen.map_or(0, |(index, _)| index)
     }
 }
 
-/// Takes a raster that few frames have, of the chosen samples; none if a sample lacks it.
+/// Takes from the chosen samples a raster that few frames have; none if a sample lacks it.
 fn take_further<T: Copy>(
     taken: &Raster<usize>,
     samples: &[Frame],
@@ -149,8 +149,8 @@ mod tests {
         for (samples_per_pixel, share) in [(64, 16), (4, 2)] {
             frame.provenance.samples_per_pixel = samples_per_pixel;
             let settings = sample_settings(&frame);
-            assert!(settings.iter().all(|own| own.samples_per_pixel == share));
-            assert_eq!(settings.map(|own| own.seed), [0, 1, 2, 3]);
+            assert!(settings.iter().all(|part| part.samples_per_pixel == share));
+            assert_eq!(settings.map(|part| part.seed), [0, 1, 2, 3]);
         }
     }
 }

@@ -91,8 +91,8 @@ impl RenderScale {
 /// Upscales a small frame to the size of the whole one.
 fn upscale(frame: Frame, small: &Frame, from: Extent, to: Extent) -> Frame {
     let step = [0, 1].map(|axis| to.picture[axis] as f32 / from.picture[axis] as f32);
-    let read_velocity = |own: &Vectors| {
-        let velocity = read_nearest(own, from, to);
+    let read_velocity = |vectors: &Vectors| {
+        let velocity = read_nearest(vectors, from, to);
         velocity.map(|velocity| [0, 1].map(|axis| velocity[axis] * step[axis]))
     };
     let coverage = small.coverage.iter();
@@ -103,7 +103,7 @@ fn upscale(frame: Frame, small: &Frame, from: Extent, to: Extent) -> Frame {
             .collect(),
         velocity: read_velocity(&small.velocity),
         velocity_next: small.velocity_next.as_ref().map(read_velocity),
-        velocity_z: (small.velocity_z.as_ref()).map(|own| read_nearest(own, from, to)),
+        velocity_z: (small.velocity_z.as_ref()).map(|plane| read_nearest(plane, from, to)),
         depth: read_nearest(&small.depth, from, to),
         object_id: read_nearest(&small.object_id, from, to),
         ..frame

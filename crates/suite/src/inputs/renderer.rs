@@ -47,16 +47,16 @@ impl<'a> Renderer<'a> {
         let hash = tracer::frame_hash(self.scene, settings);
         let is_own = |(of, on, _): &&(String, PixelGrid, TracedFrame)| *of == hash && on == grid;
         let mut traced = self.renders.traced.borrow_mut();
-        if !traced.iter().any(|found| is_own(&found)) {
+        if !traced.iter().any(|render| is_own(&render)) {
             let made = self.watch(what, |watch| {
                 trace_frame_part(self.scene, settings, grid, None, watch)
             })?;
             traced.push((hash.clone(), *grid, made));
         }
-        let (_, _, found) = (traced.iter().find(is_own)).expect("it was rendered");
+        let (_, _, render) = (traced.iter().find(is_own)).expect("it was rendered");
         let frame = match self.renders.replicate {
-            None => found.frame.clone(),
-            Some(index) => found.frame.showing(&found.replicates[index]),
+            None => render.frame.clone(),
+            Some(index) => render.frame.showing(&render.replicates[index]),
         };
         self.complete(frame, settings, grid)
     }

@@ -51,7 +51,8 @@ impl VelocityDefect {
     /// Returns a frame's velocity with this defect. [`VelocityDefect::check`] has accepted the
     /// frame and the scene.
     pub(crate) fn apply(self, frame: &Frame, scene: Option<&Scene>) -> Result<Vectors, Error> {
-        let each = |change: fn([f32; 2]) -> [f32; 2]| Ok(frame.velocity.map(|it| change(*it)));
+        let each =
+            |change: fn([f32; 2]) -> [f32; 2]| Ok(frame.velocity.map(|vector| change(*vector)));
         if let (Some(motion), Some(scene)) = (self.motion(), scene) {
             let traced = trace_motion(scene, &settings_of(frame), &motion)?.velocity;
             return Ok(match self {
@@ -114,8 +115,8 @@ impl VelocityDefect {
 fn lose_largest_mover(frame: &Frame, camera: &Vectors) -> Vectors {
     let mut moved = BTreeMap::<u32, f64>::new();
     let pixels = frame.object_id.pixels.iter().zip(&frame.velocity.pixels);
-    for ((object, own), camera) in pixels.zip(&camera.pixels) {
-        let apart = (own[0] - camera[0]).hypot(own[1] - camera[1]);
+    for ((object, velocity), camera) in pixels.zip(&camera.pixels) {
+        let apart = (velocity[0] - camera[0]).hypot(velocity[1] - camera[1]);
         *moved.entry(*object).or_default() += f64::from(apart);
     }
     let largest = moved.into_iter().max_by(|a, b| a.1.total_cmp(&b.1));
@@ -182,6 +183,9 @@ mod tests {
         };
         let camera = Raster::filled(5, 1, [1.0, 0.0]);
         let lost = lose_largest_mover(&frame, &camera);
-        assert_eq!(lost.map(|own| own[0]).pixels, [5.0, 1.0, 1.0, 1.0, 1.0]);
+        assert_eq!(
+            lost.map(|vector| vector[0]).pixels,
+            [5.0, 1.0, 1.0, 1.0, 1.0]
+        );
     }
 }

@@ -99,8 +99,8 @@ mod tests {
     #[test]
     fn eight_linear_bits_err_by_half_a_step_and_do_not_know_stillness() {
         for part in [-0.94, -0.01, 0.0, 0.002, 0.125] {
-            let [found, _] = linear8([part, 0.0]);
-            assert!((found - part).abs() <= 1.0 / 255.0 + 1e-9, "{found}");
+            let [value, _] = linear8([part, 0.0]);
+            assert!((value - part).abs() <= 1.0 / 255.0 + 1e-9, "{value}");
         }
         // 128 of 255 is 1 / 255 too much.
         assert!(

@@ -181,15 +181,16 @@ impl CaseContext<'_> {
             Some(pass) => pass.apply(&picture),
             None => picture,
         };
-        let own = (before, index);
-        let mut output = blur_with_probes(runner, wide.as_deref_mut(), &stored.frame, own, size)?;
+        let history = (before, index);
+        let mut output =
+            blur_with_probes(runner, wide.as_deref_mut(), &stored.frame, history, size)?;
         output.picture = defocused(output.picture);
         let parts = (stored.parts.iter().zip(parts_before))
             .map(|(part, part_before)| {
                 let wide = wide.as_deref_mut();
-                let own = (&stored.frame, part);
+                let source = (&stored.frame, part);
                 let before = (before, part_before, index);
-                Ok(defocused(blur_picture(runner, wide, own, before, size)?))
+                Ok(defocused(blur_picture(runner, wide, source, before, size)?))
             })
             .collect::<Result<_, FilterError>>()?;
         Ok((output, parts))
@@ -234,11 +235,11 @@ impl CaseContext<'_> {
         let of_parts = parts()
             .map(|(reference, part)| Ok(measure(reference, part)?.scores))
             .collect::<Result<Vec<_>, MeasureError>>()?;
-        let found = match &self.references.still {
+        let intervals = match &self.references.still {
             None => Intervals::new(),
             Some(still) => intervals(scores, &of_parts, still, Metric::all()),
         };
-        Ok((measurement, found))
+        Ok((measurement, intervals))
     }
 
     /// Separates the filter's noise from its other errors; none without noise, or for too few
@@ -302,7 +303,7 @@ impl CaseContext<'_> {
         };
         let command = choice.and_then(|choice| choice.filter.command.as_ref());
         let convention = choice.map(|choice| choice.filter.convention);
-        let convention = convention.filter(|it| *it != Convention::default());
+        let convention = convention.filter(|convention| *convention != Convention::default());
         let truth = self.references.truth;
         let (family, exposes) = self.scene.scene.describe();
         let case = Case {
@@ -345,13 +346,13 @@ fn measure_output(
 fn add_probes(reference: &Reference, output: &FilterOutput, measurement: &mut Measurement) {
     let scores = &mut measurement.scores;
     if output.nonlinearity > MAX_NONLINEARITY {
-        let found = if output.is_rounded {
+        let cause = if output.is_rounded {
             "the filter writes 16-bit floats, and their rounding hides what it gathers; let it write 32-bit floats"
         } else {
             "the filter's weights depend on colour"
         };
         let reason = format!(
-            "{found}: the blur of a mixture differs from the mixture of the blurs by {:.4} of what the blur changes; \
+            "{cause}: the blur of a mixture differs from the mixture of the blurs by {:.4} of what the blur changes; \
              allowed: at most {MAX_NONLINEARITY}",
             output.nonlinearity
         );

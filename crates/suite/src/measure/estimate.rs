@@ -66,7 +66,7 @@ pub fn estimate_run(plan: &RunPlan, gpu: Option<&Gpu>) -> RunEstimate {
         }
         let missing = scene.find_missing();
         let frame = missing.contains(&RenderFile::Frame);
-        let truths: Vec<Alignment> = missing.iter().filter_map(|own| own.alignment()).collect();
+        let truths: Vec<Alignment> = missing.iter().filter_map(|file| file.alignment()).collect();
         let ladders = count_ladders(plan, &truths);
         let rendering = render_cpu_seconds(&plan.render, frame, truths.len(), ladders);
         estimate.seconds += rendering / threads() + cases as f64 * case_seconds(plan);

@@ -45,20 +45,20 @@ impl SceneContext<'_> {
         // One truth at a time is in memory.
         for alignment in self.common_first() {
             let is_common = alignment == common_alignment;
-            let own = missing.iter().copied().enumerate();
-            let own = own.filter(|(_, case)| case.id.alignment == alignment);
-            let own: Vec<(usize, &PlannedCase)> = own.collect();
-            if own.is_empty() && !is_common {
+            let group = missing.iter().copied().enumerate();
+            let group = group.filter(|(_, case)| case.id.alignment == alignment);
+            let group: Vec<(usize, &PlannedCase)> = group.collect();
+            if group.is_empty() && !is_common {
                 continue;
             }
             let truth = self.read_truth(alignment)?;
-            if own.is_empty() {
+            if group.is_empty() {
                 // Only FLIP is measured against it, which needs no ladder and no oracle.
                 let viewing = frame.display.into();
                 common = Some(Reference::new(&frame.cropped(), &truth, None, &viewing)?.into());
                 continue;
             }
-            let parts = self.truth_parts(alignment, &own, &replicates)?;
+            let parts = self.truth_parts(alignment, &group, &replicates)?;
             let references = self.references(frame, &truth, &parts)?;
             let context = CaseContext {
                 scene: self,
@@ -73,7 +73,7 @@ impl SceneContext<'_> {
                     None => CommonTruth::Missing,
                 },
             };
-            for (at, planned) in own {
+            for (at, planned) in group {
                 check_watch(watch, cases.len(), missing.len())?;
                 cases.insert(at, self.measure_case(&context, planned)?);
             }
@@ -184,10 +184,10 @@ impl SceneContext<'_> {
         }
     }
 
-    /// Makes the parts of the frame, given by its replicates, and of an alignment's truth, if
-    /// filters get intervals or, with a ladder, counts of equivalent sub-frames. Makes none for an
-    /// engine's scene: sub-frames are no random samples, and a truth without some of them has
-    /// holes.
+    /// Makes the parts of the frame, given by its replicates, and of an alignment's truth. Filters'
+    /// intervals need them and, with a ladder, so do counts of equivalent sub-frames; otherwise
+    /// there are none. An engine's scene has none either: sub-frames are no random samples, and a
+    /// truth without some of them has holes.
     fn truth_parts(
         &self,
         alignment: Alignment,

@@ -52,10 +52,10 @@ impl<'a> PlannedCase<'a> {
                 .chain(accumulations)
                 .map(|source| Self::new(scene, *alignment, source))
         });
-        let own = match scene {
-            RunScene::Drawn(own) if own.has_picture => {
-                let source = PictureSource::Engine(own);
-                Some(Self::new(scene, own.alignment, source))
+        let engine_case = match scene {
+            RunScene::Drawn(capture) if capture.has_picture => {
+                let source = PictureSource::Engine(capture);
+                Some(Self::new(scene, capture.alignment, source))
             }
             _ => None,
         };
@@ -74,7 +74,7 @@ impl<'a> PlannedCase<'a> {
                 Self::new(scene, choice.filter.alignment, source)
             })
         });
-        let all = references.chain(own).chain(filters);
+        let all = references.chain(engine_case).chain(filters);
         all.filter(|case| plan.part.holds(case.id.is_reference))
             .collect()
     }

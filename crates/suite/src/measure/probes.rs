@@ -22,11 +22,11 @@ pub(crate) struct FilterOutput {
     pub is_rounded: bool,
 }
 
-/// Runs the filter on the frame's colour and, each in the colour's place, on the instant's coverage
-/// of each object, on the probes, and on a mixture of colour and probe, with the noise of one
-/// frame. All but the picture comes from `wide`, the filter with 32-bit colours, if there is one.
-/// `before` is the previous frame, for filters with history; its pictures are replaced like the
-/// frame's. The output is upscaled to `picture` if the frame shows it smaller.
+/// Runs the filter with the noise of one frame: on the frame's colour and, in the colour's place,
+/// on the instant's coverage of each object, on the probes, and on a mixture of colour and probe.
+/// All but the picture comes from `wide`, the filter with 32-bit colours, if there is one. `before`
+/// is the previous frame, for filters with history; its pictures are replaced like the frame's. The
+/// output is upscaled to `picture` if the frame shows it smaller.
 pub(crate) fn blur_with_probes(
     runner: &mut Runner,
     wide: Option<&mut Runner>,
@@ -88,12 +88,12 @@ pub(crate) fn blur_with_probes(
 pub(crate) fn blur_picture(
     runner: &mut Runner,
     wide: Option<&mut Runner>,
-    (frame, own): (&FilterFrame, &Picture),
-    (before, own_before, frame_index): (&FilterFrame, &Picture, u32),
+    (frame, source): (&FilterFrame, &Picture),
+    (before, source_before, frame_index): (&FilterFrame, &Picture, u32),
     picture: [u32; 2],
 ) -> Result<Picture, FilterError> {
-    let mattes = pack_planes(&own.coverage);
-    let mattes_before = pack_planes(&own_before.coverage);
+    let mattes = pack_planes(&source.coverage);
+    let mattes_before = pack_planes(&source_before.coverage);
     let run = |runner: &mut Runner, colors: &[&Image], colors_before: &[&Image]| {
         let now = Input {
             frame_index,
@@ -103,7 +103,7 @@ pub(crate) fn blur_picture(
         let outputs = crop_all(outputs, frame.guard_band);
         Ok::<_, FilterError>(upscale_all(outputs, picture))
     };
-    let color = run(runner, &[&own.color], &[&own_before.color])?.remove(0);
+    let color = run(runner, &[&source.color], &[&source_before.color])?.remove(0);
     let mattes: Vec<&Image> = mattes.iter().collect();
     let mattes_before: Vec<&Image> = mattes_before.iter().collect();
     let mattes = match wide {
@@ -112,7 +112,7 @@ pub(crate) fn blur_picture(
     };
     Ok(Picture {
         color,
-        coverage: unpack_planes(&mattes, own.coverage.len()),
+        coverage: unpack_planes(&mattes, source.coverage.len()),
     })
 }
 

@@ -14,8 +14,8 @@ pub(crate) struct TruthReferences<'a> {
     pub oracle: Picture,
     /// All that pictures are compared with.
     pub reference: Reference<'a>,
-    /// References without one group of replicates of frame, truth and ladder each; empty if nothing
-    /// gets intervals.
+    /// References that each lack one group of replicates, of frame, truth and ladder; empty if
+    /// nothing gets intervals.
     pub parts: Vec<Reference<'a>>,
     /// Scores of the frame itself where nothing moves, if there are parts: see
     /// [`intervals`](crate::intervals).
@@ -47,7 +47,8 @@ impl<'a> TruthReferences<'a> {
         let band = frame.guard_band;
         let frame = frame.cropped();
         let sharp = sharp_picture(&frame, truth, read_sharp)?;
-        let mut own = Reference::new(&frame, truth, None, viewing)?.with_ends(&sharp, &oracle)?;
+        let mut reference =
+            Reference::new(&frame, truth, None, viewing)?.with_ends(&sharp, &oracle)?;
         let of_part = |((group, part), oracle): ((usize, &'a TruthPart), Picture)| {
             let frame = frame.showing(&part.picture.cropped(band));
             // The sharp picture of a centred shutter is the frame.
@@ -62,18 +63,18 @@ impl<'a> TruthReferences<'a> {
             .collect::<Result<_, _>>()?;
         for rung in rungs {
             let rung = rung?;
-            own.add_rungs(&rung)?;
+            reference.add_rungs(&rung)?;
             for (group, reference) in references.iter_mut().enumerate() {
                 reference.add_rungs(&rung.without(group))?;
             }
         }
         let still = match parts {
             [] => None,
-            _ => Some(own.measure(&frame.picture())?.scores.still),
+            _ => Some(reference.measure(&frame.picture())?.scores.still),
         };
         Ok(Self {
             truth,
-            reference: own,
+            reference,
             parts: references,
             still,
             oracle,

@@ -59,17 +59,20 @@ impl SceneContext<'_> {
             clear_scene(&self.folder())?;
         }
         let planned = PlannedCase::all(self.plan, self.scene);
-        let found: Vec<Option<Case>> = (planned.iter())
+        let stored_cases: Vec<Option<Case>> = (planned.iter())
             .map(|case| self.read_case(case, look_up))
             .collect();
-        let read_back = found.iter().flatten().count();
-        if read_back == found.len() && self.has_its_files() {
-            return Ok((found.into_iter().flatten().map(Ok).collect(), read_back));
+        let read_back = stored_cases.iter().flatten().count();
+        if read_back == stored_cases.len() && self.has_its_files() {
+            return Ok((
+                stored_cases.into_iter().flatten().map(Ok).collect(),
+                read_back,
+            ));
         }
         let truths = self.plan.alignments().len();
         (self.scene).check(&self.plan.render, self.plan.measured(truths))?;
         let frame = self.render(advance)?;
-        let missing = (planned.iter().zip(&found)).filter(|(_, found)| found.is_none());
+        let missing = (planned.iter().zip(&stored_cases)).filter(|(_, stored)| stored.is_none());
         let missing: Vec<&PlannedCase> = missing.map(|(case, _)| case).collect();
         let label = format!("{} blurs and scores", self.scene.id());
         let monitor = self.plan.monitor;
@@ -77,8 +80,8 @@ impl SceneContext<'_> {
         let measured = monitor.watch(&label, |watch| self.measure(&missing, &frame, watch))?;
         let mut measured = measured.into_iter();
         let mut cases = Vec::new();
-        for found in found {
-            cases.push(match found {
+        for stored in stored_cases {
+            cases.push(match stored {
                 Some(case) => Ok(case),
                 None => measured.next().expect("every missing case was tried"),
             });
@@ -200,7 +203,7 @@ impl SceneContext<'_> {
     /// without ladders also accepts cases with them. None if nothing is read back.
     pub(super) fn case_keys(&self, planned: &PlannedCase) -> Vec<String> {
         let adapter = self.gpu.map(|gpu| &gpu.adapter);
-        let (Some(own), Some(keys)) = (planned.inputs(self.plan, adapter), &self.keys) else {
+        let (Some(inputs), Some(keys)) = (planned.inputs(self.plan, adapter), &self.keys) else {
             return Vec::new();
         };
         let alignments = [planned.id.alignment, self.plan.common_alignment()];
@@ -209,7 +212,7 @@ impl SceneContext<'_> {
         } else {
             &[false, true]
         };
-        let key = |has_ladder: &bool| keys.case(&own, alignments, *has_ladder);
+        let key = |has_ladder: &bool| keys.case(&inputs, alignments, *has_ladder);
         ladders.iter().map(key).collect()
     }
 

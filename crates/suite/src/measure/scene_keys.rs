@@ -28,7 +28,7 @@ impl SceneKeys {
         settings: &RenderSettings,
         alignments: impl IntoIterator<Item = Alignment>,
     ) -> Self {
-        let (own, frame) = match scene {
+        let (description, frame) = match scene {
             RunScene::Traced(scene) => (
                 hash_inputs(&(&scene.exposes, scene.family, &scene.display)),
                 tracer::frame_hash(scene, settings),
@@ -40,7 +40,7 @@ impl SceneKeys {
             RunScene::Drawn(scene) => scene.hash.clone(),
         };
         Self {
-            scene: hash_inputs(&(program, scene.id(), own)),
+            scene: hash_inputs(&(program, scene.id(), description)),
             frame,
             truths: (alignments.into_iter())
                 .map(|alignment| {
@@ -63,8 +63,8 @@ impl SceneKeys {
 
     /// Returns the hash for a case with its own inputs, measured against its own truth and the
     /// common one, with their ladders or without.
-    pub fn case(&self, own: &str, alignments: [Alignment; 2], has_ladder: bool) -> String {
+    pub fn case(&self, inputs: &str, alignments: [Alignment; 2], has_ladder: bool) -> String {
         let truths = alignments.map(|alignment| &self.truths[&alignment]);
-        hash_inputs(&(&self.scene, &self.frame, truths, has_ladder, own))
+        hash_inputs(&(&self.scene, &self.frame, truths, has_ladder, inputs))
     }
 }

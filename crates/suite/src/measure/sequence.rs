@@ -59,8 +59,8 @@ pub(super) fn measure_sequences(
 /// Lists all frames' cases that match one of the first frame; none if a frame lacks it.
 fn find_in_all<'a>(frames: &'a [Vec<Case>], first: &Case) -> Option<Vec<&'a Case>> {
     let is_like = |case: &&Case| case.filter_id() == first.filter_id();
-    let found = frames.iter().map(|cases| cases.iter().find(is_like));
-    found.collect()
+    let matches = frames.iter().map(|cases| cases.iter().find(is_like));
+    matches.collect()
 }
 
 /// The truths of one scene and shutter, in order of frames.
@@ -80,8 +80,8 @@ impl SequenceTruths<'_> {
             .collect::<Result<_, _>>()?;
         drop(reference);
         let intervals = self.intervals(&sequences, all)?;
-        for (own, intervals) in sequences.iter_mut().zip(intervals) {
-            own.intervals = intervals;
+        for (sequence, intervals) in sequences.iter_mut().zip(intervals) {
+            sequence.intervals = intervals;
         }
         Ok(sequences)
     }
@@ -93,14 +93,15 @@ impl SequenceTruths<'_> {
         sequences: &[Sequence],
         all: &[Vec<&Case>],
     ) -> Result<Vec<Intervals>, Error> {
-        let has_intervals = |own: &Sequence| self.plan.intervals && !own.is_reference;
+        let has_intervals = |sequence: &Sequence| self.plan.intervals && !sequence.is_reference;
         let mut parts: Vec<Vec<SequenceScores>> = vec![Vec::new(); sequences.len()];
         if sequences.iter().any(has_intervals) {
             let groups = Groups::of(self.plan.render.replicates);
             for group in groups.list() {
                 let reference = self.without(groups, group)?;
                 let all = sequences.iter().zip(all).zip(&mut parts);
-                for ((_, cases), scores) in all.filter(|((own, _), _)| has_intervals(own)) {
+                for ((_, cases), scores) in all.filter(|((sequence, _), _)| has_intervals(sequence))
+                {
                     let outputs = self.plan.read_part_outputs(cases, group)?;
                     scores.push(reference.measure(&outputs)?.scores);
                 }
@@ -108,7 +109,7 @@ impl SequenceTruths<'_> {
         }
         let both = sequences.iter().zip(&parts);
         Ok(both
-            .map(|(own, parts)| sequence_intervals(&own.scores, parts))
+            .map(|(sequence, parts)| sequence_intervals(&sequence.scores, parts))
             .collect())
     }
 
@@ -206,15 +207,15 @@ fn write_animation(
 ) -> Result<(), Error> {
     let truth = RenderFile::Truth(first.alignment).picture();
     let strips = all.iter().map(|case| {
-        let [scene, own] = [
+        let [scene, folder] = [
             plan.out.join(case.scene.folder()),
             plan.out.join(&case.folder),
         ];
         let pictures = [
             scene.join(RenderFile::Frame.picture()),
             scene.join(&truth),
-            own.join("output.png"),
-            own.join("flip.png"),
+            folder.join("output.png"),
+            folder.join("flip.png"),
         ];
         let pictures = pictures.iter().map(|path| read_png(path));
         let pictures = pictures.collect::<Result<Vec<Image>, _>>()?;

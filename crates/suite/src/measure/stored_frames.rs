@@ -42,8 +42,8 @@ pub(super) fn store_frames(
         None => Vec::new(),
     };
     let groups = Groups::of(plan.render.replicates);
-    let store = |format: &InputFormat, frame: &Frame, replicates: &[Picture], own: RunScene| {
-        let (frame, replicates) = format.apply(frame, replicates, own.traced(), plan.monitor)?;
+    let store = |format: &InputFormat, frame: &Frame, replicates: &[Picture], scene: RunScene| {
+        let (frame, replicates) = format.apply(frame, replicates, scene.traced(), plan.monitor)?;
         let parts = if replicates.is_empty() {
             Vec::new()
         } else {
@@ -51,7 +51,7 @@ pub(super) fn store_frames(
                 .map(|group| groups.picture_without(group, &replicates))
                 .collect()
         };
-        let mask = plan.reads_exclusion().then(|| match own {
+        let mask = plan.reads_exclusion().then(|| match scene {
             RunScene::Traced(scene) => Ok(Some(draw_exclusion(&frame, scene))),
             RunScene::Drawn(scene) => scene.read_exclusion(&frame),
         });
@@ -77,7 +77,7 @@ pub(super) fn store_frames(
         .collect::<Result<_, Error>>()?;
     let mut usual = stored
         .iter()
-        .filter(|own| own.format == InputFormat::default());
+        .filter(|frame| frame.format == InputFormat::default());
     if let (Some(StoredFrame { frame, .. }), 0) = (usual.next(), scene.id().frame) {
         let folder = plan.out.join(scene.id().folder());
         let mask = frame.exclusion.as_ref();

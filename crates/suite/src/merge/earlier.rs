@@ -67,9 +67,9 @@ impl EarlierCases {
         let outdated: Vec<Case> = run.cases.extract_if(.., is_outdated).collect();
         run.failures
             .retain(|failure| !planned.has(&failure.scene, &failure.filter_id()));
-        run.sequences.retain(|own| {
-            let is_current = outdated.iter().all(|case| case.scene != own.scene);
-            is_current && !planned.has(&own.scene, &own.filter)
+        run.sequences.retain(|sequence| {
+            let is_current = outdated.iter().all(|case| case.scene != sequence.scene);
+            is_current && !planned.has(&sequence.scene, &sequence.filter)
         });
         Ok(Some(Self {
             kept: StoredRun { path, run },
@@ -88,11 +88,11 @@ impl EarlierCases {
     /// # Errors
     /// The kept cases have other settings than the run.
     pub fn add_to(self, run: &Run) -> Result<Run, Error> {
-        let own = StoredRun {
+        let stored_run = StoredRun {
             path: self.kept.path.clone(),
             run: run.clone(),
         };
-        fold_runs(&[own, self.kept])
+        fold_runs(&[stored_run, self.kept])
     }
 }
 
@@ -137,7 +137,7 @@ pub fn folder_for_size(out: &Path, (width, height): (u32, u32)) -> Result<PathBu
 /// and returns their folders.
 pub fn find_newer_sizes(out: &Path) -> Vec<PathBuf> {
     let written = |folder: &Path| fs::metadata(folder.join("run.json"))?.modified();
-    let (Ok(own), Ok(entries)) = (written(out), fs::read_dir(out)) else {
+    let (Ok(written_out), Ok(entries)) = (written(out), fs::read_dir(out)) else {
         return Vec::new();
     };
     let is_size = |folder: &Path| {
@@ -146,7 +146,7 @@ pub fn find_newer_sizes(out: &Path) -> Vec<PathBuf> {
     };
     let mut newer: Vec<PathBuf> = (entries.flatten().map(|entry| entry.path()))
         .filter(|folder| is_size(folder) == Some(true))
-        .filter(|folder| written(folder).is_ok_and(|time| time > own))
+        .filter(|folder| written(folder).is_ok_and(|time| time > written_out))
         .collect();
     newer.sort();
     newer

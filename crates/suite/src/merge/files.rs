@@ -25,8 +25,9 @@ struct Pictures<'a> {
 /// and every picture must be in some part. Follows no links.
 pub(super) fn gather_files(parts: &[StoredRun]) -> Result<Files, Error> {
     let lists = parts.iter().map(|part| {
-        let own = list_pictures(&part.run).flat_map(|own| [own.scene, own.case.to_owned()]);
-        let folders: BTreeSet<PathBuf> = own.collect();
+        let pictures = list_pictures(&part.run)
+            .flat_map(|pictures| [pictures.scene, pictures.case.to_owned()]);
+        let folders: BTreeSet<PathBuf> = pictures.collect();
         let mut files = list_files(part.folder())?;
         files.retain(|file| {
             let scene = RenderPath::parse(file).map(|render| render.scene.folder());
@@ -37,7 +38,8 @@ pub(super) fn gather_files(parts: &[StoredRun]) -> Result<Files, Error> {
     });
     let files = gather(lists.collect::<Result<Vec<_>, Error>>()?)?;
     for part in parts {
-        list_pictures(&part.run).try_for_each(|own| check_pictures(part, &own, &files))?;
+        list_pictures(&part.run)
+            .try_for_each(|pictures| check_pictures(part, &pictures, &files))?;
     }
     Ok(files)
 }
@@ -63,10 +65,10 @@ fn list_pictures(run: &Run) -> impl Iterator<Item = Pictures<'_>> {
 
 /// Refuses a case if no part has its pictures or its scene's, or if it was measured against another
 /// truth.
-fn check_pictures(part: &StoredRun, own: &Pictures, files: &Files) -> Result<(), Error> {
-    let of_case = CASE_FILES.iter().map(|name| own.case.join(name));
-    let of_frame = FRAME_FILES.iter().map(|name| own.scene.join(name));
-    let of_truth = truth_files(own.alignment).map(|name| own.scene.join(name));
+fn check_pictures(part: &StoredRun, pictures: &Pictures, files: &Files) -> Result<(), Error> {
+    let of_case = CASE_FILES.iter().map(|name| pictures.case.join(name));
+    let of_frame = FRAME_FILES.iter().map(|name| pictures.scene.join(name));
+    let of_truth = truth_files(pictures.alignment).map(|name| pictures.scene.join(name));
     let mut all = of_case.chain(of_frame).chain(of_truth);
     if let Some(missing) = all.find(|below| !files.contains_key(below)) {
         return Err(Error::Usage(format!(
@@ -75,16 +77,18 @@ fn check_pictures(part: &StoredRun, own: &Pictures, files: &Files) -> Result<(),
             missing.display()
         )));
     }
-    let truth = &files[&own.scene.join(RenderFile::Truth(own.alignment).path())];
-    let found = read_attribute(truth, "content_hash").unwrap_or_default();
-    if found == own.truth_hash {
+    let truth = &files[&pictures
+        .scene
+        .join(RenderFile::Truth(pictures.alignment).path())];
+    let hash = read_attribute(truth, "content_hash").unwrap_or_default();
+    if hash == pictures.truth_hash {
         Ok(())
     } else {
         Err(Error::Usage(format!(
-            "{}: the truth of {} has the hash {}, and {} has {found}; measure that case again",
+            "{}: the truth of {} has the hash {}, and {} has {hash}; measure that case again",
             part.path.display(),
-            own.case.display(),
-            own.truth_hash,
+            pictures.case.display(),
+            pictures.truth_hash,
             truth.display()
         )))
     }

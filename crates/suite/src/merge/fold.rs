@@ -29,22 +29,25 @@ pub(super) fn fold_runs(parts: &[StoredRun]) -> Result<Run, Error> {
     }
     let of_preset = |case: &Case| (case.scene.clone(), case.of_preset().filter_id());
     let mut cases = list_once(parts, |run| &run.cases, of_preset)?;
-    let of_sequence = |own: &Sequence| (own.scene.clone(), own.filter.clone());
+    let of_sequence = |sequence: &Sequence| (sequence.scene.clone(), sequence.filter.clone());
     let mut sequences = list_once(parts, |run| &run.sequences, of_sequence)?;
     let failures = parts.iter().flat_map(|part| &part.run.failures);
     let mut failures: Vec<Failure> = failures.cloned().collect();
     let order = Order::new(parts.iter().map(|part| &part.run));
     cases.sort_by_cached_key(|case| (order.scene(&case.scene), order.filter(&case.filter_id())));
-    sequences.sort_by_cached_key(|own| {
+    sequences.sort_by_cached_key(|sequence| {
         (
-            order.scene(&own.scene),
-            own.alignment,
-            order.filter(&own.filter),
+            order.scene(&sequence.scene),
+            sequence.alignment,
+            order.filter(&sequence.filter),
         )
     });
-    failures.sort_by_cached_key(|own| {
-        let place = (order.scene(&own.scene), order.filter(&own.filter_id()));
-        (place, own.reason.clone())
+    failures.sort_by_cached_key(|failure| {
+        let place = (
+            order.scene(&failure.scene),
+            order.filter(&failure.filter_id()),
+        );
+        (place, failure.reason.clone())
     });
     failures.dedup();
     Ok(Run {
@@ -61,8 +64,8 @@ pub(super) fn fold_runs(parts: &[StoredRun]) -> Result<Run, Error> {
 fn check_settings(one: &StoredRun, other: &StoredRun) -> Result<(), Error> {
     match one.run.find_difference(&other.run) {
         None => Ok(()),
-        Some((setting, own, its)) => Err(Error::Usage(format!(
-            "{} has the {setting} {own}, {} has {its}; all parts of a run have the same {setting}",
+        Some((setting, value, other_value)) => Err(Error::Usage(format!(
+            "{} has the {setting} {value}, {} has {other_value}; all parts of a run have the same {setting}",
             one.path.display(),
             other.path.display()
         ))),
@@ -75,13 +78,13 @@ fn list_once<T: Clone + Serialize>(
     list: fn(&Run) -> &Vec<T>,
     key: impl Fn(&T) -> (SceneId, FilterId),
 ) -> Result<Vec<T>, Error> {
-    let mut found: HashMap<(SceneId, FilterId), (&T, &StoredRun)> = HashMap::new();
+    let mut holders: HashMap<(SceneId, FilterId), (&T, &StoredRun)> = HashMap::new();
     let mut all = Vec::new();
     for part in parts {
         for one in list(&part.run) {
             let key = key(one);
-            let Some((other, other_part)) = found.get(&key) else {
-                found.insert(key, (one, part));
+            let Some((other, other_part)) = holders.get(&key) else {
+                holders.insert(key, (one, part));
                 all.push(one.clone());
                 continue;
             };

@@ -58,10 +58,15 @@ fn check_complete(run: &Run) -> Result<(), Error> {
     let rendered = || run.cases.iter().filter(|case| case.drawn.is_none());
     let scenes: BTreeSet<&SceneId> = rendered().map(|case| &case.scene).collect();
     let filters: BTreeSet<FilterId> = rendered().map(|case| case.filter_id()).collect();
-    let (references, own): (Vec<_>, Vec<_>) = filters.iter().partition(|it| it.is_reference);
-    let mut shutters: BTreeSet<Alignment> = own.iter().map(|filter| filter.alignment).collect();
+    let (references, choices): (Vec<_>, Vec<_>) =
+        filters.iter().partition(|filter| filter.is_reference);
+    let mut shutters: BTreeSet<Alignment> = choices.iter().map(|filter| filter.alignment).collect();
     shutters.extend((!filters.is_empty()).then_some(run.common_alignment));
-    let has_references = |it: &&Alignment| references.iter().any(|own| own.alignment == **it);
+    let has_references = |shutter: &&Alignment| {
+        references
+            .iter()
+            .any(|reference| reference.alignment == **shutter)
+    };
     if let Some(missing) = shutters.iter().find(|shutter| !has_references(shutter)) {
         return Err(Error::Usage(format!(
             "no part holds the references of the {missing} shutter; add the part with the references, measured with the same \
@@ -70,9 +75,9 @@ fn check_complete(run: &Run) -> Result<(), Error> {
     }
     let failed = (run.failures.iter()).map(|failure| (&failure.scene, failure.filter_id()));
     let measured = rendered().map(|case| (&case.scene, case.filter_id()));
-    let found: BTreeSet<(&SceneId, FilterId)> = measured.chain(failed).collect();
+    let pairs: BTreeSet<(&SceneId, FilterId)> = measured.chain(failed).collect();
     for scene in scenes {
-        let missing = (filters.iter()).find(|filter| !found.contains(&(scene, (*filter).clone())));
+        let missing = (filters.iter()).find(|filter| !pairs.contains(&(scene, (*filter).clone())));
         if let Some(missing) = missing {
             return Err(Error::Usage(format!(
                 "no part holds {scene} / {} ({} shutter), which other scenes have; add the part that measured it",

@@ -26,7 +26,8 @@ impl Order {
         let mut scenes = merge_order(all_scenes);
         scenes.sort_by_key(|(is_drawn, _)| *is_drawn);
         let of_scenes = cases.flat_map(|cases| cases.chunk_by(|one, next| one.scene == next.scene));
-        let measured = of_scenes.map(|own| own.iter().map(|case| case.filter_id()).collect());
+        let measured =
+            of_scenes.map(|scene_cases| scene_cases.iter().map(|case| case.filter_id()).collect());
         let failed = runs.flat_map(|run| &run.failures);
         let failed = failed.map(|failure| vec![failure.filter_id()]);
         Self {
@@ -38,14 +39,14 @@ impl Order {
     /// Returns the position of a frame: scenes in order, and each scene's frames in order.
     pub fn scene(&self, scene: &SceneId) -> (usize, u32) {
         let first = scene.at_frame(0);
-        let place = self.scenes.iter().position(|(_, own)| *own == first);
+        let place = self.scenes.iter().position(|(_, id)| *id == first);
         (place.unwrap_or(self.scenes.len()), scene.frame)
     }
 
     /// Returns the position of a filter in its scene: references, grouped by shutter, then filters.
     pub fn filter(&self, filter: &FilterId) -> (bool, Option<Alignment>, Option<usize>) {
         let shutter = filter.is_reference.then_some(filter.alignment);
-        let place = self.filters.iter().position(|own| own == filter);
+        let place = self.filters.iter().position(|id| id == filter);
         (!filter.is_reference, shutter, place)
     }
 }

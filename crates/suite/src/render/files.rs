@@ -41,8 +41,8 @@ impl Rendering<'_> {
             let truth = tracer::truth_hash(scene, settings, alignment);
             let replicate = tracer::replicate_hash(scene, settings, alignment);
             let ladder = ladder_hash(scene, settings, alignment);
-            let own = truth_files(alignment, settings.replicates, ladders);
-            files.extend(own.map(|file| match file {
+            let truth_files = truth_files(alignment, settings.replicates, ladders);
+            files.extend(truth_files.map(|file| match file {
                 RenderFile::Replicate(..) => wanted(file, &replicate),
                 RenderFile::Rung(..) => wanted(file, &ladder),
                 RenderFile::Frame | RenderFile::Truth(_) => wanted(file, &truth),
@@ -51,8 +51,8 @@ impl Rendering<'_> {
         files
     }
 
-    /// Lists the frame and the truths that all given folders lack, by the headers of files: for
-    /// each truth its own and its last replicate's and rung's.
+    /// Lists the frame and the truths that all given folders lack. Headers of files decide: for
+    /// each truth, those of its own file, its last replicate and its last rung.
     pub(crate) fn find_missing(
         &self,
         alignments: &[Alignment],
@@ -62,8 +62,8 @@ impl Rendering<'_> {
         let lacks = |file: &Wanted| !folders.iter().any(|folder| file.is_in(folder));
         self.list_wanted(alignments, ladders)
             .chunk_by(|one, next| one.path.file.alignment() == next.path.file.alignment())
-            .filter(|own| lacks(&own[0]) || own.last().is_some_and(lacks))
-            .map(|own| own[0].path.file)
+            .filter(|group| lacks(&group[0]) || group.last().is_some_and(lacks))
+            .map(|group| group[0].path.file)
             .collect()
     }
 }

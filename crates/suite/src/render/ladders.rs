@@ -65,8 +65,8 @@ impl<'a> LadderFiles<'a> {
     /// Renders some of the rungs and writes them, except those with files of the same inputs.
     pub fn ensure(&self, rungs: &[u32]) -> Result<(), Error> {
         for subframes in rungs {
-            let found = read_attribute(&self.path(*subframes), "content_hash");
-            if found.as_ref() != Some(&self.hash) {
+            let hash = read_attribute(&self.path(*subframes), "content_hash");
+            if hash.as_ref() != Some(&self.hash) {
                 self.render(*subframes)?;
             }
         }
@@ -76,10 +76,10 @@ impl<'a> LadderFiles<'a> {
     /// Reads one rung; renders it if it is missing, broken or made from other inputs.
     pub fn read_or_render(&self, subframes: u32) -> Result<Ladder, Error> {
         let path = self.path(subframes);
-        if let Ok(found) = Ladder::read_rung(&path, subframes)
-            && found.provenance.is_rendered_of(&self.hash)
+        if let Ok(ladder) = Ladder::read_rung(&path, subframes)
+            && ladder.provenance.is_rendered_of(&self.hash)
         {
-            return Ok(found);
+            return Ok(ladder);
         }
         self.render(subframes)?;
         Ok(Ladder::read_rung(&path, subframes)?)

@@ -23,8 +23,8 @@ const PICTURES_OF_TRUTH: u64 = 7;
 /// Pictures of a frame, of the truth that filters are measured by, and of the measured case, for
 /// any number of replicates.
 const PICTURES_MEASURED: u64 = 14;
-/// Pictures of each part of frame and truth that intervals leave out replicates of: its own, and
-/// all that is prepared to measure by it.
+/// Pictures of each part of frame and truth, from which intervals leave out replicates: the part's
+/// own, and all that is prepared to measure by the part.
 const PICTURES_OF_PART: u64 = 10;
 /// Pictures of each further truth.
 const PICTURES_OF_FURTHER_TRUTH: u64 = 6;
@@ -127,9 +127,9 @@ fn free_in_system() -> Option<u64> {
 /// group if a container hides the path to it.
 fn free_in_group() -> Option<u64> {
     let groups = fs::read_to_string("/proc/self/cgroup").unwrap_or_default();
-    let own = groups.lines().find_map(|line| line.strip_prefix("0::/"));
+    let group = groups.lines().find_map(|line| line.strip_prefix("0::/"));
     let folders = [
-        format!("/sys/fs/cgroup/{}", own.unwrap_or_default()),
+        format!("/sys/fs/cgroup/{}", group.unwrap_or_default()),
         "/sys/fs/cgroup".into(),
     ];
     let left = folders.iter().filter_map(|folder| {

@@ -52,16 +52,17 @@ fn gather_renders(parts: &[PathBuf]) -> Result<Files, Error> {
                 part.display()
             )));
         }
-        let mut own = list_renders(part)?;
-        own.retain(|render| matches!(render.file, RenderFile::Frame | RenderFile::Replicate(..)));
-        if own.is_empty() {
+        let mut renders = list_renders(part)?;
+        renders
+            .retain(|render| matches!(render.file, RenderFile::Frame | RenderFile::Replicate(..)));
+        if renders.is_empty() {
             return Err(Error::Usage(format!(
                 "{} holds no replicates; allowed: folders into which `shuttertruth truths render` wrote a part A..B of the replicates, or \
                  finished runs alone",
                 part.display()
             )));
         }
-        lists.push((&**part, own.iter().map(RenderPath::path).collect()));
+        lists.push((&**part, renders.iter().map(RenderPath::path).collect()));
     }
     Ok(gather(lists)?)
 }

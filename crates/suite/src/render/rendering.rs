@@ -32,10 +32,10 @@ impl Rendering<'_> {
     pub fn frame(&self) -> Result<Frame, Error> {
         refuse_scene(&scene_folder(self.out, self.scene))?;
         let hash = tracer::frame_hash(self.scene, &self.settings);
-        if let Ok(found) = Frame::read(&self.path(RenderFile::Frame))
-            && found.provenance.is_rendered_of(&hash)
+        if let Ok(frame) = Frame::read(&self.path(RenderFile::Frame))
+            && frame.provenance.is_rendered_of(&hash)
         {
-            return Ok(found);
+            return Ok(frame);
         }
         Ok(self.trace_frame()?.frame)
     }
@@ -46,27 +46,27 @@ impl Rendering<'_> {
         let path = self.path(RenderFile::Frame);
         let hash = tracer::frame_hash(self.scene, &self.settings);
         if read_attribute(&path, "content_hash") == Some(hash)
-            && let Ok(found) = read_frame_replicates(&path)
-            && !found.is_empty()
+            && let Ok(replicates) = read_frame_replicates(&path)
+            && !replicates.is_empty()
         {
-            return Ok(found);
+            return Ok(replicates);
         }
         Ok(self.trace_frame()?.replicates)
     }
 
     /// Renders the frame and writes it with its replicates.
     fn trace_frame(&self) -> Result<TracedFrame, Error> {
-        let own = self.settings;
-        own.check_frame(self.scene)?;
+        let settings = self.settings;
+        settings.check_frame(self.scene)?;
         self.check_memory(self.settings.replicates)?;
         let label = format!("{} frame", self.scene.id);
-        let grid = PixelGrid::of_picture(own.width, own.height);
+        let grid = PixelGrid::of_picture(settings.width, settings.height);
         let traced = (self.monitor).watch(&label, |watch| {
-            tracer::trace_frame_part(self.scene, &own, &grid, None, watch)
+            tracer::trace_frame_part(self.scene, &settings, &grid, None, watch)
         })?;
         assert_eq!(
             traced.frame.provenance.content_hash,
-            tracer::frame_hash(self.scene, &own),
+            tracer::frame_hash(self.scene, &settings),
             "{label}: the hash must not depend on the render"
         );
         traced.write(&self.path(RenderFile::Frame))?;

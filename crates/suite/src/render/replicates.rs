@@ -80,9 +80,9 @@ impl<'a> TruthFiles<'a> {
     pub fn read_truth(&self) -> Option<Truth> {
         let count = self.rendering.settings.replicates;
         let path = self.rendering.path(RenderFile::Truth(self.alignment));
-        let found = (self.has_truth(count)).then(|| Truth::read(&path))?;
+        let truth = (self.has_truth(count)).then(|| Truth::read(&path))?;
         let hash = truth_hash(&self.hash, count);
-        (found.ok()).filter(|found| found.provenance.is_rendered_of(&hash))
+        (truth.ok()).filter(|truth| truth.provenance.is_rendered_of(&hash))
     }
 
     /// Averages the replicates, and renders missing ones.
@@ -109,15 +109,15 @@ impl<'a> TruthFiles<'a> {
         tracers: &mut Tracers<'a>,
     ) -> Result<Vec<Replicate>, Error> {
         self.rendering.check_truth(self.alignment)?;
-        let own = std::slice::from_ref(self);
+        let files = std::slice::from_ref(self);
         let indices: Vec<u32> = indices.collect();
         let mut replicates = Vec::with_capacity(indices.len());
         for together in indices.chunks(READ_TOGETHER) {
             let read = together.par_iter().map(|&index| self.read(index));
-            for (&index, found) in together.iter().zip(read.collect::<Vec<_>>()) {
-                replicates.push(match found {
-                    Some(found) => found,
-                    None => render_replicate(own, index, tracers)?.remove(0),
+            for (&index, replicate) in together.iter().zip(read.collect::<Vec<_>>()) {
+                replicates.push(match replicate {
+                    Some(replicate) => replicate,
+                    None => render_replicate(files, index, tracers)?.remove(0),
                 });
             }
         }
@@ -144,9 +144,9 @@ impl<'a> TruthFiles<'a> {
     /// Reads a replicate; none if it is missing, broken or made from other inputs.
     fn read(&self, index: u32) -> Option<Replicate> {
         let file = RenderFile::Replicate(self.alignment, index);
-        let found = Replicate::read(&self.rendering.path(file)).ok()?;
-        let is_own = found.provenance.is_rendered_of(&self.hash) && found.index == index;
-        is_own.then_some(found)
+        let replicate = Replicate::read(&self.rendering.path(file)).ok()?;
+        let is_own = replicate.provenance.is_rendered_of(&self.hash) && replicate.index == index;
+        is_own.then_some(replicate)
     }
 }
 
@@ -178,15 +178,18 @@ fn render_replicate<'a>(
     tracers: &mut Tracers<'a>,
 ) -> Result<Vec<Replicate>, Error> {
     let alignments: Vec<Alignment> = files.iter().map(|files| files.alignment).collect();
-    let names: Vec<&str> = alignments.iter().map(|own| own.name()).collect();
-    let own = files[0].rendering;
-    let tracer = tracers.of(&own, &alignments)?;
+    let names: Vec<&str> = alignments
+        .iter()
+        .map(|alignment| alignment.name())
+        .collect();
+    let rendering = files[0].rendering;
+    let tracer = tracers.of(&rendering, &alignments)?;
     let names = names.join(" and ");
-    let label = format!("{} {names}, replicate {index}", own.scene.id);
-    let replicates = (own.monitor).watch(&label, |watch| tracer.trace(index, watch))?;
+    let label = format!("{} {names}, replicate {index}", rendering.scene.id);
+    let replicates = (rendering.monitor).watch(&label, |watch| tracer.trace(index, watch))?;
     replicates.par_iter().try_for_each(|replicate| {
         let file = RenderFile::Replicate(replicate.alignment, index);
-        replicate.write(&own.path(file))
+        replicate.write(&rendering.path(file))
     })?;
     Ok(replicates)
 }

@@ -14,8 +14,8 @@ impl<'a> Rendering<'a> {
     /// its replicates, if their inputs are the same.
     pub fn truth(&self, alignment: Alignment) -> Result<Truth, Error> {
         let files = self.files(alignment);
-        if let Some(found) = files.read_truth() {
-            return Ok(found);
+        if let Some(truth) = files.read_truth() {
+            return Ok(truth);
         }
         let truth = files.average(&mut Tracers::default())?;
         files.write(&truth)?;
@@ -43,9 +43,9 @@ impl<'a> Rendering<'a> {
             self.share(&open, 0..count, &mut tracers)?;
             for alignment in std::mem::take(&mut open) {
                 let files = self.files(alignment);
-                let found = files.read_truth();
-                let is_new = found.is_none();
-                let truth = found.map_or_else(|| files.average(&mut tracers), Ok)?;
+                let stored_truth = files.read_truth();
+                let is_new = stored_truth.is_none();
+                let truth = stored_truth.map_or_else(|| files.average(&mut tracers), Ok)?;
                 let (_, floor) = deciding_floor(&truth);
                 if floor > target && count + 2 <= most {
                     next = next.max(predict_replicates(count, floor / target));

@@ -47,14 +47,14 @@ impl Case {
             return Some(1.0);
         };
         let error = |is_wanted: fn(&Case) -> bool| {
-            let own = cases.iter().find(|own| {
-                (own.is_reference && is_wanted(own))
-                    && (&own.scene, own.alignment) == (&self.scene, self.alignment)
+            let case = cases.iter().find(|case| {
+                (case.is_reference && is_wanted(case))
+                    && (&case.scene, case.alignment) == (&self.scene, self.alignment)
             });
-            own?.scores.get(skill.error()).value()
+            case?.scores.get(skill.error()).value()
         };
         // The frame is the sharp picture if its instant is the middle of the shutter.
-        let sharp = error(Case::is_sharp).or_else(|| error(|own| own.filter == IDENTITY));
-        Some(sharp? - error(|own| own.filter == SCATTER_ORACLE)?)
+        let sharp = error(Case::is_sharp).or_else(|| error(|case| case.filter == IDENTITY));
+        Some(sharp? - error(|case| case.filter == SCATTER_ORACLE)?)
     }
 }

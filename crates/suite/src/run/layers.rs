@@ -56,8 +56,8 @@ fn collect_layers(
     (frame, truth): &(Frame, Truth),
     folder: &Path,
 ) -> Result<ExrFile, Error> {
-    let own = folder.join(&case.folder);
-    let output = read_exr(&own.join("output.exr"))?;
+    let case_folder = folder.join(&case.folder);
+    let output = read_exr(&case_folder.join("output.exr"))?;
     let errors = ErrorMaps::read(case, folder)?;
     let (width, height) = truth.size();
     let sizes = [
@@ -65,12 +65,12 @@ fn collect_layers(
         ("output.exr", (output.width, output.height)),
         ("errors.exr", errors.size()),
     ];
-    if let Some((name, found)) = sizes.iter().find(|(_, found)| *found != (width, height)) {
+    if let Some((name, size)) = sizes.iter().find(|(_, size)| *size != (width, height)) {
         return Err(Error::Usage(format!(
             "{}: {name} has {}x{} pixels, the truth {width}x{height}; run the case again",
-            own.display(),
-            found.0,
-            found.1
+            case_folder.display(),
+            size.0,
+            size.1
         )));
     }
     let mean = truth.mean();

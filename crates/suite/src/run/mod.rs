@@ -69,14 +69,18 @@ impl Run {
     /// values.
     pub(crate) fn find_difference(&self, other: &Self) -> Option<(&'static str, String, String)> {
         let both = std::iter::zip(self.list_settings(), other.list_settings());
-        let settings = both.map(|((setting, own), (_, its))| (setting, own, its));
+        let settings =
+            both.map(|((setting, value), (_, other_value))| (setting, value, other_value));
         // A run of programs only has no adapter, and matches any.
         let adapters = self.adapter.as_ref().zip(other.adapter.as_ref());
-        let adapters = adapters.map(|(own, its)| {
-            let text = |it: &AdapterDescription| format!("{} ({})", it.name, it.driver);
-            ("adapter and driver", text(own), text(its))
+        let adapters = adapters.map(|(value, other_value)| {
+            let text =
+                |adapter: &AdapterDescription| format!("{} ({})", adapter.name, adapter.driver);
+            ("adapter and driver", text(value), text(other_value))
         });
-        settings.chain(adapters).find(|(_, own, its)| own != its)
+        settings
+            .chain(adapters)
+            .find(|(_, value, other_value)| value != other_value)
     }
 
     fn list_settings(&self) -> Vec<(&'static str, String)> {

@@ -122,25 +122,29 @@ fn check_shutter(file: &ExrFile, truth: &Truth) -> Result<(), Error> {
         return Ok(());
     }
     let exposure = truth.shutter.exposure();
-    let other = |what: &str, found: String, expected: String| {
+    let other = |what: &str, value: String, expected: String| {
         refuse(
             &file.path,
             &format!(
-                "was made for {what} {found}, the truth has {expected}; render that one, or blur for this one"
+                "was made for {what} {value}, the truth has {expected}; render that one, or blur for this one"
             ),
         )
     };
     if file.attributes.contains_key("alignment") {
-        let found: String = file.get("alignment")?;
-        if found != truth.alignment.name() {
-            return other("the shutter alignment", found, truth.alignment.to_string());
+        let alignment: String = file.get("alignment")?;
+        if alignment != truth.alignment.name() {
+            return other(
+                "the shutter alignment",
+                alignment,
+                truth.alignment.to_string(),
+            );
         }
     }
     if file.attributes.contains_key("exposure") {
-        let found: f64 = file.get("exposure")?;
+        let value: f64 = file.get("exposure")?;
         // Files keep the ends of the truth's interval, and their difference may round.
-        if (found - exposure).abs() > 1e-9 * exposure {
-            return other("an exposure of", found.to_string(), exposure.to_string());
+        if (value - exposure).abs() > 1e-9 * exposure {
+            return other("an exposure of", value.to_string(), exposure.to_string());
         }
     }
     Ok(())

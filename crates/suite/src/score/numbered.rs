@@ -29,8 +29,8 @@ pub fn find_numbered(folder: &Path, frames: u32) -> Result<Vec<PathBuf>, Error> 
     let all = (0..frames).map(|frame| {
         let exr = numbered_file(folder, frame);
         let both = ENDINGS.map(|ending| exr.with_extension(ending));
-        let found: Vec<&PathBuf> = both.iter().filter(|path| path.is_file()).collect();
-        match found.as_slice() {
+        let files: Vec<&PathBuf> = both.iter().filter(|path| path.is_file()).collect();
+        match files.as_slice() {
             [one] => Ok((*one).clone()),
             [] => Err(Error::Usage(format!(
                 "{}: there is no such file, nor a PNG; needed: one picture for each of the {frames} frames, numbered from 0000",

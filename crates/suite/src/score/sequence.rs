@@ -39,11 +39,14 @@ pub fn score_sequence(
     truths: &[SequenceTruth],
     per_second: f64,
 ) -> Result<SequenceMeasurement, Error> {
-    let instants = (0..).zip(truths).map(|(frame, own)| {
+    let instants = (0..).zip(truths).map(|(frame, frame_truth)| {
         let scene = scene.at_frame(frame);
-        let settings = settings_of(own);
-        check_scene(&scene, &settings, own)?;
-        Ok(make_instant(&own.truth, trace_points(&scene, &settings)?))
+        let settings = settings_of(frame_truth);
+        check_scene(&scene, &settings, frame_truth)?;
+        Ok(make_instant(
+            &frame_truth.truth,
+            trace_points(&scene, &settings)?,
+        ))
     });
     let instants = instants.collect::<Result<Vec<Instant>, Error>>()?;
     let reference = SequenceReference::new(instants, &scene.display.into(), per_second);
@@ -51,9 +54,9 @@ pub fn score_sequence(
 }
 
 /// Returns a truth's render settings, as stated in its files.
-fn settings_of(own: &SequenceTruth) -> RenderSettings {
-    let (width, height) = own.truth.size();
-    let provenance = &own.truth.provenance;
+fn settings_of(frame_truth: &SequenceTruth) -> RenderSettings {
+    let (width, height) = frame_truth.truth.size();
+    let provenance = &frame_truth.truth.provenance;
     RenderSettings {
         width,
         height,
@@ -61,29 +64,33 @@ fn settings_of(own: &SequenceTruth) -> RenderSettings {
         // A file may say anything.
         replicates: provenance.replicates.max(1),
         seed: provenance.seed,
-        exposure: Some(own.frame.exposure),
+        exposure: Some(frame_truth.frame.exposure),
         ..RenderSettings::default()
     }
 }
 
 /// Refuses a truth of another scene: its motion, which the scores follow, would be another.
-fn check_scene(scene: &Scene, settings: &RenderSettings, own: &SequenceTruth) -> Result<(), Error> {
-    let provenance = &own.truth.provenance;
+fn check_scene(
+    scene: &Scene,
+    settings: &RenderSettings,
+    frame_truth: &SequenceTruth,
+) -> Result<(), Error> {
+    let provenance = &frame_truth.truth.provenance;
     if scene.id != provenance.scene.as_str() {
         return Err(Error::Usage(format!(
             "{}: is the truth of {}; needed: that of {}",
-            own.path.display(),
+            frame_truth.path.display(),
             provenance.scene,
             scene.id
         )));
     }
-    if truth_hash(scene, settings, own.truth.alignment) == provenance.content_hash {
+    if truth_hash(scene, settings, frame_truth.truth.alignment) == provenance.content_hash {
         Ok(())
     } else {
         Err(Error::Usage(format!(
             "{}: was rendered from other files of the scene {}, or by another version of this program, and the scores of a sequence \
              follow the scene's motion; render frames and truths again",
-            own.path.display(),
+            frame_truth.path.display(),
             scene.id
         )))
     }

@@ -24,7 +24,7 @@ pub fn intervals(
 ) -> Intervals {
     (metrics.into_iter())
         .filter_map(|metric| {
-            let found = match metric {
+            let interval = match metric {
                 Metric::Object(object) => worst_interval(whole, parts, (metric, object), true),
                 Metric::Image(ImageMetric::Psnr, region) => {
                     let error = Metric::Image(ImageMetric::Mse, region);
@@ -37,8 +37,8 @@ pub fn intervals(
                 }
                 Metric::Image(kind, Region::Still) => {
                     let parts = parts.iter().map(|scores| scores.get(metric).value());
-                    let own = interval(&whole.get(metric), parts, metric);
-                    own.map(|own| reach_below(own, still.get(kind), metric))
+                    let whole_interval = interval(&whole.get(metric), parts, metric);
+                    whole_interval.map(|interval| reach_below(interval, still.get(kind), metric))
                 }
                 Metric::OccluderContamination => {
                     let object = ObjectMetric::LabelTotalVariation;
@@ -53,7 +53,7 @@ pub fn intervals(
                     interval(&whole.get(metric), parts, metric)
                 }
             };
-            Some((metric, found?))
+            Some((metric, interval?))
         })
         .collect()
 }
@@ -69,10 +69,10 @@ pub(crate) fn sequence_intervals(whole: &SequenceScores, parts: &[SequenceScores
         .collect()
 }
 
-/// Slowest power of the number of replicates by which noise in a mean of absolute errors falls, and
-/// the same for errors over the whole picture, most of which is still: its noise is of few samples,
-/// and FLIP raises small differences to the power of 0.7.
+/// Slowest power of the number of replicates by which noise in a mean of absolute errors falls.
 const ROOT: f64 = 0.5;
+/// The same for errors over the whole picture. Most of the picture is still: its noise is of few
+/// samples, and FLIP raises small differences to the power of 0.7.
 const SLOW: f64 = 0.3;
 
 /// Grain that no picture shows: the slope of the root is finite.
@@ -106,16 +106,16 @@ fn interval(
     jackknife_of(whole.value()?, &without, find_rise(metric))
 }
 
-/// Extends the interval of a score over still pixels downwards by the score of the frame there, all
-/// of which may be noise. Where only few samples see what light changes, parts of the samples do
-/// not tell how much of it is.
-fn reach_below(own: Interval, frame: &Measured, metric: Metric) -> Interval {
+/// Extends the interval of a score over still pixels downwards by the frame's own score there,
+/// since all of that may be noise. Where only few samples see what light changes, parts of the
+/// samples do not tell how much of it is.
+fn reach_below(interval: Interval, frame: &Measured, metric: Metric) -> Interval {
     let is_raised = find_rise(metric) != Rise::Inverse;
     let noise = frame.value().filter(|_| is_raised).unwrap_or(0.0);
-    let half_width = own.high - own.center;
+    let half_width = interval.high - interval.center;
     Interval {
-        low: own.low.min(own.center - noise - half_width),
-        ..own
+        low: interval.low.min(interval.center - noise - half_width),
+        ..interval
     }
 }
 
@@ -129,14 +129,22 @@ fn grain_interval(
         return None;
     };
     let square = |value: f64| value * value.abs();
-    let squares: Vec<f64> = without.map(|own| own.map(square)).collect::<Option<_>>()?;
-    let own = jackknife(square(score.value), &squares)?;
-    let [low, center, high] = [own.low, own.center, own.high].map(|end| end.max(0.0).sqrt());
+    let squares: Vec<f64> = without
+        .map(|part| part.map(square))
+        .collect::<Option<_>>()?;
+    let square_interval = jackknife(square(score.value), &squares)?;
+    let [low, center, high] = [
+        square_interval.low,
+        square_interval.center,
+        square_interval.high,
+    ]
+    .map(|end| end.max(0.0).sqrt());
     Some(Interval {
         low,
         high: high.max(score.floor),
         center,
-        standard_error: own.standard_error / (2.0 * center.max(score.floor).max(LEAST_GRAIN)),
+        standard_error: square_interval.standard_error
+            / (2.0 * center.max(score.floor).max(LEAST_GRAIN)),
     })
 }
 
@@ -172,8 +180,8 @@ fn psnr_interval(
 }
 
 /// Computes the interval of the worst object's score. The worst object of noisy pictures need not
-/// be the worst without noise: any whose interval reaches the least that the worst must have may be
-/// it.
+/// be the worst without noise. Every object may be the worst, if its interval reaches the least
+/// that the worst must have.
 fn worst_interval(
     whole: &Scores,
     parts: &[Scores],
@@ -182,11 +190,11 @@ fn worst_interval(
 ) -> Option<Interval> {
     let ideal = metric.ideal();
     let of_object = |at: usize| {
-        let own = &whole.objects[at];
+        let scores = &whole.objects[at];
         let parts = parts
             .iter()
             .map(|scores| scores.objects[at].get(object).value());
-        (own.moves == moves).then(|| interval(own.get(object), parts, metric))?
+        (scores.moves == moves).then(|| interval(scores.get(object), parts, metric))?
     };
     let all: Vec<Interval> = (0..whole.objects.len()).filter_map(of_object).collect();
     join_worst(&all, ideal)
@@ -194,45 +202,49 @@ fn worst_interval(
 
 /// Joins the intervals of all objects that may have the worst score.
 fn join_worst(all: &[Interval], ideal: Ideal) -> Option<Interval> {
-    let least = |own: &Interval| ideal.badness_within(own).0;
-    let most = |own: &Interval| ideal.badness_within(own).1;
+    let least = |interval: &Interval| ideal.badness_within(interval).0;
+    let most = |interval: &Interval| ideal.badness_within(interval).1;
     let certain = all.iter().map(least).fold(f64::NEG_INFINITY, f64::max);
     let mut candidates = (all.iter())
-        .filter(|own| most(own) >= certain)
-        .map(|own| without_better(*own, ideal, certain));
+        .filter(|interval| most(interval) >= certain)
+        .map(|interval| without_better(*interval, ideal, certain));
     let first = candidates.next()?;
-    Some(candidates.fold(first, |joined, own| {
-        let is_worse = ideal.badness(own.center) > ideal.badness(joined.center);
-        let worst = if is_worse { own } else { joined };
+    Some(candidates.fold(first, |joined, interval| {
+        let is_worse = ideal.badness(interval.center) > ideal.badness(joined.center);
+        let worst = if is_worse { interval } else { joined };
         Interval {
-            low: joined.low.min(own.low),
-            high: joined.high.max(own.high),
+            low: joined.low.min(interval.low),
+            high: joined.high.max(interval.high),
             ..worst
         }
     }))
 }
 
 /// Cuts off the values at the ends that are better than the least that is certain.
-fn without_better(own: Interval, ideal: Ideal, certain: f64) -> Interval {
+fn without_better(interval: Interval, ideal: Ideal, certain: f64) -> Interval {
     let [low, high] = match ideal {
-        Ideal::Lowest => [own.low.max(certain), own.high],
-        Ideal::Highest => [own.low, own.high.min(-certain)],
+        Ideal::Lowest => [interval.low.max(certain), interval.high],
+        Ideal::Highest => [interval.low, interval.high.min(-certain)],
         Ideal::Target(target) => {
             let [below, above] = [target - certain, target + certain];
-            let low = if own.low <= below {
-                own.low
+            let low = if interval.low <= below {
+                interval.low
             } else {
-                own.low.max(above)
+                interval.low.max(above)
             };
-            let high = if own.high >= above {
-                own.high
+            let high = if interval.high >= above {
+                interval.high
             } else {
-                own.high.min(below)
+                interval.high.min(below)
             };
             [low, high]
         }
     };
-    Interval { low, high, ..own }
+    Interval {
+        low,
+        high,
+        ..interval
+    }
 }
 
 #[cfg(test)]
@@ -253,8 +265,8 @@ mod tests {
             .iter()
             .map(|[low, high]| interval(*low, *high))
             .collect();
-        let found = join_worst(&all, ideal).unwrap();
-        [found.low, found.high]
+        let joined = join_worst(&all, ideal).unwrap();
+        [joined.low, joined.high]
     }
 
     /// Values of an error e(n) of n groups, for all four groups and for any three of them.
@@ -268,9 +280,9 @@ mod tests {
     #[test]
     fn psnr_is_that_of_the_error_without_noise() {
         let (whole, without) = groups(|count| 0.01 + 0.04 / count, 1e-4);
-        let found = psnr_interval(&whole, without.into_iter()).unwrap();
-        for end in [found.low, found.center, found.high] {
-            assert!((end - 20.0).abs() < 1e-9, "{found:?}");
+        let psnr = psnr_interval(&whole, without.into_iter()).unwrap();
+        for end in [psnr.low, psnr.center, psnr.high] {
+            assert!((end - 20.0).abs() < 1e-9, "{psnr:?}");
         }
     }
 
@@ -278,11 +290,11 @@ mod tests {
     fn psnr_of_an_error_that_may_be_none_is_open_and_its_estimate_the_floor_s() {
         let (whole, _) = groups(|_| 1e-4, 1e-4);
         let without = [1.0, -1.0, 2.0, -2.0].map(|change| Some(1e-4 * (1.0 + change)));
-        let found = psnr_interval(&whole, without.into_iter()).unwrap();
-        assert_eq!(found.high, PSNR_LIMIT);
+        let psnr = psnr_interval(&whole, without.into_iter()).unwrap();
+        assert_eq!(psnr.high, PSNR_LIMIT);
         assert!(
-            (found.center - 40.0).abs() < 1e-9 && found.low < 40.0,
-            "{found:?}"
+            (psnr.center - 40.0).abs() < 1e-9 && psnr.low < 40.0,
+            "{psnr:?}"
         );
         assert!(psnr_interval(&whole, [Some(1.0), None].into_iter()).is_none());
     }
@@ -290,40 +302,46 @@ mod tests {
     #[test]
     fn grain_without_noise_is_the_root_of_the_squares_without_it() {
         let (whole, without) = groups(|count: f64| (4e-4 - 4e-4 / count).sqrt(), 1e-3);
-        let found = grain_interval(&whole, without.into_iter()).unwrap();
-        for end in [found.low, found.center, found.high] {
-            assert!((end - 0.02).abs() < 1e-9, "{found:?}");
+        let grain = grain_interval(&whole, without.into_iter()).unwrap();
+        for end in [grain.low, grain.center, grain.high] {
+            assert!((end - 0.02).abs() < 1e-9, "{grain:?}");
         }
     }
 
     #[test]
     fn grain_below_none_is_from_none_to_the_floor() {
         let (whole, without) = groups(|_| -0.01, 1e-3);
-        let found = grain_interval(&whole, without.into_iter()).unwrap();
-        assert_eq!([found.low, found.center, found.high], [0.0, 0.0, 1e-3]);
+        let grain = grain_interval(&whole, without.into_iter()).unwrap();
+        assert_eq!([grain.low, grain.center, grain.high], [0.0, 0.0, 1e-3]);
     }
 
     #[test]
     fn a_score_of_still_pixels_reaches_down_by_the_frame_s_own() {
         let metric = Metric::Image(ImageMetric::Flip, Region::Still);
-        let own = Interval {
+        let interval = Interval {
             center: 0.5,
             ..interval(0.4, 0.6)
         };
-        let found = reach_below(own, &Measured::score(0.25, 0.0), metric);
+        let extended = reach_below(interval, &Measured::score(0.25, 0.0), metric);
         // The half width of 0.1 remains beyond it.
-        assert!((found.low - 0.15).abs() < 1e-12 && found.high == 0.6);
-        assert_eq!(reach_below(own, &Measured::score(0.0, 0.0), metric), own);
+        assert!((extended.low - 0.15).abs() < 1e-12 && extended.high == 0.6);
+        assert_eq!(
+            reach_below(interval, &Measured::score(0.0, 0.0), metric),
+            interval
+        );
         let unbiased = Metric::Image(ImageMetric::Mse, Region::Still);
-        assert_eq!(reach_below(own, &Measured::score(0.25, 0.0), unbiased), own);
+        assert_eq!(
+            reach_below(interval, &Measured::score(0.25, 0.0), unbiased),
+            interval
+        );
     }
 
     #[test]
     fn the_worst_score_is_at_least_what_is_certain_of_any_object() {
         // The second object is worse than the first one at its best; the third one may be the
         // worst.
-        let found = ends(Ideal::Lowest, &[[0.1, 0.2], [0.3, 0.5], [0.2, 0.6]]);
-        assert_eq!(found, [0.3, 0.6]);
+        let worst = ends(Ideal::Lowest, &[[0.1, 0.2], [0.3, 0.5], [0.2, 0.6]]);
+        assert_eq!(worst, [0.3, 0.6]);
         assert_eq!(
             ends(Ideal::Highest, &[[8.0, 9.0], [5.0, 7.0], [4.0, 8.0]]),
             [4.0, 7.0]

@@ -16,10 +16,10 @@ pub fn overall(cases: &[Case]) -> Vec<Overall> {
         }
     }
     let of_subject = |subject: &Case| {
-        let own: Vec<&Case> = (cases.iter())
+        let subject_cases: Vec<&Case> = (cases.iter())
             .filter(|case| are_of_one(subject, case))
             .collect();
-        let means = Metric::OF_MEANS.map(|metric| mean(&own, metric, cases));
+        let means = Metric::OF_MEANS.map(|metric| mean(&subject_cases, metric, cases));
         means.into_iter().flatten().collect::<Vec<_>>()
     };
     subjects.into_iter().flat_map(of_subject).collect()
@@ -54,8 +54,8 @@ fn are_of_one(a: &Case, b: &Case) -> bool {
     a.filter_id() == b.filter_id() && a.rate == b.rate
 }
 
-fn mean(own: &[&Case], metric: Metric, all: &[Case]) -> Option<Overall> {
-    let scores: Vec<Weighted> = (own.iter())
+fn mean(subject_cases: &[&Case], metric: Metric, all: &[Case]) -> Option<Overall> {
+    let scores: Vec<Weighted> = (subject_cases.iter())
         .filter_map(|case| {
             Some(Weighted {
                 value: case.estimate(metric)?,
@@ -64,14 +64,14 @@ fn mean(own: &[&Case], metric: Metric, all: &[Case]) -> Option<Overall> {
         })
         .collect();
     (scores.len() >= 2).then(|| {
-        let found = scene_mean(&scores, TWO_SIDED);
+        let average = scene_mean(&scores, TWO_SIDED);
         Overall {
-            filter: own[0].filter_id(),
-            rate: own[0].rate,
+            filter: subject_cases[0].filter_id(),
+            rate: subject_cases[0].rate,
             metric,
             scenes: scores.len(),
-            mean: found.mean,
-            interval: found.interval,
+            mean: average.mean,
+            interval: average.interval,
         }
     })
 }

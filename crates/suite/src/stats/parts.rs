@@ -38,13 +38,13 @@ impl Groups {
         group: usize,
         replicates: &[Replicate],
     ) -> Result<Truth, TruthError> {
-        let own: Vec<Replicate> = (self.leave_out(group, replicates).zip(0..))
+        let rest: Vec<Replicate> = (self.leave_out(group, replicates).zip(0..))
             .map(|(replicate, index)| Replicate {
                 index,
                 ..replicate.clone()
             })
             .collect();
-        Truth::of(&own)
+        Truth::of(&rest)
     }
 
     /// Averages the replicates of a frame but one group's.

@@ -4,8 +4,8 @@ use std::cmp::Ordering;
 
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-/// Probability that the mean over all such scenes is below a two-sided 95 % interval, and that it
-/// is above it.
+/// Probability that the mean over all such scenes is below a two-sided 95 % interval; the same for
+/// above.
 pub const TWO_SIDED: f64 = 0.025;
 /// Probability that the mean over all such scenes is beyond either one-sided 95 % limit.
 pub const ONE_SIDED: f64 = 0.05;
@@ -109,11 +109,14 @@ mod tests {
         // 2.353 on one side; to its digits.
         let error = 7f64.sqrt() / 2.0;
         for (tail, quantile) in [(0.025, 3.182), (0.05, 2.353)] {
-            let found = plain_mean(&[1.0, 2.0, 4.0, 7.0], tail);
-            assert_eq!(found.mean, 3.5);
-            let [low, high] = found.interval;
-            assert!((low - (3.5 - quantile * error)).abs() < 1e-3, "{found:?}");
-            assert!((high - (3.5 + quantile * error)).abs() < 1e-3, "{found:?}");
+            let average = plain_mean(&[1.0, 2.0, 4.0, 7.0], tail);
+            assert_eq!(average.mean, 3.5);
+            let [low, high] = average.interval;
+            assert!((low - (3.5 - quantile * error)).abs() < 1e-3, "{average:?}");
+            assert!(
+                (high - (3.5 + quantile * error)).abs() < 1e-3,
+                "{average:?}"
+            );
         }
     }
 
@@ -126,9 +129,9 @@ mod tests {
                 weight,
             })
             .collect();
-        let found = scene_mean(&scores, 0.025);
+        let average = scene_mean(&scores, 0.025);
         let ratio = gained.iter().sum::<f64>() / way.iter().sum::<f64>();
-        assert!((found.mean - ratio).abs() < 1e-12, "{found:?}");
+        assert!((average.mean - ratio).abs() < 1e-12, "{average:?}");
         // 4.303 is the table's t for 2 degrees of freedom; the residuals are gained - ratio x way
         // over the mean way.
         let mean_way = way.iter().sum::<f64>() / 3.0;
@@ -136,7 +139,10 @@ mod tests {
             .map(|(gained, way)| ((gained - ratio * way) / mean_way).powi(2))
             .sum();
         let half = 4.303 * (squares / 6.0).sqrt();
-        assert!((found.interval[1] - ratio - half).abs() < 1e-3, "{found:?}");
+        assert!(
+            (average.interval[1] - ratio - half).abs() < 1e-3,
+            "{average:?}"
+        );
     }
 
     /// FLIP of three filters on the 23 shipped scenes at 160x90, by 32 samples per pixel: skewed,
@@ -200,8 +206,8 @@ mod tests {
         for (scenes, least) in [(5, 0.90), (23, 0.92)] {
             let all = FLIP.map(|scores| coverage(&scores.map(Weighted::plain), scenes));
             // Measured 0.92 and 0.93. The standard error of the three is 0.002.
-            let found = all.iter().sum::<f64>() / 3.0;
-            assert!(found > least, "{scenes} scenes: {found}");
+            let share = all.iter().sum::<f64>() / 3.0;
+            assert!(share > least, "{scenes} scenes: {share}");
         }
     }
 
@@ -212,8 +218,8 @@ mod tests {
             weight: way,
         });
         for scenes in [5, 23] {
-            let found = coverage(&population, scenes);
-            assert!(found > 0.91, "{scenes} scenes: {found}");
+            let share = coverage(&population, scenes);
+            assert!(share > 0.91, "{scenes} scenes: {share}");
         }
     }
 }

@@ -49,7 +49,7 @@ pub fn report() {
             let scaled = report_scene(folder, &settings);
             products = [0, 1].map(|of| products[of] * scaled[of]);
         }
-        let [all, trailing] = products.map(|it| it.powf(1.0 / scenes.len() as f64));
+        let [all, trailing] = products.map(|product| product.powf(1.0 / scenes.len() as f64));
         println!("{:67} {all:15.2} {trailing:17.2}", "geometric mean");
     }
 }

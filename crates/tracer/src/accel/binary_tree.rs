@@ -156,13 +156,15 @@ fn choose_of_two(nodes: &[Bvh2Node]) -> Vec<usize> {
 
 /// Chooses per node the best of its neighbours; the last of equally good ones.
 fn choose_of_many(nodes: &[Bvh2Node]) -> Vec<usize> {
-    let mut best: Vec<(f32, usize)> = (0..nodes.len()).map(|own| (f32::INFINITY, own)).collect();
+    let mut best: Vec<(f32, usize)> = (0..nodes.len())
+        .map(|index| (f32::INFINITY, index))
+        .collect();
     for index in 0..nodes.len() {
         for other in index + 1..nodes.len().min(index + 1 + NEIGHBOURS) {
             let cost = union_area(nodes, index, other);
-            for (own, partner) in [(index, other), (other, index)] {
-                if cost <= best[own].0 {
-                    best[own] = (cost, partner);
+            for (node, partner) in [(index, other), (other, index)] {
+                if cost <= best[node].0 {
+                    best[node] = (cost, partner);
                 }
             }
         }
@@ -237,8 +239,11 @@ pub(in crate::accel) mod tests {
 
     #[track_caller]
     fn assert_depth(boxes: Vec<Aabb32>, most: usize) {
-        let found = depth(boxes);
-        assert!(found <= most, "the tree is {found} nodes deep, not {most}");
+        let levels = depth(boxes);
+        assert!(
+            levels <= most,
+            "the tree is {levels} nodes deep, not {most}"
+        );
     }
 
     #[test]

@@ -217,11 +217,11 @@ mod tests {
             let binary = build_binary_tree(&scatter_boxes(22));
             let known = &mut vec![None; binary.nodes.len()];
             let least = least_cost(&binary, rules, 0, known);
-            let found = cost(&Collapse::new(&binary, rules), 0);
+            let total = cost(&Collapse::new(&binary, rules), 0);
             // Sums of two dozen numbers of 32 bits in another order.
             assert!(
-                (found / least - 1.0).abs() < 1e-5,
-                "{found} instead of {least}"
+                (total / least - 1.0).abs() < 1e-5,
+                "{total} instead of {least}"
             );
         }
     }

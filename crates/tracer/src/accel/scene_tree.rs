@@ -376,7 +376,7 @@ impl<'a> SceneTree<'a> {
 /// Refuses objects with too large coordinates: of their swept boxes, or of their meshes in their
 /// own space.
 fn check_coordinates(scene: &Scene, slices: &[Vec<Aabb>]) -> Result<(), TraceError> {
-    let own: Vec<f64> = (scene.meshes.iter())
+    let mesh_extents: Vec<f64> = (scene.meshes.iter())
         .map(|mesh| {
             let shapes = mesh.shapes.iter().flat_map(|shape| &shape.positions);
             let positions = mesh.positions.iter().chain(shapes);
@@ -398,7 +398,7 @@ fn check_coordinates(scene: &Scene, slices: &[Vec<Aabb>]) -> Result<(), TraceErr
         let too_large = |coordinate: &f64| *coordinate > LARGEST_COORDINATE;
         if let Some(coordinate) = coordinates
             .find(too_large)
-            .or(Some(own[object.mesh]).filter(too_large))
+            .or(Some(mesh_extents[object.mesh]).filter(too_large))
         {
             return Err(TraceError::TooFar {
                 scene: scene.id.to_string(),

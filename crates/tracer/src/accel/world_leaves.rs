@@ -6,8 +6,8 @@ use crate::geometry::aabb::Aabb;
 use crate::motion::poses::Poses;
 use crate::scene::Scene;
 
-/// Upper limit on instanced leaves that are copied into the world tree, those of up to 2 million
-/// triangles.
+/// Upper limit on instanced leaves that are copied into the world tree; so many hold up to 2
+/// million triangles.
 const MAX_COPIES: usize = 1 << 18;
 /// Least mean size of an object's leaves, as a part of the scene's greatest coordinate. A ray's
 /// boxes are grown by 2e-6 of that coordinate, so by a fifth of a leaf at most.
@@ -34,8 +34,8 @@ pub(crate) fn collect_world_leaves(
         let showing = (0..scene.objects.len()).filter(|&object| scene.objects[object].mesh == mesh);
         let (still, moving): (Vec<usize>, Vec<usize>) =
             showing.partition(|&object| poses.stands_still(object));
-        let own = usize::from(moving.is_empty());
-        let with_these = copies + still.len().saturating_sub(own) * tree.leaf_count();
+        let originals = usize::from(moving.is_empty());
+        let with_these = copies + still.len().saturating_sub(originals) * tree.leaf_count();
         if with_these > MAX_COPIES || tree.leaf_count() > max_leaves {
             continue;
         }

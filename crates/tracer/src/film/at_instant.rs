@@ -116,8 +116,8 @@ impl InstantView {
         } else {
             let to_object = poses.pose(hit.object).to_object;
             let to_world = then.pose(hit.object).to_world;
-            let own = to_object.transform_vector3(ray.direction);
-            to_world.transform_vector3(own).normalize()
+            let object_direction = to_object.transform_vector3(ray.direction);
+            to_world.transform_vector3(object_direction).normalize()
         };
         let distance = if same_side { way.length() } else { hit.t };
         let ray = Ray {
@@ -244,8 +244,8 @@ fn is_blocked(stage: &Stage, then: &mut Poses, ray: &Ray, limit: f64, is_still: 
 /// Finds the point of a hit as it was at the instant, in the world.
 fn find_point(stage: &Stage, then: &mut Poses, hit: &Hit) -> DVec3 {
     let mesh = &stage.scene.meshes[stage.scene.objects[hit.object].mesh];
-    let own = mesh.at(0.0).point(hit.triangle, hit.weights);
-    then.pose(hit.object).to_world.transform_point3(own)
+    let point = mesh.at(0.0).point(hit.triangle, hit.weights);
+    then.pose(hit.object).to_world.transform_point3(point)
 }
 
 impl InstantSums {

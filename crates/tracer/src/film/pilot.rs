@@ -79,10 +79,10 @@ pub(crate) fn choose_samples(
         probe_pixel(replicates, moving)
     })?;
     let [columns, rows] = [pilot.canvas.width, pilot.canvas.height].map(|side| side.div_ceil(TILE));
-    let mut found = Raster::filled(columns, rows, TilePilot::default());
+    let mut tiles = Raster::filled(columns, rows, TilePilot::default());
     for (&pixel, probe) in pixels.iter().zip(&probes) {
         let [column, row] = find_tile(pilot.canvas, pixel);
-        let tile = &mut found.pixels[(row * columns + column) as usize];
+        let tile = &mut tiles.pixels[(row * columns + column) as usize];
         tile.pixels += 1.0;
         tile.variance += probe.variance;
         tile.coverage_variance += probe.coverage_variance;
@@ -91,14 +91,14 @@ pub(crate) fn choose_samples(
         tile.moves |= probe.moves;
     }
     // Variance of three times the cube root of radiance, which is about as lightness is perceived.
-    let variance = widen(&found.map(|tile| {
+    let variance = widen(&tiles.map(|tile| {
         let pixels = tile.pixels;
         let shown = tile.variance / (DARK + tile.radiance / pixels).powf(4.0 / 3.0);
         (shown + WEIGHT_OF_COVERAGE * tile.coverage_variance) / pixels
     }));
-    let near_motion = dilate_square(&found.map(|tile| tile.moves), margin.div_ceil(TILE));
-    let demands = Raster::from_fn(found.width, found.height, |x, y| {
-        let tile = found.at(x, y);
+    let near_motion = dilate_square(&tiles.map(|tile| tile.moves), margin.div_ceil(TILE));
+    let demands = Raster::from_fn(tiles.width, tiles.height, |x, y| {
+        let tile = tiles.at(x, y);
         let weight = if *near_motion.at(x, y) {
             1.0
         } else {

@@ -21,8 +21,8 @@ use crate::stage::Stage;
 
 /// Pixels that a thread takes at a time; between two tasks it reports progress.
 const PIXELS_PER_TASK: usize = 64;
-/// One sample of a recalled pixel in so many is shaded at the instant, too, but at least one. One
-/// in eight would make the noise floor of frozen shading 2.5 times as high.
+/// A recalled pixel has one in so many of its samples shaded at the instant, too, and at least one
+/// sample. One in eight would make the noise floor of frozen shading 2.5 times as high.
 const ONE_RECALLED_IN: u32 = 4;
 
 /// Times of the samples of a picture.
@@ -47,8 +47,8 @@ pub(crate) struct Film<'a> {
     pub times: &'a [Times<'a>],
     /// View of the instant, if samples are looked up there; the stage must then hold `t = 0`.
     pub instant: Option<InstantView>,
-    /// Per picture, the pixels whose first samples are shaded at the instant, too; without a
-    /// picture's, none of its are.
+    /// Per picture, the pixels whose first samples are shaded at the instant, too; a picture
+    /// without a raster has no such pixels.
     pub recalled: &'a [&'a Raster<bool>],
     /// Independent, complete sets of samples, by the numbers that seed them.
     pub replicates: Range<u32>,
@@ -219,8 +219,8 @@ impl<'a> Film<'a> {
         sampler: &Sampler,
         sample: &mut FilmSample,
     ) {
-        let own = eye.ray_at(time, self.canvas.place(pixel, within), sampler);
-        let ray = own.ray;
+        let eye_ray = eye.ray_at(time, self.canvas.place(pixel, within), sampler);
+        let ray = eye_ray.ray;
         let stage = self.integrator.stage;
         let then = &mut eye.instant;
         sample.clear(self.canvas.place(pixel, [0.5; 2]));
@@ -231,17 +231,17 @@ impl<'a> Film<'a> {
             let hit = layer.stop.map(|stop| stop.hit);
             let place = match &self.instant {
                 Some(instant) if sample.is_recalled => {
-                    let point = instant.look_back(stage, (poses, then), &own, hit.as_ref());
+                    let point = instant.look_back(stage, (poses, then), &eye_ray, hit.as_ref());
                     sample.unknowable += layer.share * f64::from(!point.is_shown);
                     if let Some(stop) = layer.stop {
                         let path = (radiance, bounces);
-                        let own =
+                        let shift =
                             instant.shift(&self.integrator, then, (&point, stop), path, sampler);
-                        sample.shift += layer.weight * own;
+                        sample.shift += layer.weight * shift;
                     }
                     point.place
                 }
-                Some(instant) => instant.find_place(stage, then, &own, hit.as_ref()),
+                Some(instant) => instant.find_place(stage, then, &eye_ray, hit.as_ref()),
                 None => None,
             };
             sample.seen.push(SeenPoint {

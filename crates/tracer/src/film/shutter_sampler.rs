@@ -66,8 +66,8 @@ impl ShutterSampler {
         self.time(self.sample_part(number), row, height)
     }
 
-    /// The time of that sample's sub-frame: the middle of the one of `subframes` equal parts of the
-    /// light that has [`ShutterSampler::sample_time`].
+    /// The time of that sample's sub-frame. Sub-frames are `subframes` equal parts of the light;
+    /// this is the middle of the part that has [`ShutterSampler::sample_time`].
     pub fn subframe_time(&self, number: f64, subframes: u32, row: u32, height: u32) -> f64 {
         let subframes = f64::from(subframes);
         let index = (self.sample_part(number) * subframes).floor();
@@ -127,8 +127,11 @@ mod tests {
                     let part = 0.5 / f64::from(subframes);
                     let index = ((time - shutter.open) / part).floor();
                     let middle = shutter.open + (index + 0.5) * part;
-                    let found = sampler.subframe_time(number, subframes, 3, 9);
-                    assert!((found - middle).abs() < 1e-12, "{found} {middle}");
+                    let subframe_time = sampler.subframe_time(number, subframes, 3, 9);
+                    assert!(
+                        (subframe_time - middle).abs() < 1e-12,
+                        "{subframe_time} {middle}"
+                    );
                 }
             }
         }

@@ -16,7 +16,7 @@ use crate::sampler::{Sampler, Stream, pixel_seed};
 /// Rays per pixel, a power of two. Parts that cover less of a pixel than one ray represents may be
 /// missed.
 const SAMPLES: u32 = 64;
-/// Rays per pixel if they and those of all eight neighbours met the same.
+/// Rays per pixel where they and the rays of all eight neighbours found the same.
 const FIRST_SAMPLES: u32 = 16;
 /// Factor on both for a camera with a lens, which spreads what is seen over more pixels and covers
 /// less of each.
@@ -92,8 +92,8 @@ pub(crate) fn trace_supports(
         .collect())
 }
 
-/// Adds samples to the probes that `before` returns, in each of the pixels at those of the film's
-/// times that `is_probed` names.
+/// Adds samples of each of the pixels to the probes that `before` returns. A sample has those of
+/// the film's times that `is_probed` names.
 fn probe_pixels(
     film: &Film,
     pixels: &[u32],
@@ -125,11 +125,11 @@ fn is_plain(canvas: Canvas, probes: &[Vec<PixelProbe>], pixel: u32, number: usiz
     let columns = canvas.columns();
     let around = |at: u32, end: u32| at.saturating_sub(1)..(at + 2).min(end);
     let mut rows = around(pixel / columns, canvas.rows());
-    let own = &probes[pixel as usize][number];
-    !own.is_mixed
+    let probe = &probes[pixel as usize][number];
+    !probe.is_mixed
         && rows.all(|row| {
             around(pixel % columns, columns)
-                .all(|column| probes[(row * columns + column) as usize][number] == *own)
+                .all(|column| probes[(row * columns + column) as usize][number] == *probe)
         })
 }
 
@@ -177,37 +177,37 @@ fn probe_once(
     let sampler = Sampler::new(seed, index);
     let [x, y, part, _] = sampler.camera();
     let mut probed_at = None;
-    let mut found: Vec<(usize, bool)> = Vec::new();
+    let mut hits: Vec<(usize, bool)> = Vec::new();
     // Distance to what the last ray met, if only a mover can keep this ray from meeting it.
     let mut still = None;
     for (times, probe) in probed {
         let time = times.at(part, row, film.canvas.height);
         if probed_at != Some(time) {
-            let own = eye.ray_at(time, [left + x, top + y], &sampler);
+            let eye_ray = eye.ray_at(time, [left + x, top + y], &sampler);
             let then = &mut eye.instant;
-            let is_met = |limit| !stage.is_blocked_by_mover(&mut eye.poses, &own.ray, limit);
+            let is_met = |limit| !stage.is_blocked_by_mover(&mut eye.poses, &eye_ray.ray, limit);
             if !still.is_some_and(is_met) {
-                found.clear();
+                hits.clear();
                 still = None;
-                visit_layers(stage, &mut eye.poses, &own.ray, |poses, layer| {
+                visit_layers(stage, &mut eye.poses, &eye_ray.ray, |poses, layer| {
                     let hit = layer.stop.map(|stop| stop.hit);
-                    let point = instant.look_back(stage, (poses, then), &own, hit.as_ref());
-                    found.push((hit.map_or(0, |hit| hit.object + 1), !point.is_shown));
+                    let point = instant.look_back(stage, (poses, then), &eye_ray, hit.as_ref());
+                    hits.push((hit.map_or(0, |hit| hit.object + 1), !point.is_shown));
                     still = (!stage.has_translucency && instant.sees_still(stage, hit.as_ref()))
                         .then(|| hit.map_or(f64::INFINITY, |hit| hit.t));
                 });
             }
             probed_at = Some(time);
         }
-        probe.mark(&found);
+        probe.mark(&hits);
     }
 }
 
 impl PixelProbe {
     /// Marks the objects that one ray met, each with true if the instant hides the point that the
     /// ray saw.
-    fn mark(&mut self, found: &[(usize, bool)]) {
-        if let [(object, is_hidden)] = found
+    fn mark(&mut self, hits: &[(usize, bool)]) {
+        if let [(object, is_hidden)] = hits
             && self.known == 1
             && self.seen[*object]
         {
@@ -215,13 +215,13 @@ impl PixelProbe {
             return;
         }
         let known = self.known;
-        for (object, is_hidden) in found {
+        for (object, is_hidden) in hits {
             self.seen[*object] = true;
             self.unknowable |= is_hidden;
         }
         let objects = self.seen.iter().enumerate();
         let mut seen = objects.filter(|(_, seen)| **seen).map(|(object, _)| object);
-        let is_found = |object: usize| found.iter().any(|(own, _)| *own == object);
+        let is_found = |object: usize| hits.iter().any(|(hit, _)| *hit == object);
         self.is_mixed |= known > 0 && !seen.all(is_found);
         self.known = self.seen.iter().filter(|seen| **seen).count();
         self.is_mixed |= known > 0 && self.known > known;

@@ -26,10 +26,10 @@ pub(crate) fn density_per_steradian(area: f64, distance: f64, cosine: f64) -> f6
     distance * distance / (area * cosine.abs())
 }
 
-/// Weight of a sample of density `own` that `other` might have sampled as well: the power heuristic
-/// (Veach 1997, section 9.2).
-pub(crate) fn power_heuristic(own: f64, other: f64) -> f64 {
-    let ratio = other / own;
+/// Weight of a sample of one density that a strategy of the density `other` might have drawn as
+/// well: the power heuristic (Veach 1997, section 9.2).
+pub(crate) fn power_heuristic(density: f64, other: f64) -> f64 {
+    let ratio = other / density;
     1.0 / (1.0 + ratio * ratio)
 }
 

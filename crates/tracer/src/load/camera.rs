@@ -87,12 +87,12 @@ fn read_keys(
 }
 
 fn read_field_of_view(document: &Document, degrees: &Spanned<f64>) -> Result<f64, SceneError> {
-    let found = *degrees.get_ref();
-    if (NARROWEST_VIEW..180.0).contains(&found) {
-        return Ok(found.to_radians());
+    let angle = *degrees.get_ref();
+    if (NARROWEST_VIEW..180.0).contains(&angle) {
+        return Ok(angle.to_radians());
     }
     let reason =
-        format!("vertical_fov is {found:?} degrees; allowed: {NARROWEST_VIEW} to below 180");
+        format!("vertical_fov is {angle:?} degrees; allowed: {NARROWEST_VIEW} to below 180");
     Err(document.error(degrees.span(), reason))
 }
 
@@ -163,19 +163,19 @@ fn read_lens(document: &Document, camera: &CameraTable) -> Result<Option<Lens>, 
                 focus: *focus.get_ref(),
             };
             if lens.focus < NEAREST_FOCUS {
-                let found = lens.focus;
+                let distance = lens.focus;
                 return refuse(
                     focus,
-                    format!("focus is {found:?} m; allowed: {NEAREST_FOCUS:e} or more"),
+                    format!("focus is {distance:?} m; allowed: {NEAREST_FOCUS:e} or more"),
                 );
             }
             if !(lens.aperture > 0.0 && lens.aperture <= WIDEST_LENS * lens.focus) {
                 let Lens {
-                    aperture: found,
+                    aperture: diameter,
                     focus,
                 } = lens;
                 let reason = format!(
-                    "aperture is {found:?} m and focus {focus:?} m; allowed: an aperture above 0 and up to {WIDEST_LENS} times \
+                    "aperture is {diameter:?} m and focus {focus:?} m; allowed: an aperture above 0 and up to {WIDEST_LENS} times \
                      the focus; leave both out for a pinhole"
                 );
                 return refuse(aperture, reason);

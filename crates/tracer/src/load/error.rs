@@ -95,9 +95,9 @@ pub(super) fn check_name(name: &str) -> Result<(), String> {
 pub(super) fn check_visible(text: &str) -> Result<(), String> {
     match text.chars().find(|letter| is_hidden(*letter)) {
         None => Ok(()),
-        Some(found) => Err(format!(
+        Some(letter) => Err(format!(
             "holds the control character U+{:04X}; allowed: one line of visible characters",
-            u32::from(found)
+            u32::from(letter)
         )),
     }
 }

@@ -248,30 +248,30 @@ fn check_parts(first: &ObjFile, file: &ObjFile) -> Result<(), SceneError> {
             file.material(part).name
         )
     };
-    let [expected, found] = [first, file].map(|file| {
+    let [expected, parts] = [first, file].map(|file| {
         file.parts
             .iter()
             .map(|part| describe(file, part))
             .collect::<Vec<_>>()
     });
     let name = first.path.display();
-    if expected != found {
-        let differing = expected.iter().zip(&found).position(|(e, f)| e != f);
-        let part = differing.unwrap_or(expected.len().min(found.len()));
+    if expected != parts {
+        let differing = expected.iter().zip(&parts).position(|(e, f)| e != f);
+        let part = differing.unwrap_or(expected.len().min(parts.len()));
         let nothing = "nothing".to_owned();
         let reason = format!(
             "has {} where {name} has {}; key shapes must have the same groups, materials and kinds of faces",
-            found.get(part).unwrap_or(&nothing),
+            parts.get(part).unwrap_or(&nothing),
             expected.get(part).unwrap_or(&nothing)
         );
         return Err(SceneError::in_file(&file.path, reason));
     }
-    for (expected, found) in first.parts.iter().zip(&file.parts) {
-        let [expected, found] = [first.material(expected), file.material(found)];
-        if expected != found {
+    for (expected, part) in first.parts.iter().zip(&file.parts) {
+        let [expected, material] = [first.material(expected), file.material(part)];
+        if expected != material {
             let reason = format!(
                 "material \"{}\" is not the same as in {name}; key shapes must have the same materials",
-                found.name
+                material.name
             );
             return Err(SceneError::in_file(&file.path, reason));
         }

@@ -83,8 +83,8 @@ pub fn load_scene_and_files(
         return Err(SceneError::in_file(&document.path, reason));
     }
     let from_file = id.variant.as_deref();
-    let own = |name: &str| parsed.variant_names().iter().any(|own| own == name);
-    let is_unlit = from_file == Some(UNLIT) && !own(UNLIT);
+    let has_variant = |name: &str| parsed.variant_names().iter().any(|known| known == name);
+    let is_unlit = from_file == Some(UNLIT) && !has_variant(UNLIT);
     let table = parsed.read(from_file.filter(|_| !is_unlit))?;
     parsed.check_variants()?;
     check_picture(&document, &table)?;

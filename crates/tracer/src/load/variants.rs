@@ -169,9 +169,9 @@ fn apply_changes<'a>(scene: &mut DeTable<'a>, changes: DeTable<'a>) {
 /// Merges tables into tables and replaces all other values.
 fn merge_tables<'a>(base: &mut DeTable<'a>, changes: DeTable<'a>) {
     for (key, change) in changes {
-        let own = base.get_mut(key.get_ref().as_ref()).and_then(table_mut);
-        match own.filter(|_| change.get_ref().is_table()) {
-            Some(own) => merge_tables(own, into_table(change)),
+        let table = base.get_mut(key.get_ref().as_ref()).and_then(table_mut);
+        match table.filter(|_| change.get_ref().is_table()) {
+            Some(table) => merge_tables(table, into_table(change)),
             None => replace(base, key, change),
         }
     }

@@ -82,11 +82,11 @@ impl<'a> GlossyBrdf<'a> {
             return BrdfValue::ZERO;
         }
         let mirrored = direction - 2.0 * above * self.facet;
-        let [own, below] =
+        let [value, mirrored_value] =
             [direction, mirrored].map(|direction| self.evaluate_unmirrored(direction));
         BrdfValue {
-            scattered: own.scattered + below.scattered,
-            density: own.density + below.density,
+            scattered: value.scattered + mirrored_value.scattered,
+            density: value.density + mirrored_value.density,
         }
     }
 

@@ -59,13 +59,14 @@ pub(crate) fn is_seen(
     weights: [f64; 2],
 ) -> bool {
     let opacity = || opacity(scene, object, triangle, weights);
-    let Some(own) = find_material(scene, object, triangle).translucency else {
+    let Some(translucency) = find_material(scene, object, triangle).translucency else {
         return opacity() >= Material::HOLE;
     };
-    let changes_light = || own.glass.is_some() || own.filter != Vec3::ONE || opacity() > 0.0;
+    let changes_light =
+        || translucency.glass.is_some() || translucency.filter != Vec3::ONE || opacity() > 0.0;
     match sight {
         Sight::Everything => changes_light(),
-        Sight::Buffers => own.in_buffers && changes_light(),
+        Sight::Buffers => translucency.in_buffers && changes_light(),
         Sight::Opaque => false,
     }
 }

@@ -147,14 +147,14 @@ mod tests {
                 DQuat::from_axis_angle(axis.normalize(), 0.7 * angle),
                 3.0 * axis,
             );
-            let found = extent.aabb(&mesh, &pose, 0.0);
+            let aabb = extent.aabb(&mesh, &pose, 0.0);
             let points = mesh.positions.iter();
             let exact = Aabb::around(points.map(|p| pose.transform_point3(p.as_dvec3())));
             // Rounding only.
-            let grown = found.grown(1e-12);
+            let grown = aabb.grown(1e-12);
             assert!(grown.min.cmple(exact.min).all() && grown.max.cmpge(exact.max).all());
             // 1.6 % by the grid's width, 0.3 % because 2000 points do not fill a sphere.
-            let excess = (found.max - found.min) / (exact.max - exact.min);
+            let excess = (aabb.max - aabb.min) / (exact.max - exact.min);
             assert!(excess.max_element() < 1.02, "{excess}");
         }
     }

@@ -104,12 +104,12 @@ impl PointMotion {
     /// `time`.
     pub(super) fn times(&self, time: f64) -> [f64; 3] {
         let now = self.moved_at;
-        let [shape, own, parents] = match self.objects_before {
+        let [shape, object, parents] = match self.objects_before {
             ObjectsBefore::Own | ObjectsBefore::Identity => [time; 3],
             ObjectsBefore::Now => [now; 3],
             ObjectsBefore::WithParents => [now, now, time],
         };
-        [if self.shapes_stand { now } else { shape }, own, parents]
+        [if self.shapes_stand { now } else { shape }, object, parents]
     }
 }
 

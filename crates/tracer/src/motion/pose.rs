@@ -45,7 +45,7 @@ impl Scene {
         let outwards = self.motion_chain(object).into_iter().zip(times);
         let transforms: Vec<DAffine3> = outwards.map(|(motion, time)| motion.at(time)).collect();
         (transforms.into_iter().rev())
-            .reduce(|outer, own| outer * own)
+            .reduce(|outer, inner| outer * inner)
             .expect("an object is in its own chain")
     }
 }

@@ -196,11 +196,11 @@ impl<'a> Poses<'a> {
 
     /// Poses an object whose parent is up to date.
     fn update_one(&mut self, object: usize) {
-        let own = self.motions.objects[object].at(self.time);
+        let motion = self.motions.objects[object].at(self.time);
         let pose = match self.scene.objects[object].parent {
-            Parent::World => own,
-            Parent::Camera => self.motions.camera.at(self.time).compose(&own),
-            Parent::Object(parent) => self.poses[parent].1.compose(&own),
+            Parent::World => motion,
+            Parent::Camera => self.motions.camera.at(self.time).compose(&motion),
+            Parent::Object(parent) => self.poses[parent].1.compose(&motion),
         };
         self.poses[object] = (self.current, pose);
     }

@@ -54,12 +54,12 @@ pub(crate) fn visit_layers(
             };
             let stop = |mirrors| Some(Stop { hit, mirrors });
             if passage.opacity > 0.0 {
-                let own = Layer {
+                let surface = Layer {
                     stop: stop(false),
                     share: share * passage.opacity,
                     weight: weight * passage.opacity as f32,
                 };
-                visit(poses, own);
+                visit(poses, surface);
             }
             share *= 1.0 - passage.opacity;
             weight *= (1.0 - passage.opacity) as f32;

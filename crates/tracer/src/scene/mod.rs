@@ -156,9 +156,11 @@ impl Scene {
 
     /// Returns whether every surface sends out its own colour alone, in any light.
     pub fn is_unlit(&self) -> bool {
-        self.materials.iter().all(|own| {
-            let is_glass = own.translucency.is_some_and(|own| own.glass.is_some());
-            own.finish == Finish::Diffuse && own.diffuse == Vec3::ZERO && !is_glass
+        self.materials.iter().all(|material| {
+            let is_glass = material
+                .translucency
+                .is_some_and(|translucency| translucency.glass.is_some());
+            material.finish == Finish::Diffuse && material.diffuse == Vec3::ZERO && !is_glass
         })
     }
 

@@ -182,16 +182,16 @@ mod tests {
             let sealed = seal.apply(scene.clone());
             for time in [-1.3, -0.5, -0.1, 0.0, 0.24, 0.9] {
                 for object in 0..scene.objects.len() {
-                    let found = sealed.object_to_world(object, time);
+                    let pose = sealed.object_to_world(object, time);
                     let expected = scene.object_to_world(object, then(time));
                     assert!(
-                        found.abs_diff_eq(expected, 1e-9),
-                        "{name}, object {object} at {time}: {found} {expected}"
+                        pose.abs_diff_eq(expected, 1e-9),
+                        "{name}, object {object} at {time}: {pose} {expected}"
                     );
                 }
-                let found = sealed.camera.motion.at(time);
+                let pose = sealed.camera.motion.at(time);
                 let expected = scene.camera.motion.at(then(time));
-                assert!(found.abs_diff_eq(expected, 1e-9), "{name} at {time}");
+                assert!(pose.abs_diff_eq(expected, 1e-9), "{name} at {time}");
             }
         }
     }
