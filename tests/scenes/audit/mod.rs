@@ -114,7 +114,7 @@ fn id_of(scene: &Scene, name: &str) -> u32 {
 }
 
 fn names(defect: &Defect, is_cause: impl Fn(&Cause) -> bool) -> bool {
-    let mut causes = std::iter::once(&defect.found.cause).chain(&defect.found.looks_like);
+    let mut causes = std::iter::once(&defect.explanation.cause).chain(&defect.explanation.looks_like);
     causes.any(is_cause)
 }
 
@@ -212,7 +212,7 @@ fn assert_motions_named(scenes: &[Scene]) {
                 let own = finding.object.is_some() && cause == Cause::ObjectMotionMissing;
                 let is_same = |it: &Cause| *it == cause || own && *it == Cause::OwnMotionMissing;
                 let is_named = if is_clock {
-                    finding.found.cause == cause
+                    finding.explanation.cause == cause
                 } else {
                     names(finding, is_same)
                 };
@@ -255,7 +255,7 @@ fn a_wrong_sign_is_named_together_with_another_cause() {
             assert!(!found.findings.is_empty(), "{cause:?}");
             for finding in &found.findings {
                 assert!(names(finding, |it| *it == cause), "{turn:?}: {finding:#?}");
-                assert_eq!(finding.found.turned, Some(turn), "{finding:#?}");
+                assert_eq!(finding.explanation.turned, Some(turn), "{finding:#?}");
             }
         }
     }

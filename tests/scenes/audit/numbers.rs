@@ -59,7 +59,7 @@ fn other_numbers_of_velocity_are_named() {
     }
     let nonsense = changed(|[x, y]| [x.sin() * 9.0, (y * x).cos() * 9.0]);
     assert_eq!(nonsense.findings.len(), nonsense.velocity.len());
-    let is_unknown = |it: &engine::Defect| it.found.cause == Cause::Unknown;
+    let is_unknown = |it: &engine::Defect| it.explanation.cause == Cause::Unknown;
     assert!(nonsense.findings.iter().all(is_unknown), "{nonsense:#?}");
     let both = changed(|it| it.map(|part| -part / 60.0));
     let text = &both.findings[0].text;

@@ -39,7 +39,7 @@ fn expect_each(audit: &CaptureAudit, objects: &[&str], is_cause: impl Fn(&Cause)
         let finding = audit.findings.iter().find(is_own);
         let finding = finding.unwrap_or_else(|| panic!("{object}: {:#?}", audit.findings));
         assert_eq!(finding.buffer, Buffer::Velocity);
-        assert!(is_cause(&finding.found.cause), "{finding:#?}");
+        assert!(is_cause(&finding.explanation.cause), "{finding:#?}");
         for word in ["unit", "convention may", "velocity_scale", "times as long"] {
             assert!(!finding.text.contains(word), "{word}: {}", finding.text);
         }
