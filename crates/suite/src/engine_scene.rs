@@ -177,7 +177,7 @@ impl EngineScene {
             Ok(())
         } else {
             Err(Error::Usage(format!(
-                "{}: is of another capture than {INGESTED_FILE} next to it; ingest the capture again",
+                "{}: comes from a different capture than {INGESTED_FILE}; run `ingest` again",
                 self.folder.join(file.path()).display()
             )))
         }

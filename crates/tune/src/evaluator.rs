@@ -236,7 +236,7 @@ fn check_finite(scene: &str, color: &Image, mattes: Option<&[Plane]>) -> Result<
         Ok(())
     } else {
         Err(Error::Usage(format!(
-            "{scene}: the filter's picture holds values that are infinite or no numbers"
+            "{scene}: the filter's picture has infinite or NaN values"
         )))
     }
 }

@@ -146,7 +146,7 @@ fn sub_frames_that_make_no_truth_are_refused() {
     let [second, fourth] = ["2", "4"].map(|at| capture.path(&format!("subframes/000{at}.exr")));
     refuse("subframes: holds 5 sub-frames | even numbers from 4 | capture 32");
     fs::remove_file(&second).unwrap();
-    refuse("subframes/0003.exr: is in the place of 0002.exr | without a gap");
+    refuse("subframes/0003.exr: expected 0002.exr | without gaps");
     fs::rename(fourth, &second).unwrap();
     capture.write("capture.toml", format!("{DESCRIPTION}subframes = 32\n"));
     refuse("subframes: holds 4 sub-frames, capture.toml says 32 | capture all");

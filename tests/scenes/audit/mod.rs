@@ -114,7 +114,8 @@ fn id_of(scene: &Scene, name: &str) -> u32 {
 }
 
 fn names(defect: &Defect, is_cause: impl Fn(&Cause) -> bool) -> bool {
-    let mut causes = std::iter::once(&defect.explanation.cause).chain(&defect.explanation.looks_like);
+    let mut causes =
+        std::iter::once(&defect.explanation.cause).chain(&defect.explanation.looks_like);
     causes.any(is_cause)
 }
 

@@ -20,7 +20,7 @@ const BETWEEN_LOOKS: Duration = Duration::from_millis(50);
 
 /// Words after a signal.
 pub const INTERRUPTED_TEXT: &str =
-    "interrupted; files that are whole stay, and the same command uses them again";
+    "interrupted; finished files are kept, and the same command continues";
 
 /// Makes signals end the current work and the programs that it runs. Work that does not check for
 /// signals ends with the process a moment later. No file is left half-written: files are renamed

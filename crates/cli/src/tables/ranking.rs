@@ -53,11 +53,15 @@ fn hidden_text(presets: usize, rows: usize, hidden: usize) -> String {
     let note = match (presets > rows, hidden > 0) {
         (true, true) => {
             format!(
-                "Each filter by its best preset, and {hidden} more: --table shows all {presets}."
+                "Each filter by its best preset; {hidden} filters are left out: --table shows all {presets} presets."
             )
         }
-        (true, false) => format!("Each filter by its best preset; --table shows all {presets}."),
-        (false, true) => format!("And {hidden} more: --table shows all."),
+        (true, false) => {
+            format!("Each filter by its best preset; --table shows all {presets} presets.")
+        }
+        (false, true) => {
+            format!("{hidden} filters are left out; --table shows all {presets} presets.")
+        }
         (false, false) => return String::new(),
     };
     legend_text(&note)

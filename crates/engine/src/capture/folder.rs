@@ -238,7 +238,7 @@ fn refuse_missing<T>(path: &Path, holds: &str) -> Result<T, Error> {
 fn refuse_key<T>(folder: &Path, key: &str, about: &str) -> Result<T, Error> {
     refuse!(
         folder.join(CAPTURE_FILE),
-        "lacks a line such as `{key}` ({about}); sub-frames and blurred pictures are of a shutter: add it"
+        "sub-frames and blurred pictures need a shutter; add a line such as `{key}` ({about})"
     )
 }
 
@@ -270,7 +270,7 @@ fn list_subframes(folder: &Path, color: &Path) -> Result<Vec<PathBuf>, Error> {
         if !path.ends_with(&expected) {
             return refuse!(
                 path,
-                "is in the place of {expected}; allowed: sub-frames numbered from 0000 without a gap"
+                "expected {expected}: number sub-frames from 0000 without gaps"
             );
         }
     }

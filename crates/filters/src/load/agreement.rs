@@ -75,17 +75,19 @@ impl Filter {
             };
             let uniform_member = (name(member), member.kind, member.offset as usize);
             if wanted != uniform_member {
-                let reason = format!(
-                    "member {} of the uniform parameters is {}: {} at byte {}; {manifest}:{declared} declares {}: {} at byte \
-                     {} there",
-                    index + 1,
-                    uniform_member.0,
-                    uniform_member.1,
-                    uniform_member.2,
-                    wanted.0,
-                    wanted.1,
-                    wanted.2,
+                let (found_name, found_type, found_byte) = uniform_member;
+                let (name, kind, byte) = wanted;
+                let place = format!(
+                    "`parameters` member {} is `{found_name}: {found_type}`",
+                    index + 1
                 );
+                let reason = if (found_name, found_type) == (name.clone(), kind) {
+                    format!(
+                        "{place} at byte {found_byte}, but byte {byte} is expected: leave out @align and @size"
+                    )
+                } else {
+                    format!("{place}, but {manifest}:{declared} declares `{name}: {kind}`")
+                };
                 return Err(self.refuse_kernel(line, reason));
             }
         }

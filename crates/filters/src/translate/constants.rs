@@ -143,7 +143,7 @@ impl Constants<'_> {
                 return match self.find_given(*id) {
                     None => Ok(Some(Instruction::new(Op::Constant, operands))),
                     Some((name, _)) => Err(format!(
-                        "specialisation constant \"{name}\" has not 32 bits; allowed: bool, int, uint and float"
+                        "specialisation constant \"{name}\" is not a 32-bit value; allowed: bool, int, uint and float"
                     )),
                 };
             }

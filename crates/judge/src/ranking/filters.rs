@@ -63,8 +63,9 @@ pub struct RankedScore {
 type Entry<'a> = (RankedFilter, Vec<&'a RankedScore>);
 
 /// Explanation of ranks for readers.
-pub const RANK_RULE: &str = "Rank 2-4: one filter is better, two are too close to tell apart, the others are worse, by the 95 % CI of \
-                             the difference (on one scene, the noise floor).";
+pub const RANK_RULE: &str = "Rank 2-4: one filter is clearly better; two cannot be told apart \
+                             from this one (95 % CI of the difference; on one scene, the \
+                             noise floor).";
 
 /// Upper limit on presets that a summary ranks one by one.
 pub const MAX_RANKED: usize = 16;
