@@ -109,7 +109,7 @@ fn kept_changes_gain_for_certain_by_their_own_tables() {
         let gains = gains(&page);
         let verdict = |begin: &str| {
             let line = page.lines().find_map(|line| line.strip_prefix(begin));
-            line.map(|own| own.trim_matches('`'))
+            line.map(|text| text.trim_matches('`'))
         };
         let smallest = verdict("smallest change: ").expect("a verdict");
         if smallest.starts_with("none; no gain's") {

@@ -169,11 +169,11 @@ fn a_baseline_has_one_number_per_line_under_sorted_keys() {
         .collect();
     assert!(numbers.len() > 20, "{text}");
     assert!(numbers.is_sorted(), "{numbers:#?}");
-    let found = baseline(&sandbox);
-    assert_eq!(found["reasons"], json!(["first"]));
+    let kept = baseline(&sandbox);
+    assert_eq!(kept["reasons"], json!(["first"]));
     let run = sandbox.read_run();
-    assert_eq!(found["adapter"]["name"], run.adapter.unwrap().name);
-    let truth = &found["truths"]["plate"]["trailing"];
+    assert_eq!(kept["adapter"]["name"], run.adapter.unwrap().name);
+    let truth = &kept["truths"]["plate"]["trailing"];
     assert_eq!(*truth, run.cases[0].truth_hash);
     assert_done(&accept(&sandbox, "first"));
     assert_eq!(read(), text);

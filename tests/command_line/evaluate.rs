@@ -61,11 +61,11 @@ fn optuna_finds_something_better() {
     let sandbox = Sandbox::new();
     let output = optuna(&sandbox, &[]).output().unwrap();
     assert!(output.status.success(), "{}", stderr(&output));
-    let found: Value = serde_json::from_str(&stdout(&output)).unwrap();
-    let all = found.as_array().unwrap().iter();
+    let best_trials: Value = serde_json::from_str(&stdout(&output)).unwrap();
+    let all = best_trials.as_array().unwrap().iter();
     let errors = all.map(|best| best[0][0].as_f64().unwrap());
     let least = errors.fold(f64::INFINITY, f64::min);
-    assert!(least < 0.0, "20 trials beat the start: {found}");
+    assert!(least < 0.0, "20 trials beat the start: {best_trials}");
 }
 
 /// Reads the complete operations of a study's journal.

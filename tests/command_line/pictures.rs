@@ -64,13 +64,13 @@ fn every_picture_is_in_the_recipe_and_on_a_page() {
     let mut known: BTreeSet<String> = read_record(&top).into_keys().collect();
     for path in &known {
         let mut made = recipe.run.iter().flat_map(|run| &run.picture);
-        let is_made = made.any(|own| match own.folder {
-            Some(_) => Path::new(path).parent() == Some(Path::new(&own.file)),
-            None => own.file == *path,
+        let is_made = made.any(|picture| match picture.folder {
+            Some(_) => Path::new(path).parent() == Some(Path::new(&picture.file)),
+            None => picture.file == *path,
         });
         assert!(is_made, "{RECORD}: no run of pictures.toml makes {path}");
     }
-    known.extend(recipe.by_hand.into_iter().map(|own| own.file));
+    known.extend(recipe.by_hand.into_iter().map(|picture| picture.file));
     let odd: Vec<&String> = files.symmetric_difference(&known).collect();
     assert!(
         odd.is_empty(),
@@ -86,7 +86,7 @@ fn find_stale(path: &str, lines: &[String], pages: &str, results: &str) -> Vec<S
         }
         let case = line
             .split_once(" / ")
-            .and_then(|own| own.1.rsplit_once(' '));
+            .and_then(|parts| parts.1.rsplit_once(' '));
         case.is_none_or(|(preset, score)| {
             let is_score = |word: &str| word.trim_end_matches('!') == score;
             let in_row = |row: &str| row.contains(preset) && row.split(' ').any(is_score);
@@ -100,9 +100,9 @@ fn find_stale(path: &str, lines: &[String], pages: &str, results: &str) -> Vec<S
 #[test]
 fn every_picture_shows_the_scores_of_its_page_or_of_the_results() {
     let results = Results::read(&root().join("results/320x180_llvmpipe.json")).unwrap();
-    let score = |own: &judge::ResultScores| {
-        let flip = Metric::FLIP.number(own.score(Metric::FLIP)?);
-        Some(format!("{} / {} {flip}\n", own.scene, own.name))
+    let score = |result: &judge::ResultScores| {
+        let flip = Metric::FLIP.number(result.score(Metric::FLIP)?);
+        Some(format!("{} / {} {flip}\n", result.scene, result.name))
     };
     let results: String = results.scores.iter().filter_map(score).collect();
     let pages = list_shown();

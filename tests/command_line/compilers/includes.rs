@@ -51,8 +51,8 @@ fn nothing_outside_of_the_folder_is_included() {
             let head = if *file == "blur.comp" { GLSL } else { "" };
             let text = text.replace("SECRET", &secret);
             fs::write(folder.join(file), format!("{head}{text}\n")).unwrap();
-            let own = format!("#include \"{secret}\"\n");
-            fs::write(folder.join("own.h"), own).unwrap();
+            let include = format!("#include \"{secret}\"\n");
+            fs::write(folder.join("own.h"), include).unwrap();
             symlink(&secret, folder.join("link.h")).unwrap();
             symlink(sandbox.path(""), folder.join("linked")).unwrap();
             let named = if line == "1" { "own.h" } else { file };

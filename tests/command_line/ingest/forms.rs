@@ -29,7 +29,9 @@ fn take_buffers(capture: &Capture) -> [Vec<Plane>; 4] {
         let channels = ["R", "G", "B"].iter().take(split(passes).len());
         match name {
             "object" => vec![capture.frame.object_id.map(|id| *id as f32)],
-            _ => channels.map(|it| file.plane(it).unwrap()).collect(),
+            _ => channels
+                .map(|channel| file.plane(channel).unwrap())
+                .collect(),
         }
     })
 }
@@ -194,13 +196,13 @@ fn files_of_two_captures_are_not_mixed() {
     sandbox.done("engine ingest capture --quiet -o out/engine/other");
     let words = "run --quiet --scenes out/engine/mine --filter identity";
     for name in ["frame.exr", "truth_trailing.exr"] {
-        let [own, other] =
-            ["mine", "other"].map(|it| sandbox.path("out/engine").join(it).join(name));
-        let before = fs::read(&own).unwrap();
-        fs::copy(other, &own).unwrap();
+        let [path, other] =
+            ["mine", "other"].map(|scene| sandbox.path("out/engine").join(scene).join(name));
+        let before = fs::read(&path).unwrap();
+        fs::copy(other, &path).unwrap();
         let parts = [name, "is of another capture", "ingest the capture again"];
         sandbox.refuse(words, &parts);
-        fs::write(&own, before).unwrap();
+        fs::write(&path, before).unwrap();
     }
     sandbox.done(words);
     sandbox.put("out/engine/mine/ingested.json", "{}");
