@@ -84,7 +84,8 @@ fn a_wide_picture_skews_weights_on_diagonals() {
 #[test]
 fn the_sky_counts_at_any_motion() {
     let seen = |depth: f32| {
-        let [ground, sky] = [BLACK_WALL.moving(24.0, 0.0), white(0.0)].map(|it| it.at(depth));
+        let [ground, sky] =
+            [BLACK_WALL.moving(24.0, 0.0), white(0.0)].map(|surface| surface.at(depth));
         let picture = Picture::halves(120, 64, ground, sky);
         column(&picture.blur("bevy", "high", ""), 56)
     };

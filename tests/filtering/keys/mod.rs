@@ -191,7 +191,7 @@ fn blur(filter: &Filter, settings: &filters::Settings) -> Result<String, String>
         .pixels
         .as_flattened()
         .iter()
-        .map(|it| format!("{:x}", it.to_bits()));
+        .map(|number| format!("{:x}", number.to_bits()));
     Ok(bits.collect())
 }
 
