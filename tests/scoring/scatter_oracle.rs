@@ -33,8 +33,8 @@ fn oracle(frame: &Frame, shutter: Shutter) -> Picture {
 #[track_caller]
 fn assert_row(image: &Image, row: u32, expected: impl Fn(u32) -> f64, tolerance: f64) {
     for x in 0..image.width {
-        let found = f64::from(image.at(x, row)[0]);
-        crate::assert_near(&format!("column {x}"), found, expected(x), tolerance);
+        let actual = f64::from(image.at(x, row)[0]);
+        crate::assert_near(&format!("column {x}"), actual, expected(x), tolerance);
     }
 }
 

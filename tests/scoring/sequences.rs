@@ -15,8 +15,8 @@ use crate::{measure_scores, noisy, scene};
 
 /// Compares a score.
 #[track_caller]
-fn assert_near(found: f64, expected: f64, tolerance: f64) {
-    crate::assert_near("score", found, expected, tolerance);
+fn assert_near(actual: f64, expected: f64, tolerance: f64) {
+    crate::assert_near("score", actual, expected, tolerance);
 }
 
 /// Motion per frame in pixels: whole ones, so that moving a picture along is exact.
