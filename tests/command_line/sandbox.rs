@@ -376,7 +376,7 @@ pub fn python_with(packages: &[&str]) -> String {
     let python = std::env::var("PYTHON").unwrap_or("python3".to_owned());
     // Finding them is faster than importing them.
     let find = "import sys; from importlib.util import find_spec; \
-        sys.exit(any(not find_spec(own) for own in sys.argv[1:]))";
+        sys.exit(any(not find_spec(name) for name in sys.argv[1:]))";
     let mut command = Command::new(&python);
     let output = command.args(["-c", find]).args(packages).output();
     let is_there = output.is_ok_and(|output| output.status.success());

@@ -169,8 +169,8 @@ fn a_broken_bound_is_seen_with_its_place_and_its_pictures() {
     let canvas = |at: usize| format!("$$('article.open .crop canvas')[{at}].toDataURL()");
     let [truth, output, error] = [0, 1, 2].map(canvas);
     browser.until(&format!(
-        "new Set([{truth}, {output}, {error}, (() => {{ const own = $('article.open .crop canvas'); \
-         return Object.assign(document.createElement('canvas'), {{width: own.width, height: own.height}}).toDataURL(); }})()]).size === 4"
+        "new Set([{truth}, {output}, {error}, (() => {{ const canvas = $('article.open .crop canvas'); \
+         return Object.assign(document.createElement('canvas'), {{width: canvas.width, height: canvas.height}}).toDataURL(); }})()]).size === 4"
     ));
     let worst = sandbox.read_findings()[0].worst.clone().unwrap();
     browser.click("article.open button.place");
