@@ -46,19 +46,21 @@ fn intervals_of_filters_contain_the_score_without_noise() {
         let filter = Filter::load(&tests::root().join("shaders").join(name)).unwrap();
         let choice = FilterChoice::new(filter, preset).unwrap();
         let converged = measure(&gpu, &choice, SAMPLES_OF_CONVERGED, 1000);
-        let found: Vec<Vec<Interval>> = (1..=SEEDS)
+        let intervals_by_seed: Vec<Vec<Interval>> = (1..=SEEDS)
             .map(|seed| measure(&gpu, &choice, SAMPLES, seed))
             .collect();
         for (score, converged) in converged.iter().enumerate() {
-            let own = found.iter().map(|intervals| intervals[score]);
-            let held = own
+            let intervals = intervals_by_seed.iter().map(|intervals| intervals[score]);
+            let held = intervals
                 .clone()
-                .filter(|own| own.holds(converged.center))
+                .filter(|interval| interval.holds(converged.center))
                 .count();
             assert!(held >= LEAST, "{name}, score {score}: {held} of {SEEDS}");
             // A score without noise would hold nothing to test.
             assert!(
-                own.clone().any(|own| own.low < own.high),
+                intervals
+                    .clone()
+                    .any(|interval| interval.low < interval.high),
                 "{name}, score {score}"
             );
         }
