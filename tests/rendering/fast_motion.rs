@@ -35,7 +35,7 @@ fn expect_velocity(scene: &Scene, kind: VelocityKind, exact: impl Fn(DVec2) -> D
         (DVec2::new(right, -down), exact(place))
     });
     let both: Vec<(DVec2, DVec2)> = both.collect();
-    let fastest = both.iter().map(|own| own.1.length()).fold(0.0, f64::max);
+    let fastest = both.iter().map(|pair| pair.1.length()).fold(0.0, f64::max);
     for (velocity, expected) in both {
         assert!(
             velocity.distance(expected) <= TOLERANCE * fastest,

@@ -47,8 +47,8 @@ fn a_textured_panel_hangs_upright_and_has_its_holes() {
     let mean = render_small_truth(&scene, 64).mean();
     // Pixels between texels of one quadrant, where interpolation changes nothing.
     for (x, y, expected) in [(3, 2, 0.9), (12, 2, 0.4), (3, 6, 0.6), (12, 6, 0.8)] {
-        let found = mean.color.at(x, y)[0];
-        assert!((found - expected).abs() < 1e-6, "{found} at ({x}, {y})");
+        let level = mean.color.at(x, y)[0];
+        assert!((level - expected).abs() < 1e-6, "{level} at ({x}, {y})");
     }
     // Interpolated alpha is below 0.5 in a square of two texels with rounded corners: 4 (0.5 + 0.75
     // - ln(2) / 2) of 16 texels.
@@ -94,7 +94,7 @@ fn white_things_under_a_white_sky_cannot_be_seen() {
     let truth = render_small_truth(&scene, 256);
     let coverage = truth.mean().coverage;
     assert!(coverage[0].pixels.contains(&0.0));
-    assert!(coverage[5].pixels.iter().any(|own| *own > 0.1));
+    assert!(coverage[5].pixels.iter().any(|share| *share > 0.1));
     // Every path ends in the sky with all its energy, whatever its length.
     expect_everywhere("white", &truth, 1.0);
 }

@@ -54,7 +54,7 @@ fn a_closed_mesh_does_not_hide_its_own_near_side() {
         assert!(mean < 0.5e-3, "shaded again, {what} differ by {mean}");
         let seen = known.placed.pixels.iter().all(|placed| *placed == 1.0);
         assert!(seen, "everything is in front of the camera");
-        let unknown = known.unknowable.pixels.iter().filter(|it| **it > 0.0);
+        let unknown = known.unknowable.pixels.iter().filter(|share| **share > 0.0);
         assert_eq!(unknown.count(), 0, "pixels of a still sphere of {what}");
     }
 }
@@ -90,8 +90,8 @@ fn a_frozen_mirror_shows_the_view_of_the_instant_s_camera() {
     assert!((live - frozen).abs() > 0.05, "they can be told apart");
     // 384 pixels of 256 stratified samples; a quarter of these is shaded again.
     expect_near("live", mean_of(&truth.mean().color), live, 1e-4);
-    let found = mean_of(&truth.frozen_mean());
-    expect_near("frozen", found, frozen, 1e-3);
+    let actual = mean_of(&truth.frozen_mean());
+    expect_near("frozen", actual, frozen, 1e-3);
 }
 
 #[test]
@@ -143,7 +143,7 @@ fn a_turning_sphere_keeps_the_shading_of_the_instant() {
     let truth = render(&scene, Alignment::Trailing, 256);
     // The mean over the picture equals the centre except for second-order terms. A point seen there
     // at time t is, at the instant, where a turn by -rate t has brought it.
-    let found = mean_of(&truth.frozen_mean());
+    let actual = mean_of(&truth.frozen_mean());
     let steps = 10_000;
     let shaded = (0..steps).map(|step| {
         let turned = rate * EXPOSURE * (f64::from(step) + 0.5) / f64::from(steps);
@@ -152,7 +152,7 @@ fn a_turning_sphere_keeps_the_shading_of_the_instant() {
     });
     let expected = 0.6 * shaded.sum::<f64>() / f64::from(steps);
     // The square of 0.02, and interpolated normals.
-    expect_near("frozen", found, expected, 0.002);
+    expect_near("frozen", actual, expected, 0.002);
     let live = mean_of(&truth.mean().color);
     expect_near("live", live, 0.6 * light.z, 0.002);
 }

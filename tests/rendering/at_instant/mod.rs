@@ -82,9 +82,9 @@ fn uncovered_background_and_pixels_beyond_the_border_are_unknowable() {
                 };
                 f64::from(unknown)
             });
-            let found = f64::from(known.unknowable.pixels[pixel]);
+            let actual = f64::from(known.unknowable.pixels[pixel]);
             let what = format!("{alignment}, panel at {at}, column {left}");
-            expect_near(&what, found, expected, STEP_ERROR);
+            expect_near(&what, actual, expected, STEP_ERROR);
         });
     }
 }
@@ -144,8 +144,8 @@ fn the_other_side_of_a_sheet_is_unknowable() {
     let expected = 1.0 - 0.5 * (shown[0] + shown[1]);
     let centre = (HEIGHT / 2 * WIDTH + WIDTH / 2) as usize;
     let unknown = [centre, centre - 1].map(|pixel| f64::from(known.unknowable.pixels[pixel]));
-    let found = 0.5 * (unknown[0] + unknown[1]);
-    expect_near("the sheet's other side", found, expected, STEP_ERROR);
+    let actual = 0.5 * (unknown[0] + unknown[1]);
+    expect_near("the sheet's other side", actual, expected, STEP_ERROR);
 }
 
 #[test]
@@ -160,10 +160,10 @@ fn points_behind_the_camera_have_no_place() {
         let expected = mean_over(left, Alignment::Trailing, |x, t| {
             f64::from((x / DISTANCE).atan() - rate * t < FRAC_PI_2)
         });
-        let found = f64::from(known.placed.pixels[pixel]);
-        expect_near(&format!("column {left}"), found, expected, STEP_ERROR);
+        let placed = f64::from(known.placed.pixels[pixel]);
+        expect_near(&format!("column {left}"), placed, expected, STEP_ERROR);
         let unknown = f64::from(known.unknowable.pixels[pixel]);
         // A point without a position cannot be known.
-        assert!(unknown >= 1.0 - found - 1e-6, "{unknown} {found}");
+        assert!(unknown >= 1.0 - placed - 1e-6, "{unknown} {placed}");
     });
 }

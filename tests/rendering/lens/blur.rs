@@ -87,8 +87,8 @@ fn a_small_disc_becomes_its_circle_of_confusion_and_keeps_its_light() {
         // Variances add up: the circle's of confusion, the disc's, and a pixel's. Measured to 0.6
         // %; a circle a hundredth too wide is off by 1.7 %.
         let expected = CIRCLE * CIRCLE / 16.0 + radius * radius / 4.0 + 1.0 / 12.0;
-        for found in (square / light).to_array() {
-            expect_near(&what, found, expected, 0.012 * expected);
+        for actual in (square / light).to_array() {
+            expect_near(&what, actual, expected, 0.012 * expected);
         }
     }
 }
@@ -137,7 +137,7 @@ fn the_sky_at_infinity_has_a_circle_of_aperture_over_focus() {
             }
         }
         let expected = sum / points;
-        let found = f64::from(frame.color.at(column, row)[0]);
-        expect_near(&format!("row {row}"), found, expected, 0.02);
+        let actual = f64::from(frame.color.at(column, row)[0]);
+        expect_near(&format!("row {row}"), actual, expected, 0.02);
     }
 }
