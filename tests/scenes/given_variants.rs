@@ -29,7 +29,13 @@ fn every_scene_has_sealed_variants_that_move_otherwise() {
         let [plain, sealed, other] = [plain, sealed, other].map(|scene| render(&scene, 1));
         assert_ne!(sealed.velocity, plain.velocity, "{name}");
         assert_ne!(sealed.velocity, other.velocity, "{name}");
-        let moves = |frame: &Frame| frame.velocity.pixels.iter().any(|own| *own != [0.0; 2]);
+        let moves = |frame: &Frame| {
+            frame
+                .velocity
+                .pixels
+                .iter()
+                .any(|velocity| *velocity != [0.0; 2])
+        };
         assert!(moves(&sealed), "{name} stands still");
     }
 }

@@ -42,7 +42,9 @@ fn the_documented_example_loads() {
     assert_eq!(scene.shutter_profile.efficiency, trapezoid);
     assert_eq!(scene.shutter_profile.rolling, 0.05);
     let objects = scene.objects.iter();
-    let parents: Vec<_> = objects.map(|own| (own.name.as_str(), own.parent)).collect();
+    let parents: Vec<_> = objects
+        .map(|object| (object.name.as_str(), object.parent))
+        .collect();
     let expected = [
         ("car", Parent::World),
         ("wheel", Parent::Object(0)),
