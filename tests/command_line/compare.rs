@@ -119,7 +119,7 @@ fn terminal_and_page_show_the_same_numbers() {
         let sign = match mean["metric"].as_str().unwrap() {
             "psnr_moving" | "skill_flip" => -1.0,
             "flip_moving" => 1.0,
-            // Others change by their distance from an ideal value.
+            // Other metrics change by their distance from an ideal value.
             _ => continue,
         };
         assert!((sign * (second - first) - worse).abs() < 1e-9, "{mean}");

@@ -67,7 +67,7 @@ fn a_sharp_sub_frame_of_the_middle_has_no_skill_under_any_shutter() {
         assert_eq!(skill.value(), Some(expected), "{bar} {alignment}");
     }
     assert!(find("accumulate:1", Alignment::Centred).is_none());
-    // The lag behind the frame has its own row.
+    // The table has a row for the lag behind the frame.
     let lag = flip(find("identity", Alignment::Trailing).unwrap())
         - flip(find("accumulate:1", Alignment::Trailing).unwrap());
     assert!(lag > 0.05, "{lag}");
@@ -217,7 +217,7 @@ fn assert_mean(run: &Run) -> [f64; 2] {
 #[test]
 fn means_over_scenes_have_a_student_interval() {
     let sandbox = Sandbox::measured();
-    // One scene makes no mean.
+    // A run of one scene has no mean over scenes.
     assert!(sandbox.read_run().overall.is_empty());
     assert!(!sandbox.measure("--filters identity").contains("mean over"));
 

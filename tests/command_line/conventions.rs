@@ -86,7 +86,7 @@ fn a_frame_in_any_convention_is_blurred_as_the_frame_itself() {
         sandbox.put("engine.toml", &text);
         let convention = Convention::parse(Path::new("engine.toml"), &text).unwrap();
         assert_restores(&convention, &frame);
-        // Each of its parts is in one of these.
+        // A form of one line is skipped: its parts are in the forms of several lines.
         if !form.contains('\n') {
             continue;
         }

@@ -68,7 +68,7 @@ fn runs_of_two_sizes_lie_side_by_side() {
     assert!(contents() == before, "the run was changed");
     let run: suite::Run = sandbox.read_json("out/48x24/run.json");
     assert_eq!((run.render.width, run.render.height), (48, 24));
-    // Both are read back.
+    // Both runs are read back.
     assert_eq!(stdout(&sandbox.outside_ci(&few)), stdout(&check));
     let again = sandbox.measure("--filters identity");
     assert_contains(&again, &["cases: 8, 8 of them read back"]);

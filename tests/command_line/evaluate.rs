@@ -118,7 +118,7 @@ fn two_workers_share_a_study_and_one_goes_on_when_the_other_is_killed() {
     assert!(!best.as_array().unwrap().is_empty());
     let journal = read_journal(&sandbox);
     assert_eq!(find_workers(&journal).len(), 2);
-    // Both may have been in their last trial.
+    // Both workers may have been in their last trial.
     let ended = count_ended(&journal);
     assert!((12..=13).contains(&ended), "{ended}");
 }

@@ -91,14 +91,14 @@ fn rounded_colours_lose_no_score_of_what_a_filter_gathers() {
         let metric = metric.parse().unwrap();
         let score = half.scores.get(metric);
         assert!(score.value().is_some(), "{}: {score:?}", metric.name());
-        // The weights are the same, and so are the gathered colours.
+        // Half floats change neither the weights nor the gathered colours.
         assert_eq!(score, full.scores.get(metric), "{}", metric.name());
     }
-    // The picture is the filter's own.
+    // The picture changes, and so do its scores.
     assert_ne!(half.scores.moving, full.scores.moving);
 }
 
-/// The same is true of many engines' fragment shaders.
+/// Fragment shaders, which many engines have, lose none of these scores either.
 #[test]
 fn shaders_of_engines_keep_their_scores_in_16_bits() {
     for filter in ["godot_blur", "drawn"] {

@@ -38,7 +38,8 @@ fn a_run_scales_a_preset_to_its_width_and_reports_it() {
         serde_json::to_string(&case.scores.moving).unwrap()
     };
     let scaled = measure("", 4, Some(256));
-    // The first case was kept. This is a different case, so it must not be read back.
+    // The first case was kept. With lengths as written the case is another, so the kept one must
+    // not be read back.
     let written = measure("--as-written", 16, None);
     assert_ne!(written, scaled);
     assert_eq!(measure("--set mine.radius=16", 16, Some(256)), written);
@@ -156,7 +157,7 @@ fn a_run_that_mixes_scaled_and_unscaled_filters_says_which_are_which() {
     }
     assert_eq!(note(filters, &["--as-written"]), None);
     assert_eq!(note("mcguire:paper,identity", &[]), None);
-    // Its own width, for all presets.
+    // A manifest can have a width for all of its presets.
     write(&manifest.replacen("[[parameter]]", "reference_width = 256\n\n[[parameter]]", 1));
     assert_eq!(note(filters, &[]), None);
     let cases = sandbox.read_filter_cases();

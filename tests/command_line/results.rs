@@ -332,7 +332,7 @@ fn results_of_two_runs_are_those_of_one() {
     let mut part = whole.clone();
     (part.scores).retain(|score| score.scene != "plate" || score.name != "velocity_gather:coarse");
     assert_eq!(part.scores.len(), 5);
-    // Its own score replaces an older one.
+    // A newer score replaces the older one of the same filter and scene.
     part.scores[0].floor = 9.0;
     part.update(whole.clone()).unwrap();
     assert_eq!(part, whole);
@@ -384,7 +384,7 @@ fn a_filter_that_was_fitted_to_the_scenes_falls_on_sealed_ones() {
         sandbox.copy_scene(name, |text| text.replace("0.2, 0.2, 0.2", light));
     }
     write_learnt_filter(&sandbox);
-    // One where all of the plates move the other way.
+    // The seed turns the motion of all plates round.
     let turns_round = |seed: u64| {
         let turned = |name: &&str| {
             let seal = Seal::new(seed, name);

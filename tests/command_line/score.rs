@@ -153,7 +153,7 @@ fn a_png_is_converted_back_to_radiance() {
         assert_contains(&text, &[&undone]);
         let exceeds = "display white, which the truth exceeds in";
         assert_eq!(text.contains(exceeds), bright, "{text}");
-        // The same, in decibels.
+        // PSNR agrees as closely, in decibels.
         let [psnr, due] = [&actual, &expected].map(|scores| scores.moving.psnr.value().unwrap());
         assert!(bright || (psnr - due).abs() < 0.1, "{psnr} {due}");
     }

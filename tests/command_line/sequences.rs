@@ -128,7 +128,7 @@ fn a_filter_with_history_reads_the_frame_before() {
         let paths = ["", "0001/", "0002/"].map(|frame| format!("out/plate/{frame}{name}"));
         paths.map(|path| sandbox.read_color(&path))
     });
-    // The first frame has no previous one; it serves as its own.
+    // The first frame serves as its own previous frame.
     for (index, before) in [0, 0, 1].into_iter().enumerate() {
         let due = frames[before].map(|pixel| pixel.map(|value| value + index as f32));
         assert!(outputs[index] == due, "frame {index}");

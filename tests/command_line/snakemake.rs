@@ -22,7 +22,7 @@ fn snakemake(sandbox: &Sandbox) -> Command {
     command.arg(format!("program={}", env!("CARGO_BIN_EXE_shuttertruth")));
     command.arg(format!("options={OPTIONS}"));
     command.args(["scenes=plate", "filters=identity,kino:default"]);
-    // It keeps files there that no test needs.
+    // Snakemake keeps files in its cache that no test needs.
     command.env("XDG_CACHE_HOME", sandbox.path("cache"));
     command.current_dir(sandbox.path(""));
     command

@@ -10,7 +10,8 @@ const SIZE: [u32; 2] = [160, 90];
 const SAMPLES: u32 = 64;
 const SAMPLES_OF_CONVERGED: u32 = 1024;
 const SEEDS: u64 = 12;
-/// Of 12 intervals 11.4 on average; fewer than 9 once in 500 times.
+/// Least number of intervals that hold the converged score. Of 12 it is 11.4 on average, and below
+/// 9 once in 500 times.
 const LEAST: usize = 9;
 
 /// Measures a filter on `railing`, whose bars and shadows make noisy frames; returns the intervals

@@ -117,7 +117,8 @@ fn a_smooth_normal_shades_and_transforms_as_a_normal() {
 #[test]
 fn a_floor_under_a_glowing_disc_has_the_radiance_of_its_form_factor() {
     let translucent = film(Vec3::ONE, 0.25, Vec3::ONE);
-    // From small lamps, where light samples weigh most, to large ones, where the lobe's samples do.
+    // The lamps go from small ones, where light samples weigh most, to large ones, where the lobe's
+    // samples do.
     for (radius, lamp, opacity) in [
         (0.02, glowing(1.0), 1.0),
         (0.5, glowing(1.0), 1.0),
@@ -253,7 +254,7 @@ fn a_sky_and_its_image_light_a_floor_by_the_cosine() {
 #[test]
 fn a_small_bright_sun_in_an_image_is_found() {
     let mut scene = grey_floor();
-    // One texel 39 degrees from straight up.
+    // The sun is one texel, 39 degrees from straight up.
     let bright = |x, y| [f32::from((x, y) == (20, 6)) * 1000.0; 3];
     scene.background = map(64, 0.0, bright);
     // The bilinear tent around the texel's middle, by the midpoint rule.

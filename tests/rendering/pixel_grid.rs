@@ -129,7 +129,7 @@ fn pixels_that_are_not_square_cover_the_whole_picture() {
             let rows = [2 * y, 2 * y + 1].map(|row| whole.velocity.at(x, row));
             let middle = [0, 1].map(|axis| 0.5 * (rows[0][axis] + rows[1][axis]));
             let velocity = squeezed.velocity.at(x, y);
-            // Its pixels are twice as high.
+            // The squeezed picture's pixels are twice as high.
             let off = [velocity[0] - middle[0], velocity[1] - 0.5 * middle[1]];
             let is_near = off.iter().all(|axis| axis.abs() < 0.03);
             assert!(is_near, "{velocity:?} {middle:?}");

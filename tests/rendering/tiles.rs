@@ -49,7 +49,7 @@ fn part(whole: &Replicate, tile: Tile) -> Replicate {
 fn a_tile_of_a_replicate_holds_what_the_replicate_holds_there() {
     let fan = load_shipped("fan");
     for scene in [with_lens(fan.clone(), 0.3, 3.0), fan] {
-        // Each has its own pilot and support.
+        // Each tracer has its own pilot and support.
         let tracer = |alignments: &[Alignment]| {
             TruthTracer::new(&scene, &settings(), alignments).expect("settings are allowed")
         };

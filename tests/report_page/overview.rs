@@ -165,10 +165,10 @@ fn everything_fits_a_narrow_screen(browser: &mut Browser, page: &Path) {
     browser.resize(360, 800);
     for part in ["", "#plate/identity:default", "#filter:identity:default"] {
         browser.open(page, part);
-        // It need not be scrolled sideways.
+        // The page need not be scrolled sideways.
         assert_eq!(browser.value(width), 360, "{part}");
     }
-    // Nor need the printed overview.
+    // The printed overview need not be scrolled either.
     browser.resize(794, 1123);
     browser.print();
     browser.open(page, "");

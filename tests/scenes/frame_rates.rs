@@ -172,7 +172,7 @@ fn frames_of_a_sequence_follow_at_the_rate() {
         [None, Some("120fps")].map(|variant| load_scene(&folder.path, variant).unwrap());
     let mut fast = fast.at_frame(2);
     assert_eq!(fast.id.to_string(), "square@120fps/0002");
-    // Samples are chosen for the time that the shutter is open, which has to be the same.
+    // The shutters have to be open for the same time, since samples are chosen for that time.
     fast.exposure = 2.0 * plain.exposure;
     let [one, other] =
         [plain.at_frame(1), fast].map(|scene| render_frame(&scene, VelocityKind::Instantaneous));
@@ -228,7 +228,7 @@ fn times_beyond_the_keys_are_refused() {
     }
     let text = check("24fps", Alignment::Leading).unwrap();
     assert!(text.contains("end at frame 0.4"), "{text}");
-    // So are those that the velocity since the previous frame needs.
+    // Times that the velocity since the previous frame needs are refused as well.
     let scene = load_shipped("flag@24fps");
     let mut settings = RenderSettings::default();
     assert!(settings.check_frame(&scene).is_ok());

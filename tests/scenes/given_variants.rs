@@ -10,7 +10,7 @@ use crate::{load_shipped, shipped};
 const WIDTH: u32 = 64;
 const HEIGHT: u32 = 36;
 
-/// Renders at the pixels' centres, without a lens, which has its own noise.
+/// Renders at the pixels' centres, and without a lens, since lenses make noise.
 fn render(scene: &Scene, seed: u64) -> Frame {
     let mut settings = settings([WIDTH, HEIGHT], 1);
     settings.seed = seed;

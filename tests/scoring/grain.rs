@@ -106,7 +106,7 @@ fn a_perfect_picture_s_grain_seldom_exceeds_its_floor_and_hardly_ever_three_time
         scores.iter().filter(is_above).count()
     };
     assert!(scores.iter().all(|score| score.floor > 0.0));
-    // It scatters about 0.
+    // The score scatters about 0.
     let negative = scores.iter().filter(|score| score.value < 0.0).count();
     assert!((30..=70).contains(&negative), "{negative}");
     // One normal value of six is above a standard deviation, one of 44 above two and one of 740

@@ -137,7 +137,7 @@ fn a_scene_moved_by_whole_pixels_has_the_same_matte_scores() {
     for object in &mut moved.objects {
         object.center = [object.center[0] + 4.0, object.center[1] - 3.0];
     }
-    // All but FLIP on the object, which depends on what is behind it.
+    // FLIP on the object is left out, since it depends on the background.
     let mattes = ObjectMetric::ALL
         .into_iter()
         .filter(|metric| *metric != ObjectMetric::Flip);

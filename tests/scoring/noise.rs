@@ -93,7 +93,8 @@ fn a_perfect_picture_s_unbiased_error_scatters_by_its_floor() {
         // the floor by a fifth.
         let ratio = scatter / floor;
         assert!((0.7..1.25).contains(&ratio), "{name}: {ratio}");
-        // Of 100 normal values, 68, 95 and 99.7 are inside; four standard deviations below.
+        // Of 100 normal values 68, 95 and 99.7 are inside on average. The limits are four standard
+        // deviations lower.
         for (floors, least) in [(1.0, 50), (2.0, 86), (3.0, 96)] {
             assert!(within(floors) >= least, "{name} within {floors} floors");
         }

@@ -158,7 +158,7 @@ fn a_filter_worse_than_doing_nothing_ranks_below_it() {
     let due = (0.154 - 0.253) / 0.130;
     assert!((skill.mean - due).abs() < 1e-9, "{skill:?}");
     assert!(skill.interval[1] < 0.0);
-    // Its FLIP is nevertheless smaller than the identity's against the trailing truth.
+    // The filter's FLIP is nevertheless smaller than the identity's against the trailing truth.
     assert!(mean(&run, "jimenez:wicked", "flip_moving").mean < 0.270);
     let ranking = print_means(&run, 2, "Skill is by");
     // The trailing frame lags: it is worse still, and its lag has a line of its own.

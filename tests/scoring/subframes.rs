@@ -17,7 +17,8 @@ const MANY: u32 = 64;
 /// A number of sub-frames that is no rung.
 const FEW: u32 = 3;
 
-/// A truth and some accumulations of its shutter, and the same without each group of samples.
+/// A truth and some accumulations of its shutter, and the same truth and accumulations without each
+/// group of samples.
 struct Rendered {
     truth: Truth,
     without: Vec<Truth>,

@@ -102,7 +102,7 @@ fn a_limit_inside_the_interval_gives_exit_code_4_and_the_samples_to_decide() {
 #[test]
 fn an_undecided_bound_within_three_floors_gives_exit_code_2_and_the_strictest_bound() {
     let sandbox = make_bounded(0.9, "required");
-    // So little motion is nearly noise.
+    // The error of so little motion is hardly more than noise.
     sandbox.write("scene.toml", &SCENE.replace("-1.6", "-0.002"));
     let finding = &json(&sandbox, "--filters identity")["findings"][0];
     let [floor, strictest] = ["floor", "strictest"].map(|key| finding[key].as_f64().unwrap());
@@ -119,7 +119,7 @@ fn an_undecided_bound_within_three_floors_gives_exit_code_2_and_the_strictest_bo
     // A target fails nothing.
     write_target(&sandbox, middle);
     check(&sandbox, "-v", 0, &["target within noise flip_moving"]);
-    // What an interval decides is certain, and so is another bound that is broken.
+    // Limits outside the interval are decided for certain, and so is another bound that is broken.
     sandbox.write("bounds.toml", &bound("flip_moving", 0.5 * low, "required"));
     check(&sandbox, "", 1, &["BROKEN flip_moving"]);
     sandbox.write(

@@ -33,8 +33,8 @@ fn write_fixture(sandbox: &Sandbox, language: &str, head: &str) {
     fs::write(manifest, format!("{head}{passes}")).unwrap();
 }
 
-/// One filter in three languages, each with every installed compiler for it. `glslangValidator`
-/// always is.
+/// One filter in three languages, each translated by every installed compiler for it.
+/// `glslangValidator` is always installed.
 #[test]
 fn each_compiler_makes_the_picture_that_wgsl_makes() {
     const README: &str = include_str!("../../../shaders/README.md");

@@ -3,7 +3,7 @@
 /// Programs that begin a page's commands.
 const PROGRAMS: &str = "shuttertruth cargo cat make cp pip python3";
 
-/// One step of a page's reader.
+/// A step that the reader of a page takes.
 pub enum Step {
     /// Writes a file, which the page names before a block of code.
     Write { path: String, text: String },

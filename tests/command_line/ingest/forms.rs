@@ -80,15 +80,15 @@ fn one_file_of_blender_s_passes_gives_the_same_frame() {
         .retain(|channel| !channel.name.starts_with("Composite"));
     write_exr(&capture.path("color.exr"), &both).unwrap();
     assert_eq!(show(&sandbox), expected);
-    // Its vectors may end before the motion to the next frame, which is then no motion of the last
-    // one.
+    // The file's vectors may lack the last channel of the motion to the next frame. No motion to
+    // the next frame is read then.
     both.push_plane("Vector.Z", &expected.2);
     write_exr(&capture.path("color.exr"), &both).unwrap();
     ingest(&sandbox);
     let frame = Frame::read(&sandbox.path(OUT).join("frame.exr")).unwrap();
     assert_eq!(frame.velocity_next, None);
     write_exr(&capture.path("color.exr"), &file).unwrap();
-    // A render of its own for colour.
+    // Colour may come from a separate render.
     fs::rename(capture.path("color.exr"), capture.path("buffers.exr")).unwrap();
     capture.write_color("color.exr", &capture.frame.color);
     assert_eq!(show(&sandbox), expected);

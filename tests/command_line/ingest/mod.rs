@@ -126,7 +126,7 @@ fn a_run_on_a_capture_scores_near_our_own_scene_and_ranks_the_engine() {
                  --input velocity=float32";
     let printed = sandbox.done(words);
     assert_contains(&printed, &["Test_Engine_1.2"]);
-    // The same filters on both frames, and the engine's own blur on its own.
+    // This table has the filters that blur both frames, and the engine's blur of its own frame.
     let twins = printed.split("whose frames").nth(1).unwrap();
     let row = |name: &str| -> Vec<&str> {
         let mut lines = twins.lines().map(|line| line.split_whitespace());

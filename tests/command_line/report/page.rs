@@ -36,7 +36,7 @@ fn a_page_shows_the_scores_and_means_of_the_run() {
         let count = count.replace('<', "&lt;").replace('>', "&gt;");
         assert_contains(panel(&page, "n_eq"), &[&format!("{link}>{count}</a>")]);
     }
-    // Each follows the previous one.
+    // The rows follow each other in the order of their means.
     let mut rest = between(&page, "aria-label=\"FLIP of every case\"", "</table>")[0];
     let mut means: Vec<_> = run.overall.iter().collect();
     means.retain(|mean| mean.metric == Metric::FLIP);
@@ -183,8 +183,8 @@ fn costs_come_from_the_bench_beside_the_run() {
     let mut timed: suite::Bench = sandbox.read_json("out/bench.json");
     let mut costs = timed.cases.iter();
     let timing = costs.find(|cost| cost.filter == "identity").unwrap();
-    // Every table of scores has one cell for the filter both run and timed. Those only timed, or
-    // run with other parameters, have none.
+    // Every table of scores has one cell for the filter both run and timed. Filters that were only
+    // timed, or run with other parameters, have none.
     let cell = "<td class=\"cost\" data-value";
     let timed_cell = format!("{cell}=\"{}\">", timing.seconds.median);
     for cell in [cell, &timed_cell] {

@@ -196,7 +196,7 @@ fn phrases(engine: &Engine) -> Vec<String> {
             vec![format!("{tiles} tiles of {} pixels", number("tile_size"))]
         }
         "mcguire:g3d" => {
-            // The filter's own text, which `filtering calibration` measures.
+            // The number is in the filter's own text, whose claim `filtering calibration` measures.
             let text = &preset.filter.cannot;
             let grows = text.split_once("grows on each side").unwrap().1;
             let grows = grows.split_once("(g3d ").unwrap().1;
@@ -396,7 +396,7 @@ fn eevee_is_scored_by_a_mean_of_its_samples_which_is_better_than_one() {
             let score = scores.find(|score| score.scene == *scene && score.name == name);
             score.unwrap().score(Metric::FLIP).unwrap()
         });
-        // One sample of noise is no truer anywhere that is certain.
+        // One sample is certainly truer than the mean on no scene.
         assert!(mean < one + 0.001, "{scene}: {mean}, one sample {one}");
     }
 }

@@ -62,7 +62,7 @@ fn cases_against_other_truths_are_refused() {
     measure_other(&sandbox, &format!("{words} --part filters"));
     let message = "plate/plate/frame.exr and other/plate/frame.exr differ";
     refuse(&sandbox, "plate other", &[message]);
-    // The same exposure, and another truth: another tracer's.
+    // The exposure is the same, but the truth is of another tracer.
     let hash = "\"truth_hash\": \"";
     sandbox.edit("flood/run.json", hash, &format!("{hash}0"));
     let message = "flood/run.json: the truth of plate/jump_flood_paper has the hash 0 | plate/plate/truth_trailing.exr has";

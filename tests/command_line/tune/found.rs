@@ -206,10 +206,11 @@ fn a_study_finds_the_parameters_that_matter() {
     // Weighted taps do not read the extent; only replaced ones do.
     let extent = &study.parameters["behind_extent"];
     assert!(extent.constant && extent.slice.iter().all(|(_, error)| *error == 0.0));
-    // Nine points from 1 to 64, two of them rounded to the same number.
+    // The slice has nine points from 1 to 64, of which two are rounded to the same number.
     let samples = &study.parameters["samples"];
     assert!(!samples.constant && samples.slice.len() == 8, "{samples:?}");
-    // As many as are announced: four rows of two axes, and both slices.
+    // The study measures as many candidates as it announces: four rows of two axes, and both
+    // slices.
     let filter = Filter::builtin("jump_flood").unwrap();
     let axes = ["samples", "behind_extent"].map(str::to_owned);
     let space = Space::new(&filter, filter.settings(Some("corrected")).unwrap(), &axes).unwrap();

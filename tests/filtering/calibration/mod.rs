@@ -31,7 +31,8 @@ fn the_truth_s_smear_is_as_long_as_the_exposure_and_takes_as_much_as_it_gives() 
         }
         let truth = shot.profile(&truth);
         for side in [1.0, -1.0] {
-            // One side of the panel's middle, with positions counted from the panel's edge there.
+            // The ramps are of one side of the panel's middle. Their positions are counted from the
+            // panel's edge on that side.
             let [before, after] = [&shot.matte_profile, &truth].map(|profile| {
                 let half = profile
                     .iter()

@@ -33,7 +33,7 @@ fn a_wide_picture_turns_diagonals_upright() {
         across = across.max((f64::from(x) - 80.0).abs());
         up = up.max((f64::from(y) - 40.0).abs());
     }
-    // In parts of width and height the motion is twice as steep.
+    // The motion is twice as steep in parts of width and height as in pixels.
     assert_near(up / across, 2.0, 0.25);
 }
 

@@ -45,8 +45,8 @@ fn wicked_lets_slow_things_smear_as_far_as_fast_ones() {
     let picture = slow_above_fast(4.8, 24.0);
     let as_published = picture.blur("jimenez", "wicked", "strength=-100");
     assert_within(light_above(&as_published, 20..40), 1.0..);
-    // Compared with the taps' distances, it ends after its own length and a step of 8 pixels. Half
-    // a pixel for fetches.
+    // If motion is compared with the taps' distances, the slow smear ends after its own length, a
+    // step of 8 pixels, and half a pixel for fetches.
     let by_steps = picture.blur("jimenez", "wicked", "strength=-100 spread=steps");
     assert_within(light_above(&by_steps, 1..8), 1.0..);
     assert_eq!(light_above(&by_steps, 20..40), 0.0);

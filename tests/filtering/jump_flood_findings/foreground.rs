@@ -6,8 +6,8 @@ use tests::picture::{BLACK_WALL, Picture, Surface, column, white};
 /// Source of the trail.
 const BACKGROUND: Surface = BLACK_WALL.moving(21.0, 0.0);
 
-/// Returns the weight of the one tap of eight that reaches a white surface in front. It moves right
-/// by `other`, and the trail's source by 21 pixels.
+/// Returns the weight of the one tap of eight that reaches a white surface in front. The surface
+/// moves right by `other`, and the trail's source by 21 pixels.
 fn weight_in_front(preset: &str, other: f32) -> f64 {
     let picture = Picture::halves(160, 24, BACKGROUND, white(other));
     // One step of 64 pixels carries nothing, so every pixel is its own source. Taps are 3 pixels
@@ -68,7 +68,7 @@ fn a_still_surface_in_front_neither_blurs_nor_is_smeared() {
         let post = (90..110).map(|x| column(&output, x));
         [column(&output, 80), post.fold(1.0, f64::min)]
     };
-    // Its own pixels find no source, and taps that reach it do not count.
+    // The post's own pixels find no source, and taps that reach the post do not count.
     assert_eq!(light(2.0), [0.0, 1.0]);
     // Behind the background it counts in full, and the background smears over it.
     let [background, darkest] = light(30.0);

@@ -34,7 +34,7 @@ fn the_leading_edge_fades_and_does_not_stay_hard() {
         // The mover reached the middle of the column this many pixels before it stopped.
         let truth = (f64::from(inside) - 0.5) / SPEED;
         let actual = share(MOVER_END - inside);
-        // One tap of eight.
+        // The tolerance is one tap of eight.
         assert_near(actual, truth, 1.0 / 8.0);
     }
     assert_within(share(MOVER_END - 1), ..0.15);

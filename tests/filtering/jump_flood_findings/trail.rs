@@ -100,7 +100,7 @@ fn vertical_trails_of_a_wide_picture_are_cut_shorter() {
 
 #[test]
 fn the_cut_is_right_only_for_an_exposure_of_one_frame() {
-    // It divides by the exposure where it should not: 32 / 0.5 and 32 / 2 pixels.
+    // The cut wrongly divides by the exposure: 32 / 0.5 and 32 / 2 pixels.
     assert_eq!(reach("paper", false, 90.0, 0.5), 45);
     assert_eq!(reach("paper", false, 140.0, 0.5), 64);
     assert_eq!(reach("paper", false, 90.0, 2.0), 16);

@@ -49,8 +49,8 @@ fn a_closed_mesh_does_not_hide_its_own_near_side() {
         let pairs = frozen.pixels.iter().zip(&live.pixels);
         let differences = pairs.map(|(frozen, live)| f64::from((frozen[0] - live[0]).abs()));
         let mean = differences.sum::<f64>() / f64::from(WIDTH * HEIGHT);
-        // The same random numbers from the same places: rounding may flip one sample in a thousand,
-        // by half of the sky's light.
+        // Both pictures take the same random numbers at the same places. Rounding may flip one
+        // sample in a thousand, by half of the sky's light.
         assert!(mean < 0.5e-3, "shaded again, {what} differ by {mean}");
         let seen = known.placed.pixels.iter().all(|placed| *placed == 1.0);
         assert!(seen, "everything is in front of the camera");
@@ -69,7 +69,7 @@ fn a_frozen_mirror_shows_the_view_of_the_instant_s_camera() {
     let floor = facing_up(DVec3::ZERO);
     add(&mut scene, rectangle(500.0, 500.0), mirror, floor);
     scene.background = heights(0.0, 0.0, 1.0);
-    // Straight down at a slope of 1 to 2, through a spot so small that all pixels see the same.
+    // The camera looks down at a slope of 1 to 2, on a spot so small that all pixels see the same.
     let view = DVec3::new(0.0, -1.0, -2.0);
     scene.camera.motion = through([-1.0, 1.0].map(|time| Key {
         time,
@@ -138,7 +138,7 @@ fn a_turning_sphere_keeps_the_shading_of_the_instant() {
     let turning = spin(place, DVec3::Y, rate);
     add(&mut scene, icosphere(50.0, 6), diffuse(0.6), turning);
     scene.sun = sun(light, PI as f32, 0.0);
-    // So narrow that all pixels see nearly one normal: within 0.02 of +Z.
+    // The view is so narrow that all pixels see nearly one normal: within 0.02 of +Z.
     scene.camera.vertical_fov = vec![(0.0, 0.1)];
     let truth = render(&scene, Alignment::Trailing, 256);
     // The mean over the picture equals the centre except for second-order terms. A point seen there

@@ -64,7 +64,8 @@ fn mean_over(left: f64, alignment: Alignment, value: impl Fn(f64, f64) -> f64) -
 
 #[test]
 fn uncovered_background_and_pixels_beyond_the_border_are_unknowable() {
-    // In the middle, and reaching over the right border; far from the wall and very near it.
+    // The panel is in the middle or reaches over the right border, far from the wall or very near
+    // it.
     let cases = [(2.0, 0.0, 5.0), (2.0, 13.0, 8.0), (1e-5, 0.0, 5.0)];
     for ((gap, at, half), alignment) in cases.into_iter().zip(Alignment::ALL) {
         let scene = panel_over_wall(gap, at, 2.0 * half as f32);

@@ -30,7 +30,8 @@ fn disc_below(at: f64, radius: f64) -> f64 {
 #[test]
 fn motion_and_defocus_are_the_convolution_of_a_box_and_a_disc() {
     for (blur, alignment, angle, speed) in [
-        // So slow that it is still: the mean of the disc's chords over a hundredth of a pixel.
+        // The edge is so slow that it is still: its blur is the mean of the disc's chords over a
+        // hundredth of a pixel.
         (BLURS[0], Alignment::Centred, 0.4, 0.01),
         (BLURS[1], Alignment::Trailing, 0.0, SPEED),
         (BLURS[0], Alignment::Leading, 0.7, SPEED),

@@ -54,7 +54,7 @@ fn where_the_pinhole_shows_everything_the_pass_is_the_lens() {
         std::ops::ControlFlow::Break(())
     });
     assert_eq!(cancelled.err(), Some(TraceError::Cancelled));
-    // The same every time.
+    // Every pass gives the same picture.
     assert_eq!(trace_pass(&scene).apply_to_color(&pinhole), pass);
 }
 

@@ -55,7 +55,7 @@ fn a_frame_is_the_mean_of_shifted_pinhole_frames() {
             size: SIZE,
             offset: offset.into(),
         };
-        // With one seed their noise would be the same, and stay in the mean.
+        // With one seed all pinholes would have the same noise, which would stay in the mean.
         let mut settings = settings_of_two(SIZE, 64);
         settings.seed = seed;
         let traced = trace_frame_part(&scene, &settings, &grid, None, &unwatched);

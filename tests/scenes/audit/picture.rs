@@ -62,7 +62,7 @@ fn colour_tells_the_time_where_nothing_else_does() {
     assert!(late.velocity.iter().all(|object| object.is_right));
     assert!(!late.shows_scene);
     expect(&late, Buffer::Picture, None, is(Cause::DrawnLate(1)));
-    // Only the colour, if all else shows another time.
+    // Only the colour is late if all else is of the instant.
     let scene = load_moving();
     let mut mixed = draw(&scene, 0.0);
     mixed.color = draw(&scene, -1.0).color;

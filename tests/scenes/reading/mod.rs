@@ -20,7 +20,7 @@ fn the_documented_example_loads() {
     let (_, example) = readme.split_once("```toml\n").unwrap();
     let (example, _) = example.split_once("```").unwrap();
     folder.write("scene.toml", example);
-    // The same mesh with the example's names.
+    // The mesh has the names of the example.
     folder.write("car.obj", OBJ.replace("g left", "g wheel"));
     for shape in 0..3 {
         let bent = OBJ.replace("v 1 1 0", &format!("v 1 1 {shape}"));

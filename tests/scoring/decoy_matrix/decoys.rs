@@ -82,8 +82,8 @@ pub fn map_planes(picture: &Picture, change: impl Fn(&Plane) -> Plane) -> Pictur
     }
 }
 
-/// Averages for each pixel what is ahead along its own velocity, in 64 steps. Nothing is carried
-/// beyond an outline.
+/// Averages for each pixel the colours ahead of it along its own velocity, in 64 steps. Nothing is
+/// carried beyond an outline.
 fn gather(frame: &Frame) -> Picture {
     let (width, height) = frame.size();
     let taps = |x: u32, y: u32| {

@@ -13,7 +13,7 @@ use super::touches::touch;
 
 /// Standard deviation of the blur of a good guess, in pixels.
 const GUESS: f64 = 1.0;
-/// The same for the surroundings that replace an erased object.
+/// Standard deviation of the blur of the surroundings that replace an erased object, in pixels.
 const FILLED: f64 = 8.0;
 
 /// A scene with the objects that mistakes are made of; none if it has no such object.
@@ -148,7 +148,7 @@ fn guess_badly(right: &Picture, truth: &Truth) -> Picture {
     }
 }
 
-/// Fills it with its own colours, without their detail.
+/// Fills the unknowable part with its own colours, without their detail.
 fn guess_well(right: &Picture, truth: &Truth) -> Picture {
     let blurred = blur_isotropically(right, GUESS).color;
     Picture {

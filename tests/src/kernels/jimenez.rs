@@ -77,7 +77,7 @@ fn wicked(half: [f64; 2], noise: f64) -> Vec<Tap> {
 /// Places the taps of motion_blur.rs of kajiya: the pixel and three steps on each side, of an
 /// eighth of half the motion, shifted together.
 fn kajiya(steady: &Steady, scale: f64, noise: f64) -> Vec<Tap> {
-    // Its map of motion points back.
+    // The map of motion of kajiya points back.
     let half = scaled(steady.trail(), -0.5 * scale);
     let shift = 0.5 * ((noise * 32.0).floor() - 15.0) / 15.0;
     let along = |steps: f64| scaled(half, steps / 4.0 * 0.5);
