@@ -39,19 +39,19 @@ fn a_wrong_convention_fails_with_the_one_that_would_fit() {
     let capture = Capture::new(&sandbox);
     let other = CONVENTION.replace("\"ndc\"\nvelocity_y", "\"uv\"\nvelocity_y");
     capture.write("engine.toml", &other);
-    let (told, found) = audit(&sandbox, 1);
+    let (told, wrong) = audit(&sandbox, 1);
     let parts = "velocity of `plate` is twice too long | \
         the convention may be wrong: `velocity_scale` 2.000 times what it is";
     assert_contains(&told, &parts);
     let end = "FAIL worst place of plate: out/audit/capture/worst_plate.png \
         written: out/audit/capture/audit.json";
     assert!(told.ends_with(end), "{told}");
-    assert_eq!(found["findings"][0]["object"], "plate");
-    let scale = found["findings"][0]["cause"]["scale"].as_f64().unwrap();
+    assert_eq!(wrong["findings"][0]["object"], "plate");
+    let scale = wrong["findings"][0]["cause"]["scale"].as_f64().unwrap();
     assert!((scale - 2.0).abs() < 0.01, "{scale}");
     let json = sandbox.shuttertruth(&split("engine audit capture -o out/told --json"));
     let json: Value = serde_json::from_slice(&json.stdout).unwrap();
-    assert_eq!(json, found);
+    assert_eq!(json, wrong);
     let picture = frame::read_png(&sandbox.path("out/told/worst_plate.png")).unwrap();
     let size = (picture.width, picture.height);
     assert_eq!(size, (3 * 48 * 5 + 2 * 5, 48 * 5));

@@ -61,10 +61,10 @@ fn compare(sandbox: &Sandbox, code: i32, metric: &str) -> (String, Value) {
     let json = sandbox.check(&split(&format!("{words} --json")));
     let check: Value = serde_json::from_slice(&json.stdout).unwrap();
     let comparisons = check["comparisons"].as_array().unwrap().iter();
-    let mut own = comparisons.filter(|own| own["metric"] == metric);
+    let mut matching = comparisons.filter(|comparison| comparison["metric"] == metric);
     (
         tests::text::squeeze(&stdout(&output)),
-        own.next().unwrap().clone(),
+        matching.next().unwrap().clone(),
     )
 }
 

@@ -30,7 +30,7 @@ const SIX: &str = "--scenes fan,railing,roll,two_spheres,flag,pan_sky";
 #[test]
 fn the_search_finds_a_known_mistake_and_nothing_where_nothing_gains() {
     let sandbox = Sandbox::new();
-    // As it ships, three.js reads motion upside down and twice as long, and brightens by a
+    // The shipped three.js reads motion upside down and twice as long, and brightens by a
     // sixteenth.
     let output = search(
         &sandbox,
@@ -45,7 +45,8 @@ fn the_search_finds_a_known_mistake_and_nothing_where_nothing_gains() {
          | on 6 sealed scenes: | of two parameters: `coordinates=texture, divisor=fetches`",
     );
     assert!(!printed.contains("samples="), "{printed}");
-    // The pixel's own depth does not count in a blur without depth: this changes hardly anything.
+    // A blur without depth does not count the pixel's own depth, so that `depth_scale` changes
+    // hardly anything.
     let output = search(
         &sandbox,
         "vort",
@@ -109,7 +110,7 @@ fn kept_changes_gain_for_certain_by_their_own_tables() {
         let gains = gains(&page);
         let verdict = |begin: &str| {
             let line = page.lines().find_map(|line| line.strip_prefix(begin));
-            line.map(|own| own.trim_matches('`'))
+            line.map(|text| text.trim_matches('`'))
         };
         let smallest = verdict("smallest change: ").expect("a verdict");
         if smallest.starts_with("none; no gain's") {

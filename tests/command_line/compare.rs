@@ -28,8 +28,8 @@ fn compare(sandbox: &Sandbox, other: &str) -> Value {
 /// Finds the change of a filter's FLIP on the plate.
 fn find_flip(compared: &Value) -> &Value {
     let is_own = |change: &&Value| {
-        let own = ["scene", "filter", "metric"].map(|key| &change[key]);
-        own == ["plate", "velocity_gather:fine", "flip_moving"]
+        let id = ["scene", "filter", "metric"].map(|key| &change[key]);
+        id == ["plate", "velocity_gather:fine", "flip_moving"]
     };
     let mut changes = compared["changes"].as_array().unwrap().iter();
     changes.find(is_own).unwrap()
@@ -76,8 +76,8 @@ fn compare_names_a_changed_parameter_and_gives_intervals() {
     let values = [&first, &second].map(|score| score.value().unwrap());
     let worse = values[1] - values[0];
     let flip = find_flip(&compared);
-    let found = ["first", "second", "worse"].map(|key| flip[key].as_f64().unwrap());
-    assert_eq!(found, [values[0], values[1], worse]);
+    let actual = ["first", "second", "worse"].map(|key| flip[key].as_f64().unwrap());
+    assert_eq!(actual, [values[0], values[1], worse]);
     // Two taps instead of many leave gaps that noise cannot explain.
     assert_eq!([&flip["kind"], &flip["basis"]], ["worse", "replicates"]);
     let [low, high] = [0, 1].map(|end| flip["interval"][end].as_f64().unwrap());
@@ -99,24 +99,27 @@ fn terminal_and_page_show_the_same_numbers() {
     let texts = page.split('<').filter_map(|part| part.split_once('>'));
     let texts = texts.map(|(_, text)| text).filter(|text| !text.is_empty());
     let cells = texts.collect::<Vec<_>>().join("|");
-    let mut found = 0;
+    let mut count = 0;
     for row in table.lines().filter(|line| line.contains(" to ")) {
-        let own = row.split("  ").map(str::trim);
-        let own = own.filter(|cell| !cell.is_empty()).skip(1);
-        let own = own.collect::<Vec<_>>().join("|");
-        assert_eq!(own.matches('|').count(), 3, "{row}");
-        assert!(cells.contains(&own), "the page lacks {own}\n{table}");
-        found += 1;
+        let row_cells = row.split("  ").map(str::trim);
+        let row_cells = row_cells.filter(|cell| !cell.is_empty()).skip(1);
+        let row_cells = row_cells.collect::<Vec<_>>().join("|");
+        assert_eq!(row_cells.matches('|').count(), 3, "{row}");
+        assert!(
+            cells.contains(&row_cells),
+            "the page lacks {row_cells}\n{table}"
+        );
+        count += 1;
     }
     // Means, and the scores of two scenes, at least FLIP, skill and PSNR each.
-    assert!(found >= 9, "{table}");
+    assert!(count >= 9, "{table}");
     for mean in compare(&sandbox, "other")["means"].as_array().unwrap() {
         let [first, second, worse] =
             ["first", "second", "worse"].map(|key| mean[key].as_f64().unwrap());
         let sign = match mean["metric"].as_str().unwrap() {
             "psnr_moving" | "skill_flip" => -1.0,
             "flip_moving" => 1.0,
-            // Others change by their distance from an ideal value.
+            // Other metrics change by their distance from an ideal value.
             _ => continue,
         };
         assert!((sign * (second - first) - worse).abs() < 1e-9, "{mean}");
@@ -177,8 +180,8 @@ fn the_page_shows_both_pictures_and_both_runs_and_names_as_text() {
         format!("src=\"data:image/png;base64,{}\"", engine.encode(bytes))
     };
     let other = "other/plate/velocity_gather_fine_samples_2/output.png";
-    let own = "out/plate/velocity_gather_fine/output.png out/plate/truth_trailing.png";
-    for name in own.split(' ').chain([other]) {
+    let pictures = "out/plate/velocity_gather_fine/output.png out/plate/truth_trailing.png";
+    for name in pictures.split(' ').chain([other]) {
         assert_eq!(text.matches(&address(name)).count(), 1, "{name}");
     }
     let parts =

@@ -9,8 +9,8 @@ use tests::text::assert_contains;
 use crate::sandbox::{SCENE, Sandbox, assert_done, quick_command, split};
 
 pub fn find_case<'a>(cases: &'a [Case], name: &str) -> &'a Case {
-    let found = cases.iter().find(|case| case.name() == name);
-    found.unwrap_or_else(|| {
+    let case = cases.iter().find(|case| case.name() == name);
+    case.unwrap_or_else(|| {
         let names: Vec<String> = cases.iter().map(|case| case.name()).collect();
         panic!("no {name} among {names:?}")
     })
@@ -27,8 +27,13 @@ fn filters_of_two_alignments_share_a_common_shutter() {
     let run = sandbox.read_run();
     assert_eq!(run.common_alignment, Alignment::Centred);
     for case in &run.cases {
-        let own = case.common == case.scores.moving;
-        assert_eq!(own, case.alignment == Alignment::Centred, "{}", case.name());
+        let is_common = case.common == case.scores.moving;
+        assert_eq!(
+            is_common,
+            case.alignment == Alignment::Centred,
+            "{}",
+            case.name()
+        );
     }
     // The mean of many sub-frames, half an exposure early, does not match the common interval.
     let many = run.cases.iter().filter(|case| case.preset == "64");
@@ -47,8 +52,8 @@ fn a_sharp_sub_frame_of_the_middle_has_no_skill_under_any_shutter() {
     let text = sandbox.execute(&[&quick_command("run", "64")[..], &filters].concat());
     let run = sandbox.read_run();
     let find = |bar: &str, alignment: Alignment| {
-        let mut found = run.cases.iter();
-        found.find(|case| case.name() == bar && case.alignment == alignment)
+        let mut cases = run.cases.iter();
+        cases.find(|case| case.name() == bar && case.alignment == alignment)
     };
     // Skill is measured from a sharp picture of the shutter's middle to the one-frame oracle.
     for (bar, alignment, expected) in [
@@ -57,12 +62,12 @@ fn a_sharp_sub_frame_of_the_middle_has_no_skill_under_any_shutter() {
         ("scatter_oracle", Alignment::Trailing, 1.0),
         ("scatter_oracle", Alignment::Centred, 1.0),
     ] {
-        let found = find(bar, alignment).unwrap();
-        let skill = found.scores.get("skill_flip".parse().unwrap());
+        let case = find(bar, alignment).unwrap();
+        let skill = case.scores.get("skill_flip".parse().unwrap());
         assert_eq!(skill.value(), Some(expected), "{bar} {alignment}");
     }
     assert!(find("accumulate:1", Alignment::Centred).is_none());
-    // The lag behind the frame has its own row.
+    // The table has a row for the lag behind the frame.
     let lag = flip(find("identity", Alignment::Trailing).unwrap())
         - flip(find("accumulate:1", Alignment::Trailing).unwrap());
     assert!(lag > 0.05, "{lag}");
@@ -188,8 +193,8 @@ fn forms_of_the_input_cost_what_they_take_away() {
 /// Checks the mean of the identity's FLIP on two scenes; returns its interval.
 fn assert_mean(run: &Run) -> [f64; 2] {
     let name = "identity:default";
-    let own = run.cases.iter().filter(|case| case.name() == name);
-    let [first, second] = own.map(flip).collect::<Vec<_>>()[..] else {
+    let identities = run.cases.iter().filter(|case| case.name() == name);
+    let [first, second] = identities.map(flip).collect::<Vec<_>>()[..] else {
         panic!("two scenes");
     };
     let mut means = run.overall.iter();
@@ -212,7 +217,7 @@ fn assert_mean(run: &Run) -> [f64; 2] {
 #[test]
 fn means_over_scenes_have_a_student_interval() {
     let sandbox = Sandbox::measured();
-    // One scene makes no mean.
+    // A run of one scene has no mean over scenes.
     assert!(sandbox.read_run().overall.is_empty());
     assert!(!sandbox.measure("--filters identity").contains("mean over"));
 

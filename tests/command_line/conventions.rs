@@ -61,11 +61,11 @@ fn assert_restores(convention: &Convention, frame: &Frame) {
         .unwrap();
     let depth = (convention.restore_depth(&convention.convert_depth(&frame.depth))).unwrap();
     assert!(largest_difference(&color, &frame.color) < 1e-6);
-    for (own, due) in velocity.pixels.iter().zip(&frame.velocity.pixels) {
-        assert!((own[0] - due[0]).hypot(own[1] - due[1]) < 1e-4);
+    for (restored, due) in velocity.pixels.iter().zip(&frame.velocity.pixels) {
+        assert!((restored[0] - due[0]).hypot(restored[1] - due[1]) < 1e-4);
     }
-    for (own, due) in depth.pixels.iter().zip(&frame.depth.pixels) {
-        assert!((own / due - 1.0).abs() < 1e-4, "{own} {due}");
+    for (restored, due) in depth.pixels.iter().zip(&frame.depth.pixels) {
+        assert!((restored / due - 1.0).abs() < 1e-4, "{restored} {due}");
     }
 }
 
@@ -86,15 +86,15 @@ fn a_frame_in_any_convention_is_blurred_as_the_frame_itself() {
         sandbox.put("engine.toml", &text);
         let convention = Convention::parse(Path::new("engine.toml"), &text).unwrap();
         assert_restores(&convention, &frame);
-        // Each of its parts is in one of these.
+        // A form of one line is skipped: its parts are in the forms of several lines.
         if !form.contains('\n') {
             continue;
         }
         write_engine_frame(&sandbox.path("engine.exr"), &frame, &convention);
-        let found = blur("--frame engine.exr --convention engine.toml");
-        let found = convention.restore_color(&found).unwrap();
+        let actual = blur("--frame engine.exr --convention engine.toml");
+        let actual = convention.restore_color(&actual).unwrap();
         // Rounding of velocity and depth to 24 binary digits and back.
-        let difference = largest_difference(&expected, &found);
+        let difference = largest_difference(&expected, &actual);
         assert!(difference < 1e-4, "{form}: {difference}");
     }
 }

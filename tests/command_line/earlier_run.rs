@@ -68,7 +68,7 @@ fn runs_of_two_sizes_lie_side_by_side() {
     assert!(contents() == before, "the run was changed");
     let run: suite::Run = sandbox.read_json("out/48x24/run.json");
     assert_eq!((run.render.width, run.render.height), (48, 24));
-    // Both are read back.
+    // Both runs are read back.
     assert_eq!(stdout(&sandbox.outside_ci(&few)), stdout(&check));
     let again = sandbox.measure("--filters identity");
     assert_contains(&again, &["cases: 8, 8 of them read back"]);
@@ -169,11 +169,11 @@ fn a_baseline_has_one_number_per_line_under_sorted_keys() {
         .collect();
     assert!(numbers.len() > 20, "{text}");
     assert!(numbers.is_sorted(), "{numbers:#?}");
-    let found = baseline(&sandbox);
-    assert_eq!(found["reasons"], json!(["first"]));
+    let kept = baseline(&sandbox);
+    assert_eq!(kept["reasons"], json!(["first"]));
     let run = sandbox.read_run();
-    assert_eq!(found["adapter"]["name"], run.adapter.unwrap().name);
-    let truth = &found["truths"]["plate"]["trailing"];
+    assert_eq!(kept["adapter"]["name"], run.adapter.unwrap().name);
+    let truth = &kept["truths"]["plate"]["trailing"];
     assert_eq!(*truth, run.cases[0].truth_hash);
     assert_done(&accept(&sandbox, "first"));
     assert_eq!(read(), text);

@@ -21,14 +21,14 @@ fn a_run_in_an_empty_folder_equals_one_with_the_folder_of_scenes() {
     let sandbox = empty();
     let folder = scenes().display().to_string();
     let disk = format!("--scenes-dir {folder}");
-    let [own, disk] = [("own", ""), ("disk", &disk)].map(|(out, more)| {
+    let [bundle, disk] = [("own", ""), ("disk", &disk)].map(|(out, more)| {
         sandbox.done(&format!("run --quiet {QUICK} --out {out} {more}"));
         // The truth's file contains the hash of its inputs.
         let truth = sandbox.path(out).join("fan/truth_trailing.exr");
         (sandbox.read_comparable(out), fs::read(truth).unwrap())
     });
-    assert_eq!(own.0, disk.0);
-    assert!(own.1 == disk.1, "the truths differ");
+    assert_eq!(bundle.0, disk.0);
+    assert!(bundle.1 == disk.1, "the truths differ");
 }
 
 #[test]
@@ -59,7 +59,7 @@ fn a_check_in_an_empty_folder_is_judged_by_the_limits_that_come_along() {
 
 #[test]
 fn the_program_s_own_scenes_are_those_of_the_repository() {
-    let own = Location::of_bundle(&catalogue::SCENES);
+    let bundle = Location::of_bundle(&catalogue::SCENES);
     let mut names = (catalogue::SCENES.list)();
     for path in files_below(&scenes()) {
         let name = path.strip_prefix(scenes()).unwrap().to_str();
@@ -68,13 +68,13 @@ fn the_program_s_own_scenes_are_those_of_the_repository() {
         if name != "bounds.toml" && !scenes().join(folder).join("scene.toml").is_file() {
             continue;
         }
-        let bytes = own.join(&name).read(1 << 30).unwrap();
+        let bytes = bundle.join(&name).read(1 << 30).unwrap();
         assert!(bytes == fs::read(&path).unwrap(), "{name} differs");
-        names.retain(|own| *own != name);
+        names.retain(|listed| *listed != name);
     }
     assert!(names.is_empty(), "not in the repository: {names:?}");
     let hash = |folder: Location| load_scene(folder, None).unwrap().hash;
-    assert_eq!(hash(own.join("fan")), hash(scenes().join("fan").into()));
+    assert_eq!(hash(bundle.join("fan")), hash(scenes().join("fan").into()));
 }
 
 #[test]
@@ -85,7 +85,11 @@ fn copied_scenes_are_those_of_the_program_and_nothing_is_overwritten() {
     let copied = read_below(&sandbox.path("scenes"));
     let expected = ["fan", "railing", "bounds.toml"];
     let mut shipped = read_below(&scenes());
-    shipped.retain(|(name, _)| expected.iter().any(|own| name.starts_with(own)));
+    shipped.retain(|(name, _)| {
+        expected
+            .iter()
+            .any(|name_begin| name.starts_with(name_begin))
+    });
     assert_same_files(&copied, &shipped);
     // The user's own limits are kept.
     let bounds = sandbox.path("scenes/bounds.toml");
@@ -122,13 +126,19 @@ fn a_killed_copy_leaves_no_half_scene_and_does_not_block_the_next() {
 
 #[test]
 fn a_path_out_of_the_program_s_own_scenes_leads_nowhere() {
-    let own = Location::of_bundle(&catalogue::SCENES);
+    let bundle = Location::of_bundle(&catalogue::SCENES);
     for path in split("../Cargo.toml /etc/hostname fan/../../Cargo.toml fan no/scene.toml") {
-        let message = own.join(path).read(1 << 20).unwrap_err().to_string();
+        let message = bundle.join(path).read(1 << 20).unwrap_err().to_string();
         assert!(message.contains("cannot read"), "{path}: {message}");
     }
-    assert!(own.join("fan").is_dir() && !own.join("fa").is_dir() && !own.join("fan").is_file());
-    let message = own.join("fan/scene.toml").read(9).unwrap_err().to_string();
+    assert!(
+        bundle.join("fan").is_dir() && !bundle.join("fa").is_dir() && !bundle.join("fan").is_file()
+    );
+    let message = bundle
+        .join("fan/scene.toml")
+        .read(9)
+        .unwrap_err()
+        .to_string();
     assert!(message.contains("allowed: up to 9"), "{message}");
     assert!(root().join("Cargo.toml").is_file());
 }

@@ -61,11 +61,11 @@ fn optuna_finds_something_better() {
     let sandbox = Sandbox::new();
     let output = optuna(&sandbox, &[]).output().unwrap();
     assert!(output.status.success(), "{}", stderr(&output));
-    let found: Value = serde_json::from_str(&stdout(&output)).unwrap();
-    let all = found.as_array().unwrap().iter();
+    let best_trials: Value = serde_json::from_str(&stdout(&output)).unwrap();
+    let all = best_trials.as_array().unwrap().iter();
     let errors = all.map(|best| best[0][0].as_f64().unwrap());
     let least = errors.fold(f64::INFINITY, f64::min);
-    assert!(least < 0.0, "20 trials beat the start: {found}");
+    assert!(least < 0.0, "20 trials beat the start: {best_trials}");
 }
 
 /// Reads the complete operations of a study's journal.
@@ -118,7 +118,7 @@ fn two_workers_share_a_study_and_one_goes_on_when_the_other_is_killed() {
     assert!(!best.as_array().unwrap().is_empty());
     let journal = read_journal(&sandbox);
     assert_eq!(find_workers(&journal).len(), 2);
-    // Both may have been in their last trial.
+    // Both workers may have been in their last trial.
     let ended = count_ended(&journal);
     assert!((12..=13).contains(&ended), "{ended}");
 }

@@ -58,7 +58,7 @@ fn a_mask_of_what_is_attached_to_the_camera_is_made_for_filters_that_read_it() {
         .collect();
     assert_eq!(outputs.len(), 4, "the full frame, and three forms");
     assert!(outputs[0] == marked(&frame) && outputs[3] == outputs[0]);
-    let count = |own: &Image| own.pixels.iter().filter(|pixel| pixel[0] > 0.5).count();
+    let count = |image: &Image| image.pixels.iter().filter(|pixel| pixel[0] > 0.5).count();
     let [full, small] = [0, 1].map(|at| count(&outputs[at]) as f64);
     assert!((small / full - 1.0).abs() < 0.2, "{small} {full}");
 
@@ -86,7 +86,7 @@ fn the_example_leaves_excluded_pixels_alone() {
     let changes = ["without", "with"].map(|preset| {
         let name = format!("out/plate/excluded_gather_{preset}_mask/output.exr");
         let output = sandbox.read_color(&name);
-        let changed = output.zip(&frame.color, |own, frame| own != frame);
+        let changed = output.zip(&frame.color, |blurred, frame| blurred != frame);
         let pairs = changed.pixels.iter().zip(&mask.pixels);
         pairs
             .filter(|(changed, mark)| **changed && mark[0] == 1.0)

@@ -61,9 +61,9 @@ fn a_check_with_a_failed_case_is_broken() {
     assert_contains(&stdout(&output), &["dim / torn:default\n  FAILED"]);
     let junit = sandbox.text("junit.xml");
     assert_contains(&junit, &["type=\"failed\""]);
-    let found: serde_json::Value = serde_json::from_slice(&check("--json").stdout).unwrap();
-    assert_eq!(found["decision"], "broken");
-    assert_eq!(found["failures"][0]["scene"], "dim");
+    let verdict: serde_json::Value = serde_json::from_slice(&check("--json").stdout).unwrap();
+    assert_eq!(verdict["decision"], "broken");
+    assert_eq!(verdict["failures"][0]["scene"], "dim");
     assert_done(&check("--scenes plate"));
 }
 

@@ -75,11 +75,11 @@ fn assert_broken(scene: &str, table: &str) {
     let output = compare(&words);
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
     let printed = stdout(&output);
-    let found = rows(&printed).map(|row| format!("{} {}", row[0], row[row.len() - 1]));
+    let actual = rows(&printed).map(|row| format!("{} {}", row[0], row[row.len() - 1]));
     let due = changes
         .iter()
         .map(|(preset, _)| format!("`{preset}` BROKEN"));
-    assert!(found.eq(due), "{printed}");
+    assert!(actual.eq(due), "{printed}");
     let presets: Vec<&str> = changes.iter().map(|(preset, _)| *preset).collect();
     assert_contains(&stderr(&output), &presets);
 }

@@ -49,17 +49,21 @@ fn blur_and_score_repeat_the_sequence_of_a_run() {
     let pictures = ["mine/0000.exr", "mine/0001.exr", "mine/0002.exr"];
     for (picture, folder) in pictures.iter().zip(["plate", "plate/0001", "plate/0002"]) {
         let expected = sandbox.read_color(&format!("out/{folder}/late_default/output.exr"));
-        let found = sandbox.read_color(picture);
-        assert!(found == expected, "{picture}: bit for bit");
+        let actual = sandbox.read_color(picture);
+        assert!(actual == expected, "{picture}: bit for bit");
     }
     let run = sandbox.read_run();
-    let own = run.sequences.iter().find(|own| !own.is_reference).unwrap();
+    let sequence = run
+        .sequences
+        .iter()
+        .find(|sequence| !sequence.is_reference)
+        .unwrap();
     let same = scores(&sandbox, "mine", &["--fps", "24"]);
-    assert_eq!(same, own.scores, "bit for bit");
+    assert_eq!(same, sequence.scores, "bit for bit");
     // Only JOD depends on the rate.
     let slow = scores(&sandbox, "mine", &[]);
     for metric in SequenceMetric::ALL {
-        let is_same = slow.get(metric) == own.scores.get(metric);
+        let is_same = slow.get(metric) == sequence.scores.get(metric);
         assert_eq!(is_same, !metric.depends_on_rate(), "{metric:?}");
     }
     let text = stdout(&score(&sandbox, "mine", &THREE));
@@ -106,7 +110,7 @@ fn assert_misfits_are_refused(sandbox: &Sandbox) {
     refuse("mine/0000.exr --frames 3", "", &parts);
     let parts = "0001/truth_trailing.exr: is the truth of a later frame, plate/0001";
     refuse("mine --frames 2", "/0001", &[parts]);
-    let [png, copy] = ["out/plate/frame.png", "mine/0001.png"].map(|it| sandbox.path(it));
+    let [png, copy] = ["out/plate/frame.png", "mine/0001.png"].map(|name| sandbox.path(name));
     fs::copy(png, &copy).unwrap();
     let parts = ["mine/0001.exr and mine/0001.png", "remove one of them"];
     refuse("mine --frames 3", "", &parts);

@@ -51,10 +51,10 @@ fn convert(path: &std::path::Path) {
 fn other_primaries_are_converted_wherever_a_picture_enters() {
     let sandbox = set_up();
     let mine = sandbox.path("mine.exr");
-    let flip = |found: &Value| {
-        found["full"]["flip"]["value"]
+    let flip = |score: &Value| {
+        score["full"]["flip"]["value"]
             .as_f64()
-            .unwrap_or_else(|| panic!("{found}"))
+            .unwrap_or_else(|| panic!("{score}"))
     };
     let plain = scores(&sandbox, "");
     let blur = || {

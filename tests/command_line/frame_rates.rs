@@ -18,9 +18,9 @@ const RATES: &str = "--filters identity --frame-rate 24,60 --shutter-time 1/120"
 
 #[track_caller]
 fn find<'a>(cases: &'a [Case], scene: &str, name: &str) -> &'a Case {
-    let mut own = cases.iter();
-    let own = own.find(|case| case.scene == scene && case.name() == name && !case.is_reference);
-    own.unwrap_or_else(|| panic!("no {scene} {name}"))
+    let mut all = cases.iter();
+    let case = all.find(|case| case.scene == scene && case.name() == name && !case.is_reference);
+    case.unwrap_or_else(|| panic!("no {scene} {name}"))
 }
 
 fn read_output(sandbox: &Sandbox, case: &Case) -> Image {
@@ -41,8 +41,8 @@ fn a_run_takes_every_scene_at_every_rate_and_keeps_it() {
     let due = rates.map(|(rate, exposure)| {
         ["plate", "slow"].map(|scene| (format!("{scene}{rate}").parse().unwrap(), exposure))
     });
-    let found = cases.iter().map(|case| (case.scene.clone(), case.exposure));
-    assert_eq!(found.collect::<Vec<(SceneId, f64)>>(), due.concat());
+    let actual = cases.iter().map(|case| (case.scene.clone(), case.exposure));
+    assert_eq!(actual.collect::<Vec<(SceneId, f64)>>(), due.concat());
     for case in &cases {
         let json = serde_json::to_value(case).unwrap();
         let rate = case.scene.rate.map(|rate| rate.per_second);
@@ -51,11 +51,11 @@ fn a_run_takes_every_scene_at_every_rate_and_keeps_it() {
     }
     let run = sandbox.read_run();
     let alone = Sandbox::two_scenes();
-    let own = alone.measure("--filters identity");
+    let plain = alone.measure("--filters identity");
     assert_holds(&run, &alone.read_run());
     let head = |text: &str| text.lines().take(4).map(str::to_owned).collect::<Vec<_>>();
-    assert_eq!(head(&printed), head(&own));
-    assert!(!own.contains("frame rate"), "{own}");
+    assert_eq!(head(&printed), head(&plain));
+    assert!(!plain.contains("frame rate"), "{plain}");
     assert_rows_of_rates(&printed);
     assert_kept(&sandbox, &run);
 }
@@ -67,12 +67,13 @@ fn assert_holds(run: &Run, whole: &Run) {
         for rate in [None, FrameRate::in_word("60fps_1-120s")] {
             let mut scene = case.scene.clone();
             scene.rate = rate;
-            let id = |own: &Case| (own.name(), own.is_reference);
-            let mut own = run.cases.iter();
-            let own = own.find(|own| own.scene == scene && id(own) == id(case));
-            let [own, case] = [own.unwrap(), case].map(|case| &case.scores);
+            let id = |case: &Case| (case.name(), case.is_reference);
+            let mut all = run.cases.iter();
+            let actual =
+                all.find(|candidate| candidate.scene == scene && id(candidate) == id(case));
+            let [actual, case] = [actual.unwrap(), case].map(|case| &case.scores);
             let text = |scores| serde_json::to_string(scores).unwrap();
-            assert_eq!(text(own), text(case), "{scene}");
+            assert_eq!(text(actual), text(case), "{scene}");
         }
     }
     let written = run.overall.iter().filter(|mean| mean.rate.is_none());
@@ -148,17 +149,17 @@ fn a_rule_of_the_shutter_is_the_blur_of_another_exposure() {
     };
     // Frames of 24 and 144 per second show the plate at the same place: only the length of the blur
     // differs.
-    let [right, wrong] = ["right", "in_frames"].map(|it| output("plate@144fps_1-120s", it));
+    let [right, wrong] = ["right", "in_frames"].map(|rule| output("plate@144fps_1-120s", rule));
     let wrong = mean_difference(&right, &wrong);
-    for (own, same) in read_table("rules of the shutter") {
-        let ((scene, rule), same) = (own.split_once(' ').unwrap(), same[0]);
-        let [own, other] = [output(scene, rule), output(same, "right")];
+    for (key, same) in read_table("rules of the shutter") {
+        let ((scene, rule), same) = (key.split_once(' ').unwrap(), same[0]);
+        let [ruled, other] = [output(scene, rule), output(same, "right")];
         // Samples are chosen for the time that the shutter is open, so that the frames' noise
         // differs.
-        let found = mean_difference(&own, &other);
+        let difference = mean_difference(&ruled, &other);
         assert!(
-            found < 0.1 * wrong,
-            "{scene} rule={rule} is not {same}: {found} of {wrong}"
+            difference < 0.1 * wrong,
+            "{scene} rule={rule} is not {same}: {difference} of {wrong}"
         );
     }
     let case = find(&cases, "plate@24fps", &format!("{name} rule=share_falls"));
@@ -227,9 +228,10 @@ fn a_sequence_is_shown_at_its_rate() {
     sandbox.measure(&format!("{words} 60"));
     let jod = |sandbox: &Sandbox, scene: &str| {
         let run = sandbox.read_run();
-        let mut own = run.sequences.iter();
-        let own = own.find(|own| own.scene == scene && own.name == "identity:default");
-        let scores = &own.expect("it has a sequence").scores;
+        let mut all = run.sequences.iter();
+        let sequence =
+            all.find(|sequence| sequence.scene == scene && sequence.name == "identity:default");
+        let scores = &sequence.expect("it has a sequence").scores;
         scores.get(SequenceMetric::Jod).value().unwrap()
     };
     let [written, slow] = ["plate", "plate@24fps"].map(|scene| jod(&sandbox, scene));

@@ -41,8 +41,8 @@ fn run_hands_them_to_filters_that_read_them_and_leaves_the_frame_s_file_as_it_is
     assert_eq!(outputs.len(), 6, "the full frame, and five forms");
     for output in &outputs {
         // Small pixels are twice as large, and 32-bit floats have seven digits.
-        for (found, due) in output.at(32, 16).iter().zip([right, 0.0, 0.0]) {
-            assert_near(*found, f64::from(due), 1e-4);
+        for (actual, due) in output.at(32, 16).iter().zip([right, 0.0, 0.0]) {
+            assert_near(*actual, f64::from(due), 1e-4);
         }
     }
     let blur = "engine blur --filter ./next -o next.exr --frame";

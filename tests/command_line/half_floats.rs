@@ -78,7 +78,7 @@ fn assert_no_weights(filter: &str, parts: &[&str]) {
     for metric in split(&format!("{OF_WEIGHTS} energy n_eq_label_tv")) {
         match find_case(filter).scores.get(metric.parse().unwrap()) {
             Measured::NotApplicable { reason } => assert_contains(&reason, parts),
-            found => panic!("{metric} of {filter}: {found:?}"),
+            score => panic!("{metric} of {filter}: {score:?}"),
         }
     }
 }
@@ -89,22 +89,22 @@ fn rounded_colours_lose_no_score_of_what_a_filter_gathers() {
     assert_eq!(half.nonlinearity, full.nonlinearity);
     for metric in split(OF_WEIGHTS) {
         let metric = metric.parse().unwrap();
-        let found = half.scores.get(metric);
-        assert!(found.value().is_some(), "{}: {found:?}", metric.name());
-        // The weights are the same, and so are the gathered colours.
-        assert_eq!(found, full.scores.get(metric), "{}", metric.name());
+        let score = half.scores.get(metric);
+        assert!(score.value().is_some(), "{}: {score:?}", metric.name());
+        // Half floats change neither the weights nor the gathered colours.
+        assert_eq!(score, full.scores.get(metric), "{}", metric.name());
     }
-    // The picture is the filter's own.
+    // The picture changes, and so do its scores.
     assert_ne!(half.scores.moving, full.scores.moving);
 }
 
-/// The same is true of many engines' fragment shaders.
+/// Fragment shaders, which many engines have, lose none of these scores either.
 #[test]
 fn shaders_of_engines_keep_their_scores_in_16_bits() {
     for filter in ["godot_blur", "drawn"] {
         for metric in split(OF_WEIGHTS) {
-            let found = find_case(filter).scores.get(metric.parse().unwrap());
-            assert!(found.value().is_some(), "{metric} of {filter}: {found:?}");
+            let score = find_case(filter).scores.get(metric.parse().unwrap());
+            assert!(score.value().is_some(), "{metric} of {filter}: {score:?}");
         }
     }
 }

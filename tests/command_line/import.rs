@@ -58,7 +58,9 @@ fn shown_pixels(frame: &Frame, object: &str) -> Vec<([f64; 2], [f64; 2])> {
     let mut names = frame.objects.iter();
     let id = names.position(|name| name == object).unwrap() as u32;
     let pixels = frame.object_id.pixels.iter().zip(&frame.velocity.pixels);
-    let pixels = pixels.enumerate().filter(|(_, (found, _))| **found == id);
+    let pixels = pixels
+        .enumerate()
+        .filter(|(_, (pixel_id, _))| **pixel_id == id);
     let read = pixels.map(|(at, (_, velocity))| {
         let place = [at % 160, at / 160].map(|pixel| 2.0 * pixel as f64 + 1.0);
         (place, velocity.map(|pixels| 2.0 * f64::from(pixels)))

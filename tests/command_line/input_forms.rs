@@ -16,7 +16,9 @@ fn plate_middle(sandbox: &Sandbox, sequence: &Sequence, frame: usize) -> f64 {
         let column = at % plate.width as usize;
         (column as f64 * f64::from(*share), f64::from(*share))
     });
-    let (sum, area) = columns.fold((0.0, 0.0), |all, own| (all.0 + own.0, all.1 + own.1));
+    let (sum, area) = columns.fold((0.0, 0.0), |all, column| {
+        (all.0 + column.0, all.1 + column.1)
+    });
     sum / area
 }
 
@@ -26,16 +28,17 @@ fn the_jitter_of_a_sequence_goes_on_from_frame_to_frame() {
     sandbox.measure("--filters identity --frames 3 --input jitter=left_in");
     let run = sandbox.read_run();
     let find = |name: &str| {
-        let own = run.sequences.iter().find(|own| own.name == name);
-        own.expect("it has a sequence")
+        let sequence = run.sequences.iter().find(|sequence| sequence.name == name);
+        sequence.expect("it has a sequence")
     };
     let [still, jittered] = ["identity:default", "identity:default jitter=left_in"].map(find);
     // The second to the fourth number of the Halton sequence of base 2, less a half.
     for (frame, jitter) in [-0.25, 0.25, -0.375].into_iter().enumerate() {
-        let [own, other] = [jittered, still].map(|it| plate_middle(&sandbox, it, frame));
+        let [moved, other] =
+            [jittered, still].map(|sequence| plate_middle(&sandbox, sequence, frame));
         // Few samples see the edges of a plate of 3 by 3 pixels.
-        let off = (own - other - jitter).abs();
-        assert!(off < 0.08, "frame {frame}: {own} {other}");
+        let off = (moved - other - jitter).abs();
+        assert!(off < 0.08, "frame {frame}: {moved} {other}");
     }
 }
 
@@ -56,35 +59,36 @@ fn buffers_samples_jitter_and_scale_change_what_filters_get() {
     assert_eq!(cases.len(), 2 * 16);
     assert_buffers_count(&cases, &printed);
     assert_sizes_fit(&sandbox, &cases);
-    let own = |change: &str| flip(&cases, &format!("identity:default {change}"));
+    let unblurred = |change: &str| flip(&cases, &format!("identity:default {change}"));
     let gathered = |change: &str| flip(&cases, &format!("velocity_gather:fine {change}"));
-    let [identity, whole] = ["identity:default", "velocity_gather:fine"].map(|it| flip(&cases, it));
+    let [identity, whole] =
+        ["identity:default", "velocity_gather:fine"].map(|name| flip(&cases, name));
 
     // Colour is the same whichever sample velocity comes from; four samples are coarser than the
     // whole pixel.
-    assert_eq!(own("msaa=first"), own("msaa=nearest"));
-    assert_eq!(own("msaa=first"), own("msaa=farthest"));
-    assert!((own("msaa=first") - identity).abs() < 0.02);
+    assert_eq!(unblurred("msaa=first"), unblurred("msaa=nearest"));
+    assert_eq!(unblurred("msaa=first"), unblurred("msaa=farthest"));
+    assert!((unblurred("msaa=first") - identity).abs() < 0.02);
     assert_ne!(gathered("msaa=nearest"), gathered("msaa=farthest"));
 
     // Anti-aliased colour equals the frame's; a jittered one is shifted, whatever its vectors.
-    assert_eq!(own("jitter=resolved"), identity);
-    assert_eq!(own("jitter=removed"), own("jitter=left_in"));
-    assert_ne!(own("jitter=removed"), identity);
+    assert_eq!(unblurred("jitter=resolved"), identity);
+    assert_eq!(unblurred("jitter=removed"), unblurred("jitter=left_in"));
+    assert_ne!(unblurred("jitter=removed"), identity);
     assert_ne!(gathered("jitter=removed"), gathered("jitter=left_in"));
     assert_ne!(gathered("jitter=resolved"), whole);
 
     // Without a blur, the order of blur and upscaling does not matter.
     for scale in [50, 67] {
         let [before, after] =
-            ["blur_first", "upscale_first"].map(|it| format!("scale={scale}_{it}"));
-        assert!((own(&before) - own(&after)).abs() < 1e-6);
+            ["blur_first", "upscale_first"].map(|order| format!("scale={scale}_{order}"));
+        assert!((unblurred(&before) - unblurred(&after)).abs() < 1e-6);
         assert_ne!(gathered(&before), gathered(&after));
-        assert!((own(&before) - identity).abs() > 1e-3);
+        assert!((unblurred(&before) - identity).abs() > 1e-3);
         // The gather blurs as far in the small picture as in the whole one: it stays far from the
         // identity.
-        assert!(gathered(&before) < 0.8 * own(&before));
-        assert!(gathered(&after) < 0.8 * own(&after));
+        assert!(gathered(&before) < 0.8 * unblurred(&before));
+        assert!(gathered(&after) < 0.8 * unblurred(&after));
     }
     let other = find_case(&cases, "identity:default jitter=left_in");
     assert_eq!(other.input.jitter, CameraJitter::LeftIn);
@@ -93,7 +97,8 @@ fn buffers_samples_jitter_and_scale_change_what_filters_get() {
 
 /// Smaller buffers only change filters that read them.
 fn assert_buffers_count(cases: &[Case], printed: &str) {
-    let [identity, whole] = ["identity:default", "velocity_gather:fine"].map(|it| flip(cases, it));
+    let [identity, whole] =
+        ["identity:default", "velocity_gather:fine"].map(|name| flip(cases, name));
     for size in BufferSize::ALL.iter().skip(1) {
         let change = format!("buffers={}", size.name());
         let same = flip(cases, &format!("identity:default {change}"));
@@ -117,14 +122,14 @@ fn assert_sizes_fit(sandbox: &Sandbox, cases: &[Case]) {
     let case = find_case(cases, "velocity_gather:fine scale=50_blur_first");
     assert_eq!(case.input.scale, RenderScale::HalfBlurFirst);
     let plain = find_case(cases, "velocity_gather:fine");
-    let [own, whole] = [case, plain].map(|case| {
+    let [small, whole] = [case, plain].map(|case| {
         let output = sandbox.path("out").join(&case.folder).join("output.exr");
         let output = read_exr(&output).unwrap();
         let offset = case.scores.probes.gather_offset.value().unwrap();
         ((output.width, output.height), offset)
     });
-    assert_eq!(own.0, whole.0);
-    assert!((own.1 - whole.1).abs() < 0.5, "{} {}", own.1, whole.1);
+    assert_eq!(small.0, whole.0);
+    assert!((small.1 - whole.1).abs() < 0.5, "{} {}", small.1, whole.1);
     assert!(case.scores.probes.unity.value().unwrap() < 1e-3);
 }
 

@@ -24,7 +24,7 @@ fn ctrl_c_ends_work_on_the_gpu_within_two_seconds() {
     for words in [blur, run] {
         println!("{words:?}");
         let mut child = sandbox.command(&words).spawn().unwrap();
-        // Neither command takes half of this without the kernel.
+        // Without the kernel, neither command takes half of this time.
         wait_until_busy(&mut child, 80);
         assert_ends_at_ctrl_c(child);
     }

@@ -176,11 +176,14 @@ fn a_noise_target_adds_replicates_until_it_is_reached_or_reports_a_failure() {
     // Each truth has the same bytes as a render of its number of replicates. The same command again
     // prints the same.
     for alignment in ["trailing", "centred"] {
-        let own = format!("{alignment}: ");
-        let line = text.lines().find(|line| line.contains(&own)).expect(&text);
+        let label = format!("{alignment}: ");
+        let line = text
+            .lines()
+            .find(|line| line.contains(&label))
+            .expect(&text);
         assert!(number(line, "moving ") <= target, "{line}");
         // Half the noise needs four times the replicates, and the floor is an estimate.
-        let count = number(line, &own);
+        let count = number(line, &label);
         assert!((6.0..=14.0).contains(&count), "{line}");
         let alone = format!("--replicates {count} --alignments {alignment}");
         sandbox.execute(&render(alignment, &split(&alone)));

@@ -14,10 +14,10 @@ const FOREIGN: [&str; 4] = ["target", "out", "node_modules", ".git"];
 pub fn find_pages(folder: &Path) -> Vec<PathBuf> {
     let is_own = |entry: &DirEntry| !FOREIGN.iter().any(|name| entry.file_name() == *name);
     let entries = WalkDir::new(folder).into_iter().filter_entry(is_own);
-    let mut found: Vec<PathBuf> = entries.map(|entry| entry.unwrap().into_path()).collect();
-    found.retain(|path| path.extension().is_some_and(|end| end == "md"));
-    found.sort();
-    found
+    let mut pages: Vec<PathBuf> = entries.map(|entry| entry.unwrap().into_path()).collect();
+    pages.retain(|path| path.extension().is_some_and(|end| end == "md"));
+    pages.sort();
+    pages
 }
 
 /// Returns the text outside code blocks.
@@ -84,15 +84,15 @@ fn every_link_between_pages_has_a_target() {
 #[test]
 fn links_lead_from_the_readme_to_every_guide() {
     let mut reached = BTreeSet::new();
-    let mut found = vec![root().join("README.md").canonicalize().unwrap()];
-    while let Some(page) = found.pop() {
+    let mut pending = vec![root().join("README.md").canonicalize().unwrap()];
+    while let Some(page) = pending.pop() {
         if reached.insert(page.clone()) {
             let links = find_links(&prose(&fs::read_to_string(&page).unwrap()));
             let files = links.iter().map(|link| link.split('#').next().unwrap());
             let pages = files.filter(|file| file.ends_with(".md"));
             let paths = pages.map(|file| page.parent().unwrap().join(file));
             // A link that leads nowhere fails the test above.
-            found.extend(paths.filter_map(|path| path.canonicalize().ok()));
+            pending.extend(paths.filter_map(|path| path.canonicalize().ok()));
         }
     }
     for guide in ["docs", "results"]

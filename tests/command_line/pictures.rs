@@ -79,7 +79,7 @@ fn every_picture_is_in_the_recipe_and_on_a_page() {
             "{RECORD}: no run of pictures.toml makes {path}"
         );
     }
-    known.extend(recipe.by_hand.into_iter().map(|own| own.file));
+    known.extend(recipe.by_hand.into_iter().map(|picture| picture.file));
     let odd: Vec<&String> = files.symmetric_difference(&known).collect();
     assert!(
         odd.is_empty(),

@@ -99,8 +99,8 @@ fn every_engine_has_lines_of_the_commit_that_its_preset_names() {
     let commit = |ships: &str| {
         let (filter, preset) = ships.split_once(':').unwrap();
         let mut presets = presets.clone();
-        let found = presets.find(|(name, own)| *name == filter && own["name"] == preset);
-        let source = &found.expect(ships).1["source"];
+        let pair = presets.find(|(name, table)| *name == filter && table["name"] == preset);
+        let source = &pair.expect(ships).1["source"];
         source["commit"].as_str().map(str::to_owned)
     };
     let read = |below: &str| fs::read_to_string(root().join(below)).unwrap();
@@ -108,12 +108,15 @@ fn every_engine_has_lines_of_the_commit_that_its_preset_names() {
     let page = read("results/findings/shipped.md");
     let sections = sections(&page);
     for engine in engines["engine"].as_array().unwrap() {
-        let [name, ships, own] =
+        let [name, ships, listed_commit] =
             ["name", "shape", "commit"].map(|key| engine[key].as_str().unwrap());
         let section = sections.iter().find(|(heading, _)| *heading == name);
         let (_, text) = section.unwrap_or_else(|| panic!("shipped.md has no section {name}"));
-        let commit = commit(ships).unwrap_or_else(|| own.to_owned());
-        assert!(commit.starts_with(own), "{name}: {own}, {ships}: {commit}");
+        let commit = commit(ships).unwrap_or_else(|| listed_commit.to_owned());
+        assert!(
+            commit.starts_with(listed_commit),
+            "{name}: {listed_commit}, {ships}: {commit}"
+        );
         assert!(
             text.contains(&format!("at {commit}")),
             "{name}: no line of {commit}, the commit of {ships}"
@@ -129,7 +132,7 @@ fn the_quotes_of_all_findings_can_be_compared() {
     let folder = fs::read_dir(root().join("results/findings")).unwrap();
     let pages: Vec<_> = folder.map(|entry| entry.unwrap().path()).collect();
     let pages: Vec<&Path> = pages.iter().map(AsRef::as_ref).collect();
-    let is_page = |page: &&Path| page.extension().is_some_and(|own| own == "md");
+    let is_page = |page: &&Path| page.extension().is_some_and(|extension| extension == "md");
     let pages: Vec<&Path> = pages.into_iter().filter(is_page).collect();
     // Without clones it compares nothing, but refuses tables of another form.
     let output = compare(&sandbox.path("nowhere"), &pages);

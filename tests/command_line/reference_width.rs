@@ -38,7 +38,8 @@ fn a_run_scales_a_preset_to_its_width_and_reports_it() {
         serde_json::to_string(&case.scores.moving).unwrap()
     };
     let scaled = measure("", 4, Some(256));
-    // The first case was kept. This is a different case, so it must not be read back.
+    // The first case was kept. With lengths as written the case is another, so the kept one must
+    // not be read back.
     let written = measure("--as-written", 16, None);
     assert_ne!(written, scaled);
     assert_eq!(measure("--set mine.radius=16", 16, Some(256)), written);
@@ -52,10 +53,10 @@ fn a_run_scales_a_preset_to_its_width_and_reports_it() {
         (" scale=50_upscale_first", 4),
         (" scale=50_blur_first", 2),
     ] {
-        let mut own = cases.iter();
-        let own = own.find(|case| case.name() == format!("mine:engine{form}"));
-        let found = &own.expect("it was measured").parameters["radius"];
-        assert_eq!(*found, Value::Integer(radius), "{form}");
+        let mut all = cases.iter();
+        let case = all.find(|case| case.name() == format!("mine:engine{form}"));
+        let value = &case.expect("it was measured").parameters["radius"];
+        assert_eq!(*value, Value::Integer(radius), "{form}");
     }
     fs::remove_dir_all(sandbox.path("out")).unwrap();
     measure("--guard-band 32", 4, Some(256));
@@ -135,13 +136,13 @@ fn a_run_that_mixes_scaled_and_unscaled_filters_says_which_are_which() {
         let output = sandbox.run(&words);
         assert_done(&output);
         let page = sandbox.text("page.html");
-        let found = [stdout(&output), page.replace("&quot;", "\"")].map(|text| {
+        let notes = [stdout(&output), page.replace("&quot;", "\"")].map(|text| {
             let text = split(&text).join(" ");
             let start = text.split_once("Lengths in pixels are scaled")?.1;
             Some(start.split_once("as written.")?.0.to_owned())
         });
-        assert_eq!(found[0], found[1], "terminal and page");
-        found[0].clone()
+        assert_eq!(notes[0], notes[1], "terminal and page");
+        notes[0].clone()
     };
     let manifest = MANIFEST.replace("reference_width = 256\n", "");
     let write = |manifest: &str| {
@@ -156,7 +157,7 @@ fn a_run_that_mixes_scaled_and_unscaled_filters_says_which_are_which() {
     }
     assert_eq!(note(filters, &["--as-written"]), None);
     assert_eq!(note("mcguire:paper,identity", &[]), None);
-    // Its own width, for all presets.
+    // A manifest can have a width for all of its presets.
     write(&manifest.replacen("[[parameter]]", "reference_width = 256\n\n[[parameter]]", 1));
     assert_eq!(note(filters, &[]), None);
     let cases = sandbox.read_filter_cases();

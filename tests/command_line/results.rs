@@ -43,12 +43,12 @@ fn folder() -> PathBuf {
 #[test]
 fn the_page_of_results_is_made_from_the_files_beside_it() {
     let results = Results::read_all(&folder()).unwrap();
-    for own in &results {
-        let name = own.file_name();
+    for file in &results {
+        let name = file.file_name();
         let text = fs::read_to_string(folder().join(&name)).unwrap();
-        assert!(text == own.text(), "{name} was edited");
+        assert!(text == file.text(), "{name} was edited");
     }
-    assert!(results.iter().any(|own| own.seal.is_some()));
+    assert!(results.iter().any(|file| file.seal.is_some()));
     let mut cards = Bench::read_all(&folder().join("bench")).unwrap();
     let page = fs::read_to_string(folder().join("README.md")).unwrap();
     assert!(
@@ -81,9 +81,9 @@ fn names_of_others_are_text_on_the_page_and_on_the_site() {
     // The program's own bench names the card of the times, and a file of results the adapter and a
     // filter.
     cards[0].adapter.name = hostile.to_owned();
-    for own in &mut results {
-        own.adapter = Some(hostile.to_owned());
-        for score in own
+    for file in &mut results {
+        file.adapter = Some(hostile.to_owned());
+        for score in file
             .scores
             .iter_mut()
             .filter(|score| score.name == "kino:default")
@@ -137,8 +137,11 @@ fn every_engine_s_smear_is_as_long_as_the_page_says_and_a_tenth_more_is_another_
         let (filter, preset) = engine.shape.split_once(':').unwrap();
         let filter = Filter::builtin(filter).unwrap();
         let mut presets = filter.presets.iter();
-        let preset = presets.find(|own| own.name == preset).unwrap();
-        let source = preset.source.as_ref().and_then(|own| own.code.as_ref());
+        let preset = presets.find(|candidate| candidate.name == preset).unwrap();
+        let source = preset
+            .source
+            .as_ref()
+            .and_then(|origin| origin.code.as_ref());
         let is_commit = source.is_none_or(|code| code.commit.starts_with(&engine.commit));
         assert!(is_commit, "{}: commit {}", engine.name, engine.commit);
     }
@@ -152,8 +155,8 @@ fn the_pictures_show_what_each_engine_ships_at_its_worst() {
     let worst = |engine: Engine| main.worst_of(&engine.shape).map(picture_name).unwrap();
     let due: BTreeSet<String> = list_engines().into_iter().map(worst).collect();
     let files = fs::read_dir(folder().join("pictures")).unwrap();
-    let found = files.map(|file| file.unwrap().file_name().into_string().unwrap());
-    assert_eq!(found.collect::<BTreeSet<_>>(), due);
+    let actual = files.map(|file| file.unwrap().file_name().into_string().unwrap());
+    assert_eq!(actual.collect::<BTreeSet<_>>(), due);
 }
 
 #[test]
@@ -169,11 +172,11 @@ fn the_gallery_has_the_scores_of_the_results() {
         let parts: Vec<&str> = captions.flat_map(|line| line.split('`').skip(1)).collect();
         for pair in parts.chunks_exact(2) {
             let [preset, after] = [pair[0], pair[1].trim_start()];
-            let own = main
+            let score = main
                 .scores
                 .iter()
-                .find(|own| own.scene == scene && own.name == preset);
-            let flip = own
+                .find(|score| score.scene == scene && score.name == preset);
+            let flip = score
                 .unwrap_or_else(|| panic!("{scene}: {preset}"))
                 .score(Metric::FLIP);
             let kept = Metric::FLIP.number(flip.unwrap());
@@ -219,15 +222,15 @@ fn the_commands_of_the_page_measure_what_its_tables_have() {
     }
     let scenes = list_scenes(Location::of_bundle(&catalogue::SCENES)).unwrap();
     let main = main_results(&results).unwrap();
-    let sealed = results.iter().find(|own| own.seal == Some(1)).unwrap();
+    let sealed = results.iter().find(|file| file.seal == Some(1)).unwrap();
     // Neither command names scenes or filters, so that both take all.
-    for own in [main, sealed] {
-        let names: BTreeSet<String> = own.scores.iter().map(|own| own.name.clone()).collect();
+    for file in [main, sealed] {
+        let names: BTreeSet<String> = file.scores.iter().map(|score| score.name.clone()).collect();
         assert_eq!(names, presets);
-        let own_scenes = own.scenes().into_iter().map(SceneId::to_string);
-        let due = scenes.iter().map(|own| own.name.clone());
+        let own_scenes = file.scenes().into_iter().map(SceneId::to_string);
+        let due = scenes.iter().map(|scene| scene.name.clone());
         assert_eq!(own_scenes.collect::<BTreeSet<_>>(), due.collect());
-        assert_eq!(own.scores.len(), presets.len() * scenes.len());
+        assert_eq!(file.scores.len(), presets.len() * scenes.len());
     }
 }
 
@@ -235,9 +238,9 @@ fn the_commands_of_the_page_measure_what_its_tables_have() {
 fn doing_nothing_is_ranked_in_both_shutters() {
     let results = Results::read_all(&folder()).unwrap();
     for group in main_results(&results).unwrap().ranking() {
-        let none = group.iter().find(|own| own.filter == IDENTITY).unwrap();
-        let worse = group.iter().filter(|own| own.mean > none.mean);
-        let worse: Vec<&str> = worse.map(|own| own.name.as_str()).collect();
+        let none = group.iter().find(|entry| entry.filter == IDENTITY).unwrap();
+        let worse = group.iter().filter(|entry| entry.mean > none.mean);
+        let worse: Vec<&str> = worse.map(|entry| entry.name.as_str()).collect();
         match none.alignment {
             Alignment::Centred => assert_eq!(worse, WORSE),
             _ => assert!(worse.is_empty(), "{worse:?}"),
@@ -256,18 +259,22 @@ fn the_study_of_picture_sizes_has_the_numbers_of_the_kept_results() {
     let row = |name: &str, cells: Vec<String>| format!("| {name} | {} |", cells.join(" | "));
     let pairs = |name: &str, count: fn(&Agreement) -> usize| {
         let sum = |size: usize| -> usize {
-            (compared.iter().map(|own| count(&own.agreement[size]))).sum()
+            (compared.iter().map(|group| count(&group.agreement[size]))).sum()
         };
         row(name, (0..4).map(|size| sum(size).to_string()).collect())
     };
     let mut printed = vec![
-        pairs("separated here and at 1920x1080, same order", |own| {
-            own.alike
+        pairs("separated here and at 1920x1080, same order", |agreement| {
+            agreement.alike
         }),
-        pairs("separated in both, reversed", |own| own.reversed.len()),
-        pairs("separated at 1920x1080 only", |own| own.only_at_largest),
+        pairs("separated in both, reversed", |agreement| {
+            agreement.reversed.len()
+        }),
+        pairs("separated at 1920x1080 only", |agreement| {
+            agreement.only_at_largest
+        }),
     ];
-    for filter in compared.iter().flat_map(|own| &own.filters) {
+    for filter in compared.iter().flat_map(|group| &group.filters) {
         let means = filter.means.iter();
         let cells = means.map(|mean| Metric::FLIP.number(mean.mean));
         printed.push(row(&format!("`{}`", filter.name), cells.collect()));
@@ -277,7 +284,10 @@ fn the_study_of_picture_sizes_has_the_numbers_of_the_kept_results() {
     let rows: Vec<&str> = page.lines().filter(is_row).collect();
     assert!(rows.len() > 10, "only {rows:?}");
     for row in rows {
-        assert!(printed.iter().any(|own| own == row), "{row}: {printed:#?}");
+        assert!(
+            printed.iter().any(|line| line == row),
+            "{row}: {printed:#?}"
+        );
     }
 }
 
@@ -320,9 +330,9 @@ fn results_of_two_runs_are_those_of_one() {
 
     // A filter that was measured later joins the others of its scene.
     let mut part = whole.clone();
-    (part.scores).retain(|own| own.scene != "plate" || own.name != "velocity_gather:coarse");
+    (part.scores).retain(|score| score.scene != "plate" || score.name != "velocity_gather:coarse");
     assert_eq!(part.scores.len(), 5);
-    // Its own score replaces an older one.
+    // A newer score replaces the older one of the same filter and scene.
     part.scores[0].floor = 9.0;
     part.update(whole.clone()).unwrap();
     assert_eq!(part, whole);
@@ -374,7 +384,7 @@ fn a_filter_that_was_fitted_to_the_scenes_falls_on_sealed_ones() {
         sandbox.copy_scene(name, |text| text.replace("0.2, 0.2, 0.2", light));
     }
     write_learnt_filter(&sandbox);
-    // One where all of the plates move the other way.
+    // The seed turns the motion of all plates round.
     let turns_round = |seed: u64| {
         let turned = |name: &&str| {
             let seal = Seal::new(seed, name);

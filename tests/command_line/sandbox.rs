@@ -84,8 +84,8 @@ impl Sandbox {
     /// Adds a scene that differs from the plate's only in its scene.toml.
     pub fn copy_scene(&self, name: &str, changed: impl FnOnce(&str) -> String) {
         for file in ["plate.obj", "plate.mtl"] {
-            let own = self.text(&format!("scenes/plate/{file}"));
-            self.put(&format!("scenes/{name}/{file}"), own);
+            let text = self.text(&format!("scenes/plate/{file}"));
+            self.put(&format!("scenes/{name}/{file}"), text);
         }
         let text = changed(SCENE);
         assert_ne!(text, SCENE, "a scene that is no other");
@@ -142,8 +142,8 @@ impl Sandbox {
 
     /// Bounds the same score on another scene.
     pub fn copy_bound(&self, scene: &str) {
-        let own = self.text("scenes/plate/bounds.toml");
-        self.put(&format!("scenes/{scene}/bounds.toml"), own);
+        let bounds = self.text("scenes/plate/bounds.toml");
+        self.put(&format!("scenes/{scene}/bounds.toml"), bounds);
     }
 
     /// Writes the filter `name`, with one file of kernels, to a folder of that name.
@@ -338,7 +338,8 @@ pub fn read_below(folder: &Path) -> Files {
 /// Fails with the name of a missing or different file.
 #[track_caller]
 pub fn assert_same_files(one: &Files, other: &Files) {
-    let names = |files: &Files| -> Vec<PathBuf> { files.iter().map(|own| own.0.clone()).collect() };
+    let names =
+        |files: &Files| -> Vec<PathBuf> { files.iter().map(|file| file.0.clone()).collect() };
     assert_eq!(names(one), names(other));
     for ((name, one), (_, other)) in one.iter().zip(other) {
         assert!(one == other, "{} differs", name.display());
@@ -375,10 +376,10 @@ pub fn python_with(packages: &[&str]) -> String {
     let python = std::env::var("PYTHON").unwrap_or("python3".to_owned());
     // Finding them is faster than importing them.
     let find = "import sys; from importlib.util import find_spec; \
-        sys.exit(any(not find_spec(own) for own in sys.argv[1:]))";
+        sys.exit(any(not find_spec(name) for name in sys.argv[1:]))";
     let mut command = Command::new(&python);
-    let found = command.args(["-c", find]).args(packages).output();
-    let is_there = found.is_ok_and(|output| output.status.success());
+    let output = command.args(["-c", find]).args(packages).output();
+    let is_there = output.is_ok_and(|output| output.status.success());
     let way_out = "`make test` installs them; or pip install them, and set PYTHON to the Python that has them";
     assert!(is_there, "{python} lacks one of {packages:?}: {way_out}");
     python

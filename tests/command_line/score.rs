@@ -106,19 +106,19 @@ fn colours_without_mattes_get_only_the_scores_of_colour() {
     let sandbox = set_up();
     let expected = read_scores(&sandbox);
     copy_without(&sandbox, "coverage", OUTPUT, "mine.exr");
-    let found = scores(&sandbox, &format!("mine.exr {LADDER}"));
+    let actual = scores(&sandbox, &format!("mine.exr {LADDER}"));
     for metric in Metric::all() {
         if of_colour(&metric) {
-            assert_eq!(found.get(metric), expected.get(metric), "{metric}");
+            assert_eq!(actual.get(metric), expected.get(metric), "{metric}");
         } else {
-            assert_eq!(found.get(metric).value(), None, "{metric}");
+            assert_eq!(actual.get(metric).value(), None, "{metric}");
         }
     }
     let text = score(&sandbox, "mine.exr");
     let line = |part: &str| {
         let mut lines = text.lines();
-        let found = lines.find(|line| line.starts_with("not available: ") && line.contains(part));
-        found.unwrap_or_else(|| panic!("\"{part}\" is no reason in:\n{text}"))
+        let reason = lines.find(|line| line.starts_with("not available: ") && line.contains(part));
+        reason.unwrap_or_else(|| panic!("\"{part}\" is no reason in:\n{text}"))
     };
     let mattes = line("the picture has no mattes, channels coverage.<object>");
     for metric in Metric::all() {
@@ -142,19 +142,19 @@ fn a_png_is_converted_back_to_radiance() {
         sandbox.measure(FINE);
         let expected = read_scores(&sandbox);
         let png = OUTPUT.replace(".exr", ".png");
-        let found = scores(&sandbox, &format!("{png} {LADDER}"));
-        let [flip, due] = [&found, &expected].map(|own| own.moving.flip.value().unwrap());
+        let actual = scores(&sandbox, &format!("{png} {LADDER}"));
+        let [flip, due] = [&actual, &expected].map(|scores| scores.moving.flip.value().unwrap());
         // Steps of 1/255 in sRGB are small beside the blur's error. A forgotten stop is not: the
         // picture becomes half or twice as bright.
         assert!((flip - due).abs() < 0.004, "{flip} {due}");
-        assert_eq!(found.full.flip_hdr.value(), None);
+        assert_eq!(actual.full.flip_hdr.value(), None);
         let text = score(&sandbox, &png);
         let undone = format!("display exposure of {stops} stops undone");
         assert_contains(&text, &[&undone]);
         let exceeds = "display white, which the truth exceeds in";
         assert_eq!(text.contains(exceeds), bright, "{text}");
-        // The same, in decibels.
-        let [psnr, due] = [&found, &expected].map(|own| own.moving.psnr.value().unwrap());
+        // PSNR agrees as closely, in decibels.
+        let [psnr, due] = [&actual, &expected].map(|scores| scores.moving.psnr.value().unwrap());
         assert!(bright || (psnr - due).abs() < 0.1, "{psnr} {due}");
     }
 }
@@ -166,9 +166,9 @@ fn a_guard_band_is_cropped_from_the_picture() {
     let expected = read_scores(&sandbox);
     let blur = "engine blur --filter velocity_gather:fine --out b.exr --frame";
     sandbox.done(&format!("{blur} {FRAME}"));
-    let found = scores(&sandbox, "b.exr");
-    assert_eq!(found.moving, expected.moving);
-    assert_eq!(found.full, expected.full);
+    let actual = scores(&sandbox, "b.exr");
+    assert_eq!(actual.moving, expected.moving);
+    assert_eq!(actual.full, expected.full);
     let note = "cropped by the frame's guard band of 8 pixels";
     assert_contains(&score(&sandbox, "b.exr"), &[note]);
 }

@@ -21,8 +21,12 @@ const THREE: &str = "--filters identity --frames 3";
 /// Finds the sequence of a filter.
 #[track_caller]
 fn find<'a>(run: &'a Run, filter: &str) -> &'a Sequence {
-    let mut own = run.sequences.iter().filter(|own| !own.is_reference);
-    own.find(|own| own.name == format!("{filter}:default"))
+    let mut sequences = run
+        .sequences
+        .iter()
+        .filter(|sequence| !sequence.is_reference);
+    sequences
+        .find(|sequence| sequence.name == format!("{filter}:default"))
         .expect("the run has a sequence of the filter")
 }
 
@@ -71,12 +75,12 @@ fn a_sequence_begins_with_the_frame_without_one_and_goes_on_where_it_ended() {
     let run = sandbox.read_run();
     assert_eq!(text(&run), text(&single), "bit for bit");
     assert!(read() == before, "bit for bit");
-    let own = find(&run, "identity");
-    let hashes = [0, 1, 2].map(|at| &own.frames[at].truth_hash);
+    let sequence = find(&run, "identity");
+    let hashes = [0, 1, 2].map(|at| &sequence.frames[at].truth_hash);
     assert_eq!(*hashes[0], single.cases[0].truth_hash);
     assert!(hashes[1] != hashes[0] && hashes[2] != hashes[1]);
     // The plate moves at a constant speed and looks the same in every frame.
-    let [first, last] = [0, 2].map(|at| own.frames[at].error.unwrap());
+    let [first, last] = [0, 2].map(|at| sequence.frames[at].error.unwrap());
     assert!((first / last - 1.0).abs() < 0.1, "{first} {last}");
     assert_page(&sandbox, &printed);
     // JOD depends on the rate: sequences of two rates cannot be one run.
@@ -124,7 +128,7 @@ fn a_filter_with_history_reads_the_frame_before() {
         let paths = ["", "0001/", "0002/"].map(|frame| format!("out/plate/{frame}{name}"));
         paths.map(|path| sandbox.read_color(&path))
     });
-    // The first frame has no previous one; it serves as its own.
+    // The first frame serves as its own previous frame.
     for (index, before) in [0, 0, 1].into_iter().enumerate() {
         let due = frames[before].map(|pixel| pixel.map(|value| value + index as f32));
         assert!(outputs[index] == due, "frame {index}");
@@ -171,9 +175,9 @@ fn parts_of_a_rendered_sequence_merge_to_what_a_run_reads_back() {
 
 /// Lists the names of a ranking with their ranks: `1 a`, `2-3 b`.
 fn names(ranking: &[Vec<RankedSequence>]) -> Vec<String> {
-    let ranked = ranking.iter().flatten().map(|own| &own.ranked);
+    let ranked = ranking.iter().flatten().map(|entry| &entry.ranked);
     ranked
-        .map(|own| format!("{} {}", own.rank_text(), own.name))
+        .map(|ranked| format!("{} {}", ranked.rank_text(), ranked.name))
         .collect()
 }
 
@@ -191,12 +195,16 @@ fn with_scores(run: &Run, lost: impl Fn(&str, f64) -> f64, floor: f64) -> Run {
             case.id.scene.clone_from(&name);
             made.cases.push(case);
         }
-        for own in run.sequences.iter().filter(|own| own.scene == "plate") {
-            let mut own = own.clone();
-            own.scene.clone_from(&name);
-            let value = PERFECT_JOD - lost(&own.name, f64::from(scene));
-            *own.scores.get_mut(RANKED_BY) = Measured::score(value, PERFECT_JOD - floor);
-            made.sequences.push(own);
+        for original in run
+            .sequences
+            .iter()
+            .filter(|sequence| sequence.scene == "plate")
+        {
+            let mut sequence = original.clone();
+            sequence.scene.clone_from(&name);
+            let value = PERFECT_JOD - lost(&sequence.name, f64::from(scene));
+            *sequence.scores.get_mut(RANKED_BY) = Measured::score(value, PERFECT_JOD - floor);
+            made.sequences.push(sequence);
         }
     }
     made
@@ -222,22 +230,28 @@ fn sequences_are_ranked_by_means_over_scenes_with_intervals_and_ties() {
     let ranking = rank_sequences(&run);
     let ranks: usize = ranking.iter().map(Vec::len).sum();
     assert_eq!(ranks, 3, "one rank per filter");
-    for own in ranking.iter().flatten() {
+    for entry in ranking.iter().flatten() {
         let shown = |scene: &str| {
-            let mut sequences = run.sequences.iter().filter(|it| !it.is_reference);
-            let found = sequences.find(|it| it.scene == scene && it.name == own.ranked.name);
-            RANKED_BY.shown(found.unwrap().scores.get(RANKED_BY).value().unwrap())
+            let mut sequences = run
+                .sequences
+                .iter()
+                .filter(|sequence| !sequence.is_reference);
+            let sequence = sequences
+                .find(|sequence| sequence.scene == scene && sequence.name == entry.ranked.name);
+            RANKED_BY.shown(sequence.unwrap().scores.get(RANKED_BY).value().unwrap())
         };
         let [plate, slow] = ["plate", "slow"].map(shown);
         let mean = (plate + slow) / 2.0;
-        assert!((own.ranked.mean - mean).abs() < 1e-9, "{own:?}");
+        assert!((entry.ranked.mean - mean).abs() < 1e-9, "{entry:?}");
         // Student's t of one degree of freedom, by the table's digits.
         let half = 12.706 * (plate - slow).abs() / 2.0;
-        let [low, high] = own.ranked.interval.unwrap();
-        assert!(((high - low) / 2.0 / half - 1.0).abs() < 1e-4, "{own:?}");
-        let [mean, low, high] = [mean, low, high].map(|own| RANKED_BY.shown_text(own));
+        let [low, high] = entry.ranked.interval.unwrap();
+        assert!(((high - low) / 2.0 / half - 1.0).abs() < 1e-4, "{entry:?}");
+        let [mean, low, high] = [mean, low, high].map(|jod| RANKED_BY.shown_text(jod));
         let due = [mean, format!("{low} to {high}")];
-        let mut lines = text.lines().filter(|line| line.contains(&own.ranked.name));
+        let mut lines = text
+            .lines()
+            .filter(|line| line.contains(&entry.ranked.name));
         let is_shown = lines.any(|line| due.iter().all(|part| line.contains(part)));
         assert!(is_shown, "{due:?} is missing from:\n{text}");
     }

@@ -18,8 +18,8 @@ fn list_commands() -> Vec<String> {
 #[test]
 fn the_version_says_which_source_and_which_target() {
     let version = Sandbox::new().execute(&["--version"]);
-    let own = concat!("shuttertruth ", env!("CARGO_PKG_VERSION"), " (");
-    let rest = version.trim_end().strip_prefix(own).expect(&version);
+    let begin = concat!("shuttertruth ", env!("CARGO_PKG_VERSION"), " (");
+    let rest = version.trim_end().strip_prefix(begin).expect(&version);
     let (source, target) = rest.trim_end_matches(')').split_once(", ").unwrap();
     let known = ["development build", "unknown commit: built without git"];
     let is_known = known.contains(&source) || source.starts_with("commit ");

@@ -13,19 +13,19 @@ fn read(path: &str) -> String {
 fn read_section(section: &str) -> BTreeMap<String, Vec<String>> {
     let action = read("action.yml");
     let (_, rest) = action.split_once(&format!("\n{section}:\n")).unwrap();
-    let own = rest.lines();
-    let own = own.take_while(|line| line.is_empty() || line.starts_with(' '));
-    let mut found: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    let body = rest.lines();
+    let body = body.take_while(|line| line.is_empty() || line.starts_with(' '));
+    let mut entries: BTreeMap<String, Vec<String>> = BTreeMap::new();
     let mut name = String::new();
-    for line in own {
+    for line in body {
         let head = line.strip_prefix("  ");
         if let Some(head) = head.filter(|head| !head.starts_with(' ')) {
             head.trim_end_matches(':').clone_into(&mut name);
         }
-        let lines = found.entry(name.clone()).or_default();
+        let lines = entries.entry(name.clone()).or_default();
         lines.push(line.trim().to_owned());
     }
-    found
+    entries
 }
 
 /// Reads the first two cells of each row of the table below a line that begins with `first`.
@@ -43,10 +43,10 @@ fn read_table(page: &str, first: &str) -> BTreeMap<String, String> {
 fn the_page_on_ci_lists_the_inputs_and_outputs_of_the_action_and_the_defaults() {
     let page = read("docs/ci.md");
     for (section, first) in [("inputs", "| input |"), ("outputs", "| output |")] {
-        let (said, own) = (read_table(&page, first), read_section(section));
-        assert!(own.len() > 3);
-        let (own, said): (Vec<_>, Vec<_>) = (own.keys().collect(), said.keys().collect());
-        assert_eq!(own, said, "the {section}");
+        let (said, declared) = (read_table(&page, first), read_section(section));
+        assert!(declared.len() > 3);
+        let (declared, said): (Vec<_>, Vec<_>) = (declared.keys().collect(), said.keys().collect());
+        assert_eq!(declared, said, "the {section}");
     }
     let table = read_table(&page, "| input |");
     for (name, lines) in read_section("inputs") {
@@ -74,7 +74,7 @@ fn no_script_of_the_action_has_an_expression_in_its_text() {
         let indentation = line.len() - line.trim_start().len();
         if line.trim() == "run: |" {
             script = Some(indentation);
-        } else if script.is_some_and(|own| indentation <= own && !line.is_empty()) {
+        } else if script.is_some_and(|indent| indentation <= indent && !line.is_empty()) {
             script = None;
         }
         let is_safe = script.is_none() || !line.contains("${{");

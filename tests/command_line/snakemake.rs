@@ -22,7 +22,7 @@ fn snakemake(sandbox: &Sandbox) -> Command {
     command.arg(format!("program={}", env!("CARGO_BIN_EXE_shuttertruth")));
     command.arg(format!("options={OPTIONS}"));
     command.args(["scenes=plate", "filters=identity,kino:default"]);
-    // It keeps files there that no test needs.
+    // Snakemake keeps files in its cache that no test needs.
     command.env("XDG_CACHE_HOME", sandbox.path("cache"));
     command.current_dir(sandbox.path(""));
     command
@@ -32,16 +32,16 @@ fn snakemake(sandbox: &Sandbox) -> Command {
 fn find_process(folder: &Path, words: &[&str]) -> Option<String> {
     let is_own = |process: &PathBuf| {
         let text = fs::read_to_string(process.join("cmdline")).unwrap_or_default();
-        let own: Vec<&str> = text.split('\0').collect();
-        own[0] == env!("CARGO_BIN_EXE_shuttertruth")
-            && words.iter().all(|word| own.contains(word))
-            && fs::read_link(process.join("cwd")).is_ok_and(|it| it == folder)
+        let arguments: Vec<&str> = text.split('\0').collect();
+        arguments[0] == env!("CARGO_BIN_EXE_shuttertruth")
+            && words.iter().all(|word| arguments.contains(word))
+            && fs::read_link(process.join("cwd")).is_ok_and(|path| path == folder)
     };
     let mut processes = fs::read_dir("/proc")
         .unwrap()
         .map(|entry| entry.unwrap().path());
-    let found = processes.find(is_own)?;
-    Some(found.file_name()?.to_string_lossy().into_owned())
+    let process = processes.find(is_own)?;
+    Some(process.file_name()?.to_string_lossy().into_owned())
 }
 
 /// Waits for a process and kills it.

@@ -17,8 +17,8 @@ fn assert_printed(text: &str, file: &str) {
     ];
     for (name, before, after) in parts {
         let rest = text.split_once(before).map(|(_, rest)| rest);
-        if let Some(found) = rest.and_then(|rest| rest.split(after).next()) {
-            redactions.insert(name, found.to_owned()).unwrap();
+        if let Some(value) = rest.and_then(|rest| rest.split(after).next()) {
+            redactions.insert(name, value.to_owned()).unwrap();
         }
     }
     let folder = tests::root().join("tests/command_line/snapshots");

@@ -48,11 +48,11 @@ fn is_printed(printed: &str, column: &[&str], row: &[&str], score: &str) -> bool
         // Columns are counted from the right. Without the column's name in its head, a table begins
         // with FLIP.
         let place = head.iter().rev().position(|word| column.contains(word));
-        let found = match place {
+        let cell = match place {
             Some(place) => scores.iter().rev().nth(place),
             None => words.iter().find(|word| is_score(word)),
         };
-        if has_names && has_form && found.is_some_and(|own| own.trim_start_matches('+') == score) {
+        if has_names && has_form && cell.is_some_and(|text| text.trim_start_matches('+') == score) {
             return true;
         }
         if numbers > 0 || words.iter().any(|word| is_score(word)) {
@@ -95,7 +95,7 @@ fn the_tables_of_studies_are_what_their_commands_printed() {
     let mut pages = 0;
     for entry in fs::read_dir(root().join("results/studies")).unwrap() {
         let kept = entry.unwrap().path();
-        if kept.extension().is_some_and(|own| own == "txt")
+        if kept.extension().is_some_and(|extension| extension == "txt")
             && !["mutation.txt", "intervals.txt"]
                 .iter()
                 .any(|other| kept.ends_with(other))
@@ -159,12 +159,15 @@ fn the_mutation_score_is_what_its_command_printed() {
         match cells[..] {
             [_, filter, killed, share] if killed.contains(" of ") => {
                 let name = list_names(filter)[0];
-                let own = printed.split(&format!("{name} at ")).nth(1).unwrap();
-                let own = own
+                let score = printed.split(&format!("{name} at ")).nth(1).unwrap();
+                let score = score
                     .lines()
                     .find(|line| line.starts_with("score: "))
                     .unwrap();
-                assert!(own.contains(killed) && own.contains(share), "{row}: {own}");
+                assert!(
+                    score.contains(killed) && score.contains(share),
+                    "{row}: {score}"
+                );
                 counts[0] += 1;
             }
             [_, total, ..] if total.parse::<u32>().is_ok() => {

@@ -94,6 +94,6 @@ fn a_gallery_shows_the_best_and_the_worst_filter_of_each_shutter() {
 
 #[test]
 fn a_run_of_only_references_makes_no_gallery() {
-    let found = ["no best and no worst", "run filters"];
-    Sandbox::measured().refuse("report out --gallery shown", &found);
+    let messages = ["no best and no worst", "run filters"];
+    Sandbox::measured().refuse("report out --gallery shown", &messages);
 }

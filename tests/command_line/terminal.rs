@@ -133,8 +133,8 @@ fn json_output_has_no_other_text() {
         let text = stdout(&output);
         let value: Value = serde_json::from_str(&text)
             .unwrap_or_else(|error| panic!("{line}: {error}: {text}{}", stderr(&output)));
-        let found = value.pointer(key).unwrap_or(&Value::Null);
-        assert!(!found.is_null(), "{line}: {key}");
+        let entry = value.pointer(key).unwrap_or(&Value::Null);
+        assert!(!entry.is_null(), "{line}: {key}");
     }
 }
 

@@ -114,8 +114,8 @@ impl Drawn {
     fn change_velocity(&self, change: Change) {
         let changed = self.velocity().map(|velocity| change(*velocity));
         let mut file = ExrFile::new(WIDTH, HEIGHT);
-        file.push_plane("velocity.X", &changed.map(|it| it[0]));
-        file.push_plane("velocity.Y", &changed.map(|it| it[1]));
+        file.push_plane("velocity.X", &changed.map(|velocity| velocity[0]));
+        file.push_plane("velocity.Y", &changed.map(|velocity| velocity[1]));
         write_exr(&self.sandbox.path("capture/velocity.exr"), &file).unwrap();
     }
 
@@ -134,15 +134,15 @@ impl Drawn {
 
     /// Returns the length of the difference between both velocities.
     fn velocity_error(&self) -> Raster<f32> {
-        let difference = |own: &[f32; 2], expected: &[f32; 2]| {
-            (own[0] - expected[0]).hypot(own[1] - expected[1])
+        let difference = |actual: &[f32; 2], expected: &[f32; 2]| {
+            (actual[0] - expected[0]).hypot(actual[1] - expected[1])
         };
         let exposure = self.frame.exposure;
-        let own = self
+        let restored = self
             .convention()
             .restore_velocity(&self.velocity(), exposure)
             .unwrap();
-        own.zip(&self.frame.velocity, difference)
+        restored.zip(&self.frame.velocity, difference)
     }
 }
 
@@ -165,8 +165,8 @@ fn three_js_s_objects_have_exact_vectors_which_the_audit_tells_from_planted_ones
     assert!(median(&error) < 0.02, "{} px", median(&error));
     assert!(error[error.len() * 95 / 100] < 0.1);
     let depth = drawn.depth();
-    let error = depth.zip(&drawn.frame.depth, |own, expected| {
-        (own / expected - 1.0).abs()
+    let error = depth.zip(&drawn.frame.depth, |actual, expected| {
+        (actual / expected - 1.0).abs()
     });
     assert!(median(&drawn.measure(is_object, &error)) < 1e-3);
 
@@ -218,9 +218,9 @@ fn three_js_gives_the_sky_the_motion_of_something_near() {
     assert_eq!(code, Some(1), "{said}");
     assert_contains(&said, &["velocity of `background`"]);
     assert!(!said.contains("velocity of `skyline`"), "{said}");
-    let [own, expected] = [&drawn.depth(), &drawn.frame.depth].map(|depth| {
+    let [actual, expected] = [&drawn.depth(), &drawn.frame.depth].map(|depth| {
         let depths = depth.pixels.iter();
         depths.filter(|depth| **depth == FAR_DEPTH).count()
     });
-    assert!(own.abs_diff(expected) < 50, "{own} {expected}");
+    assert!(actual.abs_diff(expected) < 50, "{actual} {expected}");
 }

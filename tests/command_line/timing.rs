@@ -44,7 +44,7 @@ fn a_bench_prints_and_writes_the_same_times() {
         let passes: Option<f64> = case.passes.iter().map(|pass| pass.bytes_per_pixel).sum();
         assert_eq!(case.bytes_per_pixel, passes);
         let speed = done.copy.as_ref().unwrap().bytes_per_second;
-        let part = case.bytes_per_second.map(|own| own / speed);
+        let part = case.bytes_per_second.map(|rate| rate / speed);
         assert_eq!(case.part_of_copy, part);
     }
     assert_eq!(done.cases[2].bytes_per_pixel, Some(32.0));

@@ -44,8 +44,8 @@ fn kinds_of_frames_are_recorded_and_sealed_scenes_have_other_truths_and_no_limit
     let kinds = "--velocity camera_only --frame-sampling point --sky-velocity off";
     let run = measure(&sandbox, kinds);
     let json = serde_json::to_value(&run).unwrap();
-    let found = ["velocity", "color", "sky_velocity"].map(|key| json[key].to_string());
-    assert_eq!(found, ["\"camera_only\"", "\"point\"", "false"]);
+    let recorded = ["velocity", "color", "sky_velocity"].map(|key| json[key].to_string());
+    assert_eq!(recorded, ["\"camera_only\"", "\"point\"", "false"]);
     fs::remove_dir_all(sandbox.path("out")).unwrap();
     let plain = measure(&sandbox, "");
     // A camera-only velocity lacks the plate's own motion.

@@ -96,12 +96,12 @@ fn armory_s_mode_camera_equals_its_source_in_64_bits() {
     let size = [width, height].map(f64::from);
     let [mut blurred, mut sky] = [0; 2];
     for (x, y) in (0..width).flat_map(|x| (0..height).map(move |y| (x, y))) {
-        let own = f64::from(frame.color.at(x, y)[0]);
-        let found = f64::from(output.at(x, y)[0]);
+        let input = f64::from(frame.color.at(x, y)[0]);
+        let result = f64::from(output.at(x, y)[0]);
         // motion_blur_pass.frag.glsl at 258a33d, line by line, in texture coordinates from the top
         // left.
         if *frame.depth.at(x, y) == FAR_DEPTH {
-            assert_eq!(found, own);
+            assert_eq!(result, input);
             sky += 1;
             continue;
         }
@@ -110,14 +110,14 @@ fn armory_s_mode_camera_equals_its_source_in_64_bits() {
             device / 40.0 * 2.5 * frame.exposure
         });
         let mut offset = [x, y].map(|part| f64::from(part) + 0.5);
-        let mut sum = own;
+        let mut sum = input;
         for _ in 0..8 {
             offset = [0, 1].map(|axis| offset[axis] + velocity[axis] * size[axis]);
             sum += sample_linear(offset, |x, y| read_clamped(&frame.color, x, y)[0].into());
         }
         // Positions in 32 bits err by 1e-5 pixels, and neighbouring pixels differ by up to 2.
-        assert_near(found, sum / 9.0, 1e-3);
-        blurred += i32::from((found - own).abs() > 0.01);
+        assert_near(result, sum / 9.0, 1e-3);
+        blurred += i32::from((result - input).abs() > 0.01);
     }
     assert!(blurred > 40 && sky > 100, "{blurred} {sky}");
 }

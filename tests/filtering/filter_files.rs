@@ -25,7 +25,9 @@ impl FilterFiles {
     }
 
     pub fn read(folder: &Path) -> Self {
-        let paths = fs::read_dir(folder).unwrap().map(|it| it.unwrap().path());
+        let paths = fs::read_dir(folder)
+            .unwrap()
+            .map(|entry| entry.unwrap().path());
         let files = paths.filter(|path| path.is_file()).map(|path| {
             let name = path.file_name().unwrap().to_str().unwrap().to_owned();
             (name, fs::read(&path).unwrap())

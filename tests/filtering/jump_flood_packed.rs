@@ -128,26 +128,28 @@ fn compare_floods(takes: impl Fn(usize, usize) -> bool) {
     for (number, (preset, changes)) in changed.enumerate() {
         let taken = (frames.iter().enumerate()).filter(|(frame, _)| takes(number, *frame));
         for (_, (name, field)) in taken {
-            let [expected, found] = [&plain, &packed].map(|filter| {
+            let [expected, actual] = [&plain, &packed].map(|filter| {
                 let settings = change_preset(filter, Some(preset), changes);
                 paint(filter, &settings, field)
             });
-            assert_equal(&format!("{preset} {changes} on {name}"), &expected, &found);
+            assert_equal(&format!("{preset} {changes} on {name}"), &expected, &actual);
             let width = field.color.width as usize;
-            let own = |index: usize| [(index % width) as u32, (index / width) as u32];
-            let moved = found.seeds.iter().enumerate();
-            carried += moved.filter(|(index, seed)| **seed != own(*index)).count();
-            all += found.seeds.len();
+            let place = |index: usize| [(index % width) as u32, (index / width) as u32];
+            let moved = actual.seeds.iter().enumerate();
+            carried += moved
+                .filter(|(index, seed)| **seed != place(*index))
+                .count();
+            all += actual.seeds.len();
         }
     }
     // A flood that carries nothing proves nothing.
     assert!(8 * carried > all, "only {carried} of {all} found a source");
 }
 
-fn assert_equal(said: &str, expected: &Painted, found: &Painted) {
-    let seeds = expected.seeds.iter().zip(&found.seeds);
+fn assert_equal(said: &str, expected: &Painted, actual: &Painted) {
+    let seeds = expected.seeds.iter().zip(&actual.seeds);
     let other_seeds = seeds.filter(|(a, b)| a != b).count();
-    let pixels = expected.output.pixels.iter().zip(&found.output.pixels);
+    let pixels = expected.output.pixels.iter().zip(&actual.output.pixels);
     // Positions at 200 pixels are rounded to 1.5e-5 of a pixel. Between a surface and the
     // background the mixed depth changes by tens of metres per pixel. That moves a tap whose
     // position depends on it by up to 30 pixels per metre: 1e-3 of a colour in [0, 2). Another
@@ -160,7 +162,7 @@ fn assert_equal(said: &str, expected: &Painted, found: &Painted) {
     // differently: a decision within 4e-6 of its threshold then goes either way. With 9 x 3
     // decisions in each of up to 8 passes that is one pixel in a thousand, and a wrong pixel shows
     // in the taps of its neighbours.
-    let count = found.seeds.len();
+    let count = actual.seeds.len();
     let allowed = match shared_gpu().adapter.kind.as_str() {
         "software" => 0,
         _ => 1 + count / 200,
@@ -191,9 +193,9 @@ fn tiles_that_no_trail_reaches_are_skipped() {
     for preset in &packed.presets {
         let settings = packed.settings(Some(&preset.name)).unwrap();
         let field = sparse(200, 120);
-        let found = paint(&packed, &settings, &field).tiles;
-        let reached = found.iter().filter(|tile| **tile == 1).count();
-        let tiles = found.len();
+        let flags = paint(&packed, &settings, &field).tiles;
+        let reached = flags.iter().filter(|tile| **tile == 1).count();
+        let tiles = flags.len();
         assert_eq!(tiles, 13 * 8);
         // Each of three movers is in at least one tile. Their trails of up to 33 pixels are widened
         // by a third on either side for the tolerance. They stay within half of the image even if

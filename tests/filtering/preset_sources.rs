@@ -91,9 +91,9 @@ fn a_user_s_value_is_not_scaled_and_no_value_is_scaled_twice() {
 #[test]
 fn the_width_of_a_filter_holds_for_presets_without_one_of_their_own() {
     let first = "[[parameter]]\nname = \"tile_size\"";
-    let own = |width: u32| format!("reference_width = {width}\n{first}");
+    let width_key = |width: u32| format!("reference_width = {width}\n{first}");
     let filter = files()
-        .changed("filter.toml", first, &own(640))
+        .changed("filter.toml", first, &width_key(640))
         .load()
         .unwrap();
     let widths = filter.presets.iter().map(|preset| preset.reference_width);

@@ -91,11 +91,11 @@ impl Run {
 
     /// Fails unless a pixel of the output has this colour.
     pub fn assert_color(&self, pixel: [i64; 2], expected: [f64; 3], tolerance: f64) {
-        let found = self.output.at(pixel[0] as u32, pixel[1] as u32);
-        let is_near = |c: usize| (expected[c] - f64::from(found[c])).abs() < tolerance;
+        let actual = self.output.at(pixel[0] as u32, pixel[1] as u32);
+        let is_near = |c: usize| (expected[c] - f64::from(actual[c])).abs() < tolerance;
         assert!(
             (0..3).all(is_near),
-            "{}: pixel {pixel:?} is {found:?}; the reference says {expected:?} +- {tolerance}",
+            "{}: pixel {pixel:?} is {actual:?}; the reference says {expected:?} +- {tolerance}",
             self.name
         );
     }

@@ -42,10 +42,10 @@ fn identity() -> Vec<FilterChoice> {
 
 /// Reads bounds from texts for all scenes and for `fan`, as `check` does before it measures the
 /// identity.
-fn read(shared: &str, own: &str) -> Result<SceneBounds, String> {
+fn read(shared: &str, of_fan: &str) -> Result<SceneBounds, String> {
     let scenes = Scenes::new();
     scenes.write("bounds.toml", shared);
-    scenes.write("fan/bounds.toml", own);
+    scenes.write("fan/bounds.toml", of_fan);
     let root = scenes.0.path();
     let check = || {
         let bounds = scenes.read(None)?;
@@ -74,8 +74,10 @@ fn every_metric_except_those_for_reports_can_have_a_bound() {
             continue;
         }
         let bounds = bounds.unwrap().of("identity", "default");
-        let found = bounds.iter().map(|(own, b)| (*own, b.limit, b.level));
-        assert!(found.eq([(metric, 0.25, Level::Required)]), "{metric}");
+        let limits = bounds
+            .iter()
+            .map(|(bounded_metric, b)| (*bounded_metric, b.limit, b.level));
+        assert!(limits.eq([(metric, 0.25, Level::Required)]), "{metric}");
     }
 }
 
@@ -83,8 +85,8 @@ fn every_metric_except_those_for_reports_can_have_a_bound() {
 fn limits_hold_only_at_their_own_size() {
     let everywhere = format!("[default]\n{}", line("flip_moving", 0.1, ""));
     let of = |filter: &str, size: &str| {
-        let own = line("flip_moving", 0.2, size);
-        read(&everywhere, &format!("[filter.{filter}]\n{own}")).unwrap()
+        let limit = line("flip_moving", 0.2, size);
+        read(&everywhere, &format!("[filter.{filter}]\n{limit}")).unwrap()
     };
     let small = of("identity", "size = [160, 90],");
     let large = of("identity", "size = [320, 180],");
@@ -190,9 +192,9 @@ fn bounds_that_mean_nothing_are_refused_with_file_and_line() {
     let table: toml::Table = include_str!("refused_bounds.toml").parse().unwrap();
     for row in table["refused"].as_array().unwrap() {
         let text = |key: &str| row.get(key).map(|text| text.as_str().unwrap());
-        let (shared, own) = (text("shared").unwrap_or(&good), text("own").unwrap_or(""));
+        let (shared, of_fan) = (text("shared").unwrap_or(&good), text("own").unwrap_or(""));
         let says: Vec<String> = row["says"].clone().try_into().unwrap();
-        assert_contains(&read(shared, own).unwrap_err(), &says);
+        assert_contains(&read(shared, of_fan).unwrap_err(), &says);
     }
 }
 
@@ -217,13 +219,15 @@ fn a_narrower_bound_overrides_a_wider_one_and_a_scene_s_bound_overrides_the_shar
         + &table("filter.identity", 5, 2.0)
         + &table("filter.\"identity:default\"", 4, 3.0)
         + &table("filter.jump_flood", 6, 7.0);
-    let own = table("default", 3, 4.0)
+    let of_fan = table("default", 3, 4.0)
         + &table("filter.identity", 2, 5.0)
         + &table("filter.\"identity:default\"", 1, 6.0);
-    let bounds = read(&shared, &own).unwrap();
+    let bounds = read(&shared, &of_fan).unwrap();
     let limits = |filter, preset| {
-        let found = bounds.of(filter, preset);
-        let limits = names.iter().map(|name| found[&name.parse().unwrap()].limit);
+        let bounds_there = bounds.of(filter, preset);
+        let limits = names
+            .iter()
+            .map(|name| bounds_there[&name.parse().unwrap()].limit);
         limits.collect::<Vec<f64>>()
     };
     let due = [6.0, 5.0, 4.0, 3.0, 2.0, 1.0];

@@ -10,7 +10,8 @@ const SIZE: [u32; 2] = [160, 90];
 const SAMPLES: u32 = 64;
 const SAMPLES_OF_CONVERGED: u32 = 1024;
 const SEEDS: u64 = 12;
-/// Of 12 intervals 11.4 on average; fewer than 9 once in 500 times.
+/// Least number of intervals that hold the converged score. Of 12 it is 11.4 on average, and below
+/// 9 once in 500 times.
 const LEAST: usize = 9;
 
 /// Measures a filter on `railing`, whose bars and shadows make noisy frames; returns the intervals
@@ -46,19 +47,21 @@ fn intervals_of_filters_contain_the_score_without_noise() {
         let filter = Filter::load(&tests::root().join("shaders").join(name)).unwrap();
         let choice = FilterChoice::new(filter, preset).unwrap();
         let converged = measure(&gpu, &choice, SAMPLES_OF_CONVERGED, 1000);
-        let found: Vec<Vec<Interval>> = (1..=SEEDS)
+        let intervals_by_seed: Vec<Vec<Interval>> = (1..=SEEDS)
             .map(|seed| measure(&gpu, &choice, SAMPLES, seed))
             .collect();
         for (score, converged) in converged.iter().enumerate() {
-            let own = found.iter().map(|intervals| intervals[score]);
-            let held = own
+            let intervals = intervals_by_seed.iter().map(|intervals| intervals[score]);
+            let held = intervals
                 .clone()
-                .filter(|own| own.holds(converged.center))
+                .filter(|interval| interval.holds(converged.center))
                 .count();
             assert!(held >= LEAST, "{name}, score {score}: {held} of {SEEDS}");
             // A score without noise would hold nothing to test.
             assert!(
-                own.clone().any(|own| own.low < own.high),
+                intervals
+                    .clone()
+                    .any(|interval| interval.low < interval.high),
                 "{name}, score {score}"
             );
         }

@@ -60,7 +60,7 @@ struct Bench {
 
 impl Bench {
     fn run(&self, filters: Vec<FilterChoice>, seed: u64) -> Run {
-        let names: Vec<String> = self.scenes.iter().map(|it| (*it).to_owned()).collect();
+        let names: Vec<String> = self.scenes.iter().map(|name| (*name).to_owned()).collect();
         let scenes = select_scenes(tests::scenes(), &names).unwrap();
         let mut render = tests::settings([128, 72], 64);
         render.seed = seed;
@@ -97,12 +97,12 @@ impl Bench {
         let mut cases = run.cases.clone();
         cases.retain(|case| !case.is_reference);
         assert_eq!(cases.len(), count * self.scenes.len());
-        let own = |filter| Run {
+        let run_of = |filter| Run {
             cases: cases.iter().skip(filter).step_by(count).cloned().collect(),
             ..run.clone()
         };
         let check = |alone| check(&alone, judge(&alone, bounds), Vec::new());
-        (0..count).map(own).map(check).collect()
+        (0..count).map(run_of).map(check).collect()
     }
 }
 
@@ -110,11 +110,13 @@ impl Bench {
 fn choices(words: impl IntoIterator<Item = String>) -> Vec<FilterChoice> {
     let select = |word| select_filters(&[word], None, &[], Programs::Refused).unwrap();
     let mut choices: Vec<FilterChoice> = words.into_iter().flat_map(select).collect();
-    for own in choices
+    for choice in choices
         .iter_mut()
-        .filter(|own| own.filter.name == "mcguire")
+        .filter(|choice| choice.filter.name == "mcguire")
     {
-        let set = own.settings.set(&own.filter, "tile_size", SMALL_TILES);
+        let set = choice
+            .settings
+            .set(&choice.filter, "tile_size", SMALL_TILES);
         set.unwrap();
     }
     choices
@@ -154,15 +156,15 @@ fn check_defects(
     let checks = bench.check(words.clone(), &bench.calibrate());
     let (mut wrong, mut metrics) = (Vec::new(), BTreeSet::new());
     for (index, (word, check)) in words.iter().zip(checks).enumerate() {
-        let is_broken = |it: &&Finding| it.decision() == Decision::Broken;
+        let is_broken = |finding: &&Finding| finding.decision() == Decision::Broken;
         let broken: Vec<&Finding> = check.findings.iter().filter(is_broken).collect();
-        let name = |it: &&Finding| format!(", {} on {}", it.metric, it.scene);
+        let name = |finding: &&Finding| format!(", {} on {}", finding.metric, finding.scene);
         let names: String = broken.iter().map(name).collect();
         let text = format!("{word}: {:?}{names}", check.decision);
         println!("{text}");
         let expected = [Decision::Broken, Decision::Pass][usize::from(index < SOUND.len())];
         wrong.extend((check.decision != expected).then_some(text));
-        metrics.extend(broken.iter().map(|it| it.metric.to_string()));
+        metrics.extend(broken.iter().map(|finding| finding.metric.to_string()));
     }
     assert!(wrong.is_empty(), "{wrong:#?}");
     metrics

@@ -77,14 +77,14 @@ fn judge_bars(scene: &Scene, bounds: &SceneBounds, out: &Path) -> [Vec<JudgedSco
 
 /// Formats the scores with an outcome.
 fn list(judged: &[JudgedScore], outcome: Outcome) -> String {
-    let own = judged.iter().filter(|one| one.outcome == outcome);
+    let chosen = judged.iter().filter(|one| one.outcome == outcome);
     let text = |one: &JudgedScore| {
         format!(
             "{} {:?}, limit {}; ",
             one.metric, one.measured, one.bound.limit
         )
     };
-    own.map(text).collect()
+    chosen.map(text).collect()
 }
 
 fn check_bars(names: &[&str]) {
@@ -155,8 +155,8 @@ fn check_guarded(names: &[&str]) {
     let finished = measure_scenes(&plan, Some(&open_gpu()), Vec::new()).unwrap();
     let checked = check(&finished, judge(&finished, &bounds), Vec::new());
     let mut not_kept = checked.findings;
-    not_kept.retain(|it| it.level == Level::Required);
-    not_kept.retain(|it| !matches!(it.outcome, Outcome::Kept | Outcome::NotApplicable));
+    not_kept.retain(|finding| finding.level == Level::Required);
+    not_kept.retain(|finding| !matches!(finding.outcome, Outcome::Kept | Outcome::NotApplicable));
     assert_eq!(checked.decision, Decision::Pass, "{not_kept:#?}");
 }
 

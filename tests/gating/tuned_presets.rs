@@ -45,9 +45,9 @@ fn compare(name: &str, names: &[&str], width: u32, as_written: bool) -> (PairedC
     let rendered = render_scenes(&scenes, filter, &render, &out, Monitor::SILENT).unwrap();
     let mut evaluator =
         Evaluator::new(Some(&gpu), &choice, &rendered, true, Monitor::SILENT).unwrap();
-    let [published, own] =
+    let [published, tuned_preset] =
         [&tuned.from, "tuned"].map(|preset| choice.preset_at(preset, width).unwrap());
-    let paired = compare_candidates(&mut evaluator, &published, &own).unwrap();
+    let paired = compare_candidates(&mut evaluator, &published, &tuned_preset).unwrap();
     let table = format!("{name}\n{}", paired_table(&paired, [&tuned.from, "tuned"]));
     println!("{table}");
     (paired, table)
@@ -56,11 +56,11 @@ fn compare(name: &str, names: &[&str], width: u32, as_written: bool) -> (PairedC
 /// Checks both filters; if lengths are as written, bleed may not be worse either.
 fn check(names: &[&str], width: u32, as_written: bool) {
     for name in TUNED {
-        let (found, table) = compare(name, names, width, as_written);
-        assert_eq!(found.flip.verdict, Preference::Second, "{table}");
+        let (paired, table) = compare(name, names, width, as_written);
+        assert_eq!(paired.flip.verdict, Preference::Second, "{table}");
         // Scaled to these small pictures, the lengths of `paper` are so short that it hardly
         // bleeds.
-        let bleed = found.bleed.expect("some scenes have bleed");
+        let bleed = paired.bleed.expect("some scenes have bleed");
         assert!(!as_written || bleed.is_no_worse(LEAST_BLEED), "{table}");
     }
 }

@@ -137,9 +137,9 @@ fn a_rotating_bar_covers_its_sector_of_the_annulus() {
                 }
                 // The bar's angles that contain the point are on both sides of the point's own
                 // angle.
-                let own = point.to_angle();
-                let sides = overlap(swept, [own + nearest, own + farthest])
-                    + overlap(swept, [own - farthest, own - nearest]);
+                let turn = point.to_angle();
+                let sides = overlap(swept, [turn + nearest, turn + farthest])
+                    + overlap(swept, [turn - farthest, turn - nearest]);
                 sides / (swept[1] - swept[0])
             };
             // The share jumps by up to 0.1 across the bar's end: 1e-4 by the midpoint rule.

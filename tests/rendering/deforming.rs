@@ -58,11 +58,11 @@ fn shifting_shapes_equal_a_translation() {
         });
     }
     for kind in VelocityKind::ALL {
-        let [found, expected] = [&scene, &rigid].map(|scene| render_velocities(scene, kind));
-        let pairs = found.as_flattened().iter().zip(expected.as_flattened());
-        for (found, expected) in pairs {
+        let [actual, expected] = [&scene, &rigid].map(|scene| render_velocities(scene, kind));
+        let pairs = actual.as_flattened().iter().zip(expected.as_flattened());
+        for (actual, expected) in pairs {
             // The step of the difference quotient leaves 1e-6 pixels of rounding.
-            assert!((found - expected).abs() < 1e-4);
+            assert!((actual - expected).abs() < 1e-4);
         }
     }
 }

@@ -134,9 +134,12 @@ fn hashes(scene: &Scene, settings: &RenderSettings) -> [String; 4] {
 fn pictures_bear_the_hashes_of_their_inputs() {
     let (scene, settings) = (busy_scene(), own_settings());
     let (frame, truth, ladder) = everything(&scene, &settings);
-    let found = [frame.provenance, truth.provenance, ladder.provenance];
+    let provenances = [frame.provenance, truth.provenance, ladder.provenance];
     let [frame, truth, _, ladder] = hashes(&scene, &settings);
-    assert_eq!(found.map(|it| it.content_hash), [frame, truth, ladder]);
+    assert_eq!(
+        provenances.map(|provenance| provenance.content_hash),
+        [frame, truth, ladder]
+    );
 }
 
 #[test]
@@ -187,13 +190,16 @@ fn hashes_leave_out_what_changes_no_pixel() {
     let mut of_frame = named;
     of_frame.options.velocity = VelocityKind::PreviousFrame;
     of_frame.guard_band = 3;
-    let own = hashes(&scene, &settings);
-    assert_eq!(own[1..], hashes(&scene, &of_frame)[1..]);
-    assert_ne!(own[0], frame_hash(&scene, &of_one_replicate(&of_frame)));
-    assert_eq!(own[0], frame_hash(&scene, &of_one_replicate(&named)));
-    assert_ne!(own[0], frame_hash(&scene, &named));
+    let expected = hashes(&scene, &settings);
+    assert_eq!(expected[1..], hashes(&scene, &of_frame)[1..]);
+    assert_ne!(
+        expected[0],
+        frame_hash(&scene, &of_one_replicate(&of_frame))
+    );
+    assert_eq!(expected[0], frame_hash(&scene, &of_one_replicate(&named)));
+    assert_ne!(expected[0], frame_hash(&scene, &named));
     let lens = with_lens(scene, 0.3, 3.0);
-    assert_eq!(own, hashes(&lens.pinhole(), &settings));
+    assert_eq!(expected, hashes(&lens.pinhole(), &settings));
 }
 
 #[test]

@@ -35,7 +35,7 @@ fn expect_velocity(scene: &Scene, kind: VelocityKind, exact: impl Fn(DVec2) -> D
         (DVec2::new(right, -down), exact(place))
     });
     let both: Vec<(DVec2, DVec2)> = both.collect();
-    let fastest = both.iter().map(|own| own.1.length()).fold(0.0, f64::max);
+    let fastest = both.iter().map(|pair| pair.1.length()).fold(0.0, f64::max);
     for (velocity, expected) in both {
         assert!(
             velocity.distance(expected) <= TOLERANCE * fastest,
@@ -185,7 +185,7 @@ fn what_stands_still_under_a_still_camera_has_no_velocity_at_all() {
             let [x, y] = frame.velocity.pixels[pixel];
             let [next_x, next_y] = next.pixels[pixel];
             if *id != mover {
-                // Not even -0, which has another direction.
+                // All numbers are 0, not -0, which has another direction.
                 let bits = [x, y, next_x, next_y, z.pixels[pixel]].map(f32::to_bits);
                 assert_eq!(bits, [0; 5], "{kind}: object {id} at pixel {pixel}");
             } else if kind != VelocityKind::CameraOnly {

@@ -47,8 +47,8 @@ fn a_textured_panel_hangs_upright_and_has_its_holes() {
     let mean = render_small_truth(&scene, 64).mean();
     // Pixels between texels of one quadrant, where interpolation changes nothing.
     for (x, y, expected) in [(3, 2, 0.9), (12, 2, 0.4), (3, 6, 0.6), (12, 6, 0.8)] {
-        let found = mean.color.at(x, y)[0];
-        assert!((found - expected).abs() < 1e-6, "{found} at ({x}, {y})");
+        let level = mean.color.at(x, y)[0];
+        assert!((level - expected).abs() < 1e-6, "{level} at ({x}, {y})");
     }
     // Interpolated alpha is below 0.5 in a square of two texels with rounded corners: 4 (0.5 + 0.75
     // - ln(2) / 2) of 16 texels.
@@ -94,7 +94,7 @@ fn white_things_under_a_white_sky_cannot_be_seen() {
     let truth = render_small_truth(&scene, 256);
     let coverage = truth.mean().coverage;
     assert!(coverage[0].pixels.contains(&0.0));
-    assert!(coverage[5].pixels.iter().any(|own| *own > 0.1));
+    assert!(coverage[5].pixels.iter().any(|share| *share > 0.1));
     // Every path ends in the sky with all its energy, whatever its length.
     expect_everywhere("white", &truth, 1.0);
 }
@@ -117,7 +117,8 @@ fn a_smooth_normal_shades_and_transforms_as_a_normal() {
 #[test]
 fn a_floor_under_a_glowing_disc_has_the_radiance_of_its_form_factor() {
     let translucent = film(Vec3::ONE, 0.25, Vec3::ONE);
-    // From small lamps, where light samples weigh most, to large ones, where the lobe's samples do.
+    // The lamps go from small ones, where light samples weigh most, to large ones, where the lobe's
+    // samples do.
     for (radius, lamp, opacity) in [
         (0.02, glowing(1.0), 1.0),
         (0.5, glowing(1.0), 1.0),
@@ -253,7 +254,7 @@ fn a_sky_and_its_image_light_a_floor_by_the_cosine() {
 #[test]
 fn a_small_bright_sun_in_an_image_is_found() {
     let mut scene = grey_floor();
-    // One texel 39 degrees from straight up.
+    // The sun is one texel, 39 degrees from straight up.
     let bright = |x, y| [f32::from((x, y) == (20, 6)) * 1000.0; 3];
     scene.background = map(64, 0.0, bright);
     // The bilinear tent around the texel's middle, by the midpoint rule.

@@ -63,7 +63,7 @@ pub fn expect_no_leak(
                 2 => 0.5 * (a + b),
                 _ => a + 0.5 * (1.0 + numbers.next()) * (b - a),
             };
-            // From inside, where every way out must be stopped; and from outside towards the near
+            // Rays start inside, where every way out must be stopped, and outside towards the near
             // side of a convex mesh, which must stop the ray at the target. Edge-on triangles
             // belong to the silhouette, which rounding may miss.
             let start = match index / 4 % 4 {
@@ -183,7 +183,7 @@ fn egg_crate(side: f32) -> Mesh {
 fn pits_are_lit_to_their_bottom_from_1_mm_to_10_km() {
     for [side, offset] in SCALES.iter().copied() {
         let mut scene = empty_scene("pits");
-        // So dark that light from facet to facet is lost in rounding.
+        // The facets are so dark that light from one to another is lost in rounding.
         let albedo = 1e-7;
         let pits = egg_crate(side as f32);
         add(&mut scene, pits, diffuse(albedo), placed(DVec3::ZERO));
@@ -191,7 +191,7 @@ fn pits_are_lit_to_their_bottom_from_1_mm_to_10_km() {
         let expected = f64::from(albedo) / PI * 2.0 / 6.0f64.sqrt();
         // The picture's corners see the field's corners.
         for_each_color(scene, place(offset), 0.45 * side, |color| {
-            // From straight above nothing shades anything; a facet that shaded itself once would
+            // Light from straight above leaves no shadows. A facet that shaded itself once would
             // lose 1 / 32.
             let what = format!("side {side} m, {offset} m off");
             expect_near(&what, f64::from(color[0]), expected, 1e-3 * expected);

@@ -42,24 +42,24 @@ fn white_gloss_under_a_white_sky_cannot_be_seen() {
         let turning = spin(DVec3::new(0.0, 0.0, -1.3), DVec3::Y, 2.0);
         add(&mut scene, icosphere(1.0, 1), glossy(finish, 1.0), turning);
         scene.camera.vertical_fov = vec![(0.0, 0.5)];
-        let found = mean_radiance(&scene, 256);
+        let radiance = mean_radiance(&scene, 256);
         // The error of the albedo's table, times the few bounces between facets.
-        expect_near(&format!("{finish:?}"), found, 1.0, 3e-3);
+        expect_near(&format!("{finish:?}"), radiance, 1.0, 3e-3);
     }
 }
 
 #[test]
 fn a_mirror_shows_the_sky_that_it_faces() {
     // The mirrored ray rises at 1 to sqrt(5). The spot is 1e-4 radians high.
-    let found = lit_floor(metal(0.0), 1.0, heights(9.0, 0.0, 1.0), 64);
-    expect_near("mirror", found, 0.2_f64.sqrt(), 1e-4);
+    let radiance = lit_floor(metal(0.0), 1.0, heights(9.0, 0.0, 1.0), 64);
+    expect_near("mirror", radiance, 0.2_f64.sqrt(), 1e-4);
 }
 
 #[test]
 fn a_black_surface_below_a_smooth_coat_follows_fresnel_s_equations() {
-    let found = lit_floor(coat(0.0, 1.5), 0.0, white(), 256);
+    let radiance = lit_floor(coat(0.0, 1.5), 0.0, white(), 256);
     // The spot is 1e-4 radians high, where the reflectance changes by 0.4 per radian.
-    expect_near("coat", found, fresnel(0.2_f64.sqrt(), 1.5), 1e-4);
+    expect_near("coat", radiance, fresnel(0.2_f64.sqrt(), 1.5), 1e-4);
 }
 
 #[test]
@@ -70,8 +70,8 @@ fn a_metal_seen_straight_on_has_its_own_colour() {
     let paint = glossy(metal(0.0), 0.3);
     add(&mut scene, rectangle(10.0, 10.0), paint, wall);
     scene.camera.vertical_fov = vec![(0.0, 0.01)];
-    let found = mean_radiance(&scene, 16);
-    expect_near("metal", found, 0.3, 1e-6);
+    let radiance = mean_radiance(&scene, 16);
+    expect_near("metal", radiance, 0.3, 1e-6);
 }
 
 /// A sky bright above is sampled as a light, and so is one bright below. Their sum is even, so it

@@ -61,10 +61,10 @@ fn keys_on_a_parabola_reproduce_it() {
         let (first, last) = (times[0], times[times.len() - 1]);
         for step in 0..=100 {
             let time = first + (last - first) * f64::from(step) / 100.0;
-            let found = motion.at(time);
+            let pose = motion.at(time);
             // Rounding in 64 bits.
-            assert!(found.translation.distance(parabola(time)) < 1e-13);
-            let scale = found.transform_vector3(DVec3::ONE);
+            assert!(pose.translation.distance(parabola(time)) < 1e-13);
+            let scale = pose.transform_vector3(DVec3::ONE);
             assert!(scale.distance(parabola(time)) < 1e-13);
         }
     }
@@ -94,9 +94,9 @@ fn turns_about_one_axis_are_cubic_in_angle_for_any_number_of_turns() {
     for step in 0..=1000 {
         let time = -1.0 + f64::from(step) / 500.0;
         let expected = DQuat::from_axis_angle(axis, angle(time)) * DVec3::X;
-        let found = motion.at(time).transform_vector3(DVec3::X);
+        let actual = motion.at(time).transform_vector3(DVec3::X);
         // Angles up to 65 radians, rounded to 1e-14.
-        assert!(found.distance(expected) < 1e-12, "at {time}");
+        assert!(actual.distance(expected) < 1e-12, "at {time}");
     }
 }
 
@@ -112,8 +112,8 @@ fn a_motion_passes_through_its_keys() {
                 let expected = key.orientation * (key.scale * POINT) + key.translation;
                 for time in [key.time - 1e-12, key.time] {
                     // 1e-12 frames at speeds of up to 100.
-                    let found = motion.at(time).transform_point3(POINT);
-                    let apart = found.distance(expected);
+                    let actual = motion.at(time).transform_point3(POINT);
+                    let apart = actual.distance(expected);
                     assert!(apart < 1e-9, "{interpolation:?} at {time}");
                 }
             }

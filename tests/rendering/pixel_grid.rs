@@ -38,24 +38,30 @@ fn render_on(size: [u32; 2], offset: [f64; 2]) -> Frame {
 
 #[test]
 fn a_grid_that_is_off_by_whole_pixels_shows_what_lies_beside() {
-    let own = render_on([WIDTH, HEIGHT], [0.0; 2]);
+    let unmoved = render_on([WIDTH, HEIGHT], [0.0; 2]);
     let settings = settings([WIDTH, HEIGHT]);
     let plain = render_frame(&drifting_sphere(), &settings);
-    assert_eq!(own, plain);
+    assert_eq!(unmoved, plain);
     let hash = frame_hash(&drifting_sphere(), &settings);
-    assert_eq!(own.provenance.content_hash, hash);
+    assert_eq!(unmoved.provenance.content_hash, hash);
     let moved = render_on([WIDTH, HEIGHT], [2.0, -1.0]);
-    assert_ne!(moved.provenance.content_hash, own.provenance.content_hash);
+    assert_ne!(
+        moved.provenance.content_hash,
+        unmoved.provenance.content_hash
+    );
     for (x, y) in (1..HEIGHT).flat_map(|y| (0..WIDTH - 2).map(move |x| (x, y))) {
         let (beside, above) = (x + 2, y - 1);
-        assert_eq!(moved.color.at(x, y), own.color.at(beside, above));
-        assert_eq!(moved.velocity.at(x, y), own.velocity.at(beside, above));
-        assert_eq!(moved.depth.at(x, y), own.depth.at(beside, above));
-        assert_eq!(moved.object_id.at(x, y), own.object_id.at(beside, above));
+        assert_eq!(moved.color.at(x, y), unmoved.color.at(beside, above));
+        assert_eq!(moved.velocity.at(x, y), unmoved.velocity.at(beside, above));
+        assert_eq!(moved.depth.at(x, y), unmoved.depth.at(beside, above));
+        assert_eq!(
+            moved.object_id.at(x, y),
+            unmoved.object_id.at(beside, above)
+        );
     }
     // Half a pixel changes the silhouette, and layers rendered alone equal the frame's.
     let half = render_on([WIDTH, HEIGHT], [0.5, 0.5]);
-    assert_ne!(half.object_id, own.object_id);
+    assert_ne!(half.object_id, unmoved.object_id);
     let mut grid = PixelGrid::of_picture(WIDTH, HEIGHT);
     grid.offset = [0.5, 0.5];
     let scene = drifting_sphere();
@@ -83,7 +89,7 @@ fn movers_show_through_walls_without_a_depth_test() {
         assert_eq!(*through.object_id.at(x, y) == 1, is_sphere, "({x}, {y})");
         let is_hidden = is_sphere && *right.object_id.at(x, y) == 2;
         shown += usize::from(is_hidden);
-        let [through, right] = [&through, &right].map(|it| *it.velocity.at(x, y));
+        let [through, right] = [&through, &right].map(|frame| *frame.velocity.at(x, y));
         assert_eq!(through == right, !is_hidden, "({x}, {y})");
         assert!(!is_hidden || right == [0.0; 2], "({x}, {y})");
     }
@@ -93,18 +99,18 @@ fn movers_show_through_walls_without_a_depth_test() {
 #[test]
 fn a_grid_of_half_the_size_is_the_picture_at_half_the_size() {
     let half = render_on([WIDTH / 2, HEIGHT / 2], [0.0; 2]);
-    let own = render_frame(&drifting_sphere(), &settings([WIDTH / 2, HEIGHT / 2]));
-    assert_eq!(half.color, own.color);
-    assert_eq!(half.depth, own.depth);
-    assert_eq!(half.camera, own.camera);
-    let fastest = own.velocity.pixels.iter().map(|v| v[0].hypot(v[1]));
+    let rendered = render_frame(&drifting_sphere(), &settings([WIDTH / 2, HEIGHT / 2]));
+    assert_eq!(half.color, rendered.color);
+    assert_eq!(half.depth, rendered.depth);
+    assert_eq!(half.camera, rendered.camera);
+    let fastest = rendered.velocity.pixels.iter().map(|v| v[0].hypot(v[1]));
     assert!(fastest.fold(0.0, f32::max) > 0.3, "the sphere moves");
-    for (half, own) in half.velocity.pixels.iter().zip(&own.velocity.pixels) {
-        let off = (half[0] - own[0]).hypot(half[1] - own[1]);
+    for (half, rendered) in half.velocity.pixels.iter().zip(&rendered.velocity.pixels) {
+        let off = (half[0] - rendered[0]).hypot(half[1] - rendered[1]);
         // Rounding of 64-bit positions to 32-bit velocities of a few pixels.
-        assert!(off < 1e-6, "{half:?} {own:?}");
+        assert!(off < 1e-6, "{half:?} {rendered:?}");
     }
-    let pairs = [&half, &own].map(|frame| frame.reprojection.place([7.5, 3.5], 4.0).unwrap());
+    let pairs = [&half, &rendered].map(|frame| frame.reprojection.place([7.5, 3.5], 4.0).unwrap());
     for axis in 0..2 {
         assert!((pairs[0][axis] - pairs[1][axis]).abs() < 1e-9, "{pairs:?}");
     }
@@ -117,16 +123,16 @@ fn pixels_that_are_not_square_cover_the_whole_picture() {
     let whole = render_on([24, 24], [0.0; 2]);
     for (x, y) in (0..12).flat_map(|y| (0..24).map(move |x| (x, y))) {
         let rows = [2 * y, 2 * y + 1].map(|row| *whole.object_id.at(x, row));
-        let own = *squeezed.object_id.at(x, y);
-        assert!(rows[0] != rows[1] || own == rows[0], "at {x}, {y}");
-        if own == rows[0] && own == rows[1] {
+        let id = *squeezed.object_id.at(x, y);
+        assert!(rows[0] != rows[1] || id == rows[0], "at {x}, {y}");
+        if id == rows[0] && id == rows[1] {
             let rows = [2 * y, 2 * y + 1].map(|row| whole.velocity.at(x, row));
             let middle = [0, 1].map(|axis| 0.5 * (rows[0][axis] + rows[1][axis]));
-            let found = squeezed.velocity.at(x, y);
-            // Its pixels are twice as high.
-            let off = [found[0] - middle[0], found[1] - 0.5 * middle[1]];
+            let velocity = squeezed.velocity.at(x, y);
+            // The squeezed picture's pixels are twice as high.
+            let off = [velocity[0] - middle[0], velocity[1] - 0.5 * middle[1]];
             let is_near = off.iter().all(|axis| axis.abs() < 0.03);
-            assert!(is_near, "{found:?} {middle:?}");
+            assert!(is_near, "{velocity:?} {middle:?}");
         }
     }
 }

@@ -75,11 +75,11 @@ fn the_margin_does_not_dilute_an_error_over_the_support() {
         objects: vec![Object::sliding(Shape::Disc(6.0), [50.0, 45.0], [20.0, 0.0])],
     };
     let (frame, truth) = (scene.frame(), scene.truth([Sampling::CLEAN; 2]));
-    let found = regions(&truth);
-    let [support, moving] = [Region::Support, Region::Moving].map(|region| count(&found, region));
+    let parts = regions(&truth);
+    let [support, moving] = [Region::Support, Region::Moving].map(|region| count(&parts, region));
     assert!(moving > 2 * support, "{moving} {support}");
     let mut output = truth.mean();
-    output.color = (output.color).zip(&found.support, |color, moves| {
+    output.color = (output.color).zip(&parts.support, |color, moves| {
         color.map(|value| if *moves { value + 0.1 } else { value })
     });
     let measured = measure(&output, &frame, &truth, None, &VIEWING).unwrap();

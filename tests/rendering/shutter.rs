@@ -121,7 +121,7 @@ fn sub_frames_lie_at_the_middles_of_equal_parts_of_light() {
     // the root of that.
     let parts = [0.5, 0.75_f64.sqrt()];
     let row = 3;
-    let mut found = Vec::new();
+    let mut shares = Vec::new();
     for x in 0..WIDTH {
         let corner = pixel_corner(x, row);
         let areas = parts.map(|part| {
@@ -137,12 +137,12 @@ fn sub_frames_lie_at_the_middles_of_equal_parts_of_light() {
             // both.
             expect_near(&format!("column {x}"), coverage.into(), expected, 0.07);
         }
-        found.push(coverage);
+        shares.push(coverage);
     }
     let is_half = |coverage: &f32| (coverage - 0.5).abs() < 0.07;
     assert!(
-        found.iter().any(is_half),
-        "none lies between them: {found:?}"
+        shares.iter().any(is_half),
+        "none lies between them: {shares:?}"
     );
 }
 

@@ -49,16 +49,16 @@ fn part(whole: &Replicate, tile: Tile) -> Replicate {
 fn a_tile_of_a_replicate_holds_what_the_replicate_holds_there() {
     let fan = load_shipped("fan");
     for scene in [with_lens(fan.clone(), 0.3, 3.0), fan] {
-        // Each has its own pilot and support.
+        // Each tracer has its own pilot and support.
         let tracer = |alignments: &[Alignment]| {
             TruthTracer::new(&scene, &settings(), alignments).expect("settings are allowed")
         };
         let both = [Alignment::Trailing, Alignment::Centred];
         let whole = tracer(&both).trace(1, &unwatched).unwrap();
         for tile in tiles(40, 24) {
-            let found = tracer(&both).trace_tile(1, tile, &unwatched).unwrap();
-            for (found, whole) in found.iter().zip(&whole) {
-                assert_eq!(*found, part(whole, tile), "{tile:?}");
+            let parts = tracer(&both).trace_tile(1, tile, &unwatched).unwrap();
+            for (actual, whole) in parts.iter().zip(&whole) {
+                assert_eq!(*actual, part(whole, tile), "{tile:?}");
             }
         }
         // The replicates of an alignment join to its truth, which is rendered alone.
@@ -104,8 +104,8 @@ fn a_tile_of_a_rung_holds_what_the_rung_holds_there() {
     assert!(colors.iter().any(|color| *color != [0.0; 3]));
     for tile in tiles(40, 24) {
         let part = tracer.trace_tile(8, tile, &unwatched).unwrap();
-        for (own, all) in part.rungs[0].groups.iter().zip(&whole.rungs[0].groups) {
-            assert_eq!(*own, all.part(tile), "{tile:?}");
+        for (group, all) in part.rungs[0].groups.iter().zip(&whole.rungs[0].groups) {
+            assert_eq!(*group, all.part(tile), "{tile:?}");
         }
         assert_eq!(part.provenance, whole.provenance);
     }

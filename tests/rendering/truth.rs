@@ -132,10 +132,10 @@ fn a_ladder_s_rungs_average_midpoint_instants() {
         };
         let exact: Vec<f64> = (0..WIDTH).map(exact).collect();
         for group in &rung.groups {
-            let found = truth.mean().plus(group);
-            let found = found.coverage[1].pixels.chunks(WIDTH as usize);
-            let off = found.flat_map(|row| row.iter().zip(&exact));
-            let off = off.map(|(found, exact)| f64::from(*found) - exact);
+            let picture = truth.mean().plus(group);
+            let rows = picture.coverage[1].pixels.chunks(WIDTH as usize);
+            let off = rows.flat_map(|row| row.iter().zip(&exact));
+            let off = off.map(|(actual, exact)| f64::from(*actual) - exact);
             let squares: f64 = off.map(|off| off * off).sum();
             let rms = (squares / f64::from(WIDTH * HEIGHT)).sqrt();
             // Still edges at 32 samples and more: 0.02 (prototype), and few pixels are edges.
@@ -237,7 +237,7 @@ fn n_subframes_are_worth_n() {
         let measured = reference.measure(&rung.picture(&other.mean()));
         let scores = measured.unwrap().scores;
         let n = f64::from(rung.subframes);
-        let found = scores.get(Metric::SUBFRAMES).value().unwrap();
-        expect_near(&format!("{n} sub-frames"), found, n, 0.05 * n);
+        let count = scores.get(Metric::SUBFRAMES).value().unwrap();
+        expect_near(&format!("{n} sub-frames"), count, n, 0.05 * n);
     }
 }

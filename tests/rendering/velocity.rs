@@ -272,8 +272,11 @@ fn trace_further(scene: &Scene, kind: VelocityKind) -> Vec<(DVec2, DVec2, f64)> 
 }
 
 #[track_caller]
-fn expect_next(found: DVec2, expected: DVec2) {
-    assert!(found.distance(expected) < TOLERANCE, "{found}, {expected}");
+fn expect_next(actual: DVec2, expected: DVec2) {
+    assert!(
+        actual.distance(expected) < TOLERANCE,
+        "{actual}, {expected}"
+    );
 }
 
 #[test]
@@ -353,12 +356,12 @@ fn depth_is_the_distance_along_the_view_axis() {
         let direction = point_at(pixel_center(x, y), 1.0);
         let depth = centre.dot(normal) / direction.dot(normal);
         let inside = tilt.inverse() * (depth * direction - centre);
-        let found = *frame.depth.at(x, y);
+        let actual = *frame.depth.at(x, y);
         if inside.x.abs() < 6.0 && inside.y.abs() < 3.5 {
             hits += 1;
-            expect_near("depth", f64::from(found), depth, 1e-5 * depth);
+            expect_near("depth", f64::from(actual), depth, 1e-5 * depth);
         } else {
-            assert_eq!(found, FAR_DEPTH);
+            assert_eq!(actual, FAR_DEPTH);
         }
     }
     assert!(hits > 50, "only {hits} pixels show the panel");

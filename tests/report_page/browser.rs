@@ -214,7 +214,11 @@ impl Browser {
         const COMPLAINTS: &str = "Runtime.exceptionThrown Runtime.consoleAPICalled Log.entryAdded Page.javascriptDialogOpening";
         // All earlier events have arrived before this answer.
         self.value("0");
-        let is_complaint = |event: &&Value| COMPLAINTS.split(' ').any(|own| event["method"] == own);
+        let is_complaint = |event: &&Value| {
+            COMPLAINTS
+                .split(' ')
+                .any(|method| event["method"] == method)
+        };
         let complaints = self.events.iter().filter(is_complaint);
         complaints.map(Value::to_string).collect()
     }
@@ -285,8 +289,8 @@ fn program() -> PathBuf {
     let files = NAMES
         .iter()
         .flat_map(|name| folders.iter().map(move |folder| folder.join(name)));
-    let found = files.into_iter().find(|file| file.is_file());
-    found.unwrap_or_else(|| {
+    let program = files.into_iter().find(|file| file.is_file());
+    program.unwrap_or_else(|| {
         panic!(
             "no Chromium on the PATH ({}), and reports cannot be looked at without one: apt-get install chromium, as `make \
              test` does, or name one in the variable CHROMIUM",

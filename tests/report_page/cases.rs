@@ -39,25 +39,25 @@ fn the_viewer_shows_what_keys_pointer_and_links_ask_for() {
 
 fn any_filter_can_be_compared_with_any_other(browser: &mut Browser, page: &Path) {
     open_case(browser, page, "plate/identity:default");
-    let own = canvas(browser, "under");
+    let identity = canvas(browser, "under");
     open_case(browser, page, "plate/velocity_gather:fine");
     let gathered = canvas(browser, "under");
-    assert!(own != gathered);
+    assert!(identity != gathered);
     // The case of a third filter shows both, left and right.
     open_case(browser, page, "plate/jump_flood:paper");
     pick(browser, "left", "identity:default");
     pick(browser, "right", "velocity_gather:fine");
-    assert_eq!(canvas(browser, "over"), own);
+    assert_eq!(canvas(browser, "over"), identity);
     assert_eq!(canvas(browser, "under"), gathered);
     let tags = "$$('.stack .tag').map(tag => tag.textContent).join()";
     assert_eq!(browser.text(tags), "velocity_gather:fine,identity:default");
     pick(browser, "right", "identity:default");
-    assert_eq!(canvas(browser, "under"), own);
+    assert_eq!(canvas(browser, "under"), identity);
     // A picture does not differ from itself; the instant differs from the truth.
     press(browser, "5");
-    let colors = "(() => { const own = $('[data-place=under] canvas'); \
-                  const copy = new OffscreenCanvas(own.width, own.height).getContext('2d'); copy.drawImage(own, 0, 0); \
-                  return new Set(new Uint32Array(copy.getImageData(0, 0, own.width, own.height).data.buffer)).size; })()";
+    let colors = "(() => { const canvas = $('[data-place=under] canvas'); \
+                  const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext('2d'); copy.drawImage(canvas, 0, 0); \
+                  return new Set(new Uint32Array(copy.getImageData(0, 0, canvas.width, canvas.height).data.buffer)).size; })()";
     assert_eq!(browser.value(colors), 1);
     pick(browser, "left", "truth");
     assert!(browser.value(colors).as_u64().unwrap() > 1);

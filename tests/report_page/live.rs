@@ -180,8 +180,12 @@ fn a_page_runs_filters_as_the_program_does() {
     let mut browser = Browser::new(1280, 900);
     for case in sandbox.read_filter_cases() {
         open_panel(&mut browser, &page, &format!("plate/{}", case.name()));
-        let found = compare(&mut browser, &sandbox, "out", &case);
-        assert!(found.are_small(&case.name()), "{}: {found:?}", case.name());
+        let differences = compare(&mut browser, &sandbox, "out", &case);
+        assert!(
+            differences.are_small(&case.name()),
+            "{}: {differences:?}",
+            case.name()
+        );
     }
     the_times_of_a_page_are_a_bench_of_the_program(&mut browser, &sandbox);
     a_translated_shader_can_be_changed_and_saved(&mut browser, &sandbox);
@@ -199,7 +203,7 @@ fn save(browser: &mut Browser, sandbox: &Sandbox, button: &str, file: &str) -> P
     ));
     let path = sandbox.path(file);
     // The browser reserves the name by an empty file, and renames the whole one to it.
-    while fs::metadata(&path).map_or(0, |found| found.len()) == 0 {
+    while fs::metadata(&path).map_or(0, |metadata| metadata.len()) == 0 {
         std::thread::sleep(std::time::Duration::from_millis(20));
     }
     path
@@ -252,7 +256,7 @@ fn the_times_of_a_page_are_a_bench_of_the_program(browser: &mut Browser, sandbox
     bench.clone().keep(&kept).unwrap();
     assert_eq!(bench.clone().keep(&kept).unwrap(), first);
     let presets = Bench::read(&first).unwrap().cases.into_iter();
-    let presets: Vec<String> = presets.map(|own| own.preset).collect();
+    let presets: Vec<String> = presets.map(|case| case.preset).collect();
     assert_eq!(presets, [shipped.preset.clone(), "later".to_owned()]);
     bench.rounds = 20;
     let refused = bench.clone().keep(&kept).unwrap_err().to_string();
@@ -281,8 +285,8 @@ fn what_a_reader_changes_is_what_the_program_measures() {
     );
     let run: suite::Run = sandbox.read_json("moved/run.json");
     let moved = run.cases.iter().find(|case| case.filter == "kino");
-    let found = compare(&mut browser, &sandbox, "moved", moved.unwrap());
-    assert!(found.are_small("kino"), "{found:?}");
+    let differences = compare(&mut browser, &sandbox, "moved", moved.unwrap());
+    assert!(differences.are_small("kino"), "{differences:?}");
 
     let before = read_score(&mut browser, "flip");
     browser.value(&edit("WINDOW - along", "WINDOW - alone"));
@@ -356,8 +360,12 @@ fn mistakes_in_the_data_of_a_filter_change_its_picture() {
         (0, |data| data["passes"].as_array_mut().unwrap().swap(2, 3)),
         (0, |data| {
             let bindings = data["passes"][4]["bindings"].as_array_mut().unwrap();
-            let mut blocks = bindings.iter_mut().filter(|it| it["role"] == "block");
-            let numbers = blocks.find(|it| it["numbers"][0][2] == "samples").unwrap();
+            let mut blocks = bindings
+                .iter_mut()
+                .filter(|binding| binding["role"] == "block");
+            let numbers = blocks
+                .find(|block| block["numbers"][0][2] == "samples")
+                .unwrap();
             numbers["numbers"][0][0] = json!(8);
         }),
         (1, |data| {
@@ -400,10 +408,10 @@ fn a_page_runs_every_preset_as_the_program_does() {
     for case in sandbox.read_filter_cases() {
         let name = format!("{}/{}", case.scene, case.name());
         open_panel(&mut browser, &page, &name);
-        let found = compare(&mut browser, &sandbox, "out", &case);
-        println!("{name} {} {found:?}", found.pixel);
-        if !found.are_small(&case.name()) {
-            wrong += &format!("{name} {found:?}\n");
+        let differences = compare(&mut browser, &sandbox, "out", &case);
+        println!("{name} {} {differences:?}", differences.pixel);
+        if !differences.are_small(&case.name()) {
+            wrong += &format!("{name} {differences:?}\n");
         }
     }
     assert_eq!(wrong, "");

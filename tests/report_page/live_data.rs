@@ -30,7 +30,7 @@ fn the_data_of_every_built_in_filter_binds_all_that_its_kernels_declare() {
     for name in Filter::builtin_names() {
         let filter = Filter::builtin(&name).unwrap();
         let live = filter.live(320, false).unwrap();
-        let named = |list_name| list(&live, list_name).iter().map(|it| text(it, "name"));
+        let named = |list_name| list(&live, list_name).iter().map(|item| text(item, "name"));
         let known: BTreeSet<&str> = (named("inputs").chain(named("textures")))
             .chain(["output"])
             .collect();
@@ -72,7 +72,7 @@ fn a_folder_of_translated_shaders_binds_what_the_engines_own_do() {
         fs::write(saved.path().join("filter.toml"), text(&live, "toml")).unwrap();
         for module in list(&live, "modules")
             .iter()
-            .filter(|it| it.get("file").is_some())
+            .filter(|module| module.get("file").is_some())
         {
             fs::write(
                 saved.path().join(text(module, "file")),
@@ -85,9 +85,9 @@ fn a_folder_of_translated_shaders_binds_what_the_engines_own_do() {
             .live(320, false)
             .unwrap();
         assert_eq!(again["presets"], live["presets"], "{name}");
-        for (own, other) in list(&live, "passes").iter().zip(list(&again, "passes")) {
+        for (pass, other) in list(&live, "passes").iter().zip(list(&again, "passes")) {
             for part in ["bindings", "vertex", "targets", "stage", "workgroup"] {
-                assert_eq!(own[part], other[part], "{name}: {part}");
+                assert_eq!(pass[part], other[part], "{name}: {part}");
             }
         }
     }
@@ -114,7 +114,7 @@ fn read_input(scene: &Value, name: &str) -> Vec<f32> {
         .unwrap();
     let floats = bytes.chunks_exact(4);
     floats
-        .map(|it| f32::from_le_bytes(it.try_into().unwrap()))
+        .map(|float| f32::from_le_bytes(float.try_into().unwrap()))
         .collect()
 }
 
@@ -149,8 +149,8 @@ fn filters_with_kernels_are_live_and_get_the_frame_of_the_run() {
     let measured = measured.iter().find(|case| case.filter == "kino").unwrap();
     let flip = measured.measured(metrics::Metric::FLIP).value().unwrap();
     assert_eq!(kino["stored"]["flip"], flip);
-    let own = read_case(&text, "own:default").unwrap();
-    let filter = read_file(&page, &format!("live_filter_{}", own["filter"]));
+    let case = read_case(&text, "own:default").unwrap();
+    let filter = read_file(&page, &format!("live_filter_{}", case["filter"]));
     assert_contains(filter["modules"][0]["wgsl"].as_str().unwrap(), &[body]);
     let scene = read_file(&page, "live_scene_0");
     let frame = Frame::read(&sandbox.path("out/plate/frame.exr")).unwrap();

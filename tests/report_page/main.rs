@@ -90,8 +90,8 @@ fn a_page_opens_without_complaint_and_asks_for_nothing_else() {
         browser.until(&format!(
             "!!document.getElementById('{address}').querySelector('#viewer')"
         ));
-        // Steps through its own pictures, seven other filters', and its maps. Accumulations are
-        // alike, as are scenes.
+        // The key steps through the case's own pictures, those of seven other filters, and the
+        // case's maps. Cases of accumulations are alike, and so are those of both scenes.
         let is_alike = case.scene == "slow" || case.preset.len() > 1 && case.is_reference;
         for _ in 0..if is_alike { 2 } else { 18 } {
             press(&mut browser, "m");
@@ -143,7 +143,7 @@ fn every_key_that_the_page_lists_works(browser: &mut Browser, page: &Path) {
 
 fn an_address_that_names_another_section_is_left_alone(browser: &mut Browser, page: &Path) {
     open_case(browser, page, "plate/identity:default");
-    // As between a click on a link and the event that follows it.
+    // The page is in the state between a click on a link and the event that follows.
     browser.value("window.shuttertruth.note(); history.pushState(null, '', '#overview')");
     browser.value("new Promise(done => setTimeout(done, 300))");
     assert_eq!(browser.text("location.hash"), "#overview");
@@ -169,8 +169,8 @@ fn a_broken_bound_is_seen_with_its_place_and_its_pictures() {
     let canvas = |at: usize| format!("$$('article.open .crop canvas')[{at}].toDataURL()");
     let [truth, output, error] = [0, 1, 2].map(canvas);
     browser.until(&format!(
-        "new Set([{truth}, {output}, {error}, (() => {{ const own = $('article.open .crop canvas'); \
-         return Object.assign(document.createElement('canvas'), {{width: own.width, height: own.height}}).toDataURL(); }})()]).size === 4"
+        "new Set([{truth}, {output}, {error}, (() => {{ const canvas = $('article.open .crop canvas'); \
+         return Object.assign(document.createElement('canvas'), {{width: canvas.width, height: canvas.height}}).toDataURL(); }})()]).size === 4"
     ));
     let worst = sandbox.read_findings()[0].worst.clone().unwrap();
     browser.click("article.open button.place");

@@ -37,13 +37,13 @@ fn channels(files: &[ExrFile; 4]) -> Vec<(&'static str, &ExrFile, Vec<&'static s
 
 /// Reads the files of a case: truth, output, frame, errors.
 fn files_of(sandbox: &Sandbox, case: &Case) -> [ExrFile; 4] {
-    let own = sandbox.path("out").join(&case.folder);
+    let folder = sandbox.path("out").join(&case.folder);
     let scene = sandbox.path("out").join(case.scene.folder());
     let mut files = [
         scene.join(format!("truth_{}.exr", case.alignment)),
-        own.join("output.exr"),
+        folder.join("output.exr"),
         scene.join("frame.exr"),
-        own.join("errors.exr"),
+        folder.join("errors.exr"),
     ]
     .map(|path| read_exr(&path).unwrap());
     let [truth, output] = [0, 1].map(|at: usize| files[at].color("").unwrap());
@@ -113,12 +113,12 @@ fn assert_read_outs(browser: &mut Browser, files: &[ExrFile; 4]) {
 fn numbers_and_tables_in_a_page_or_beside_it_are_those_of_the_files() {
     let sandbox = measure("identity,velocity_gather:fine");
     let cases = sandbox.read_filter_cases();
-    let mut own = cases.iter();
-    let own = own.find(|case| case.name() == "velocity_gather:fine");
-    let files = files_of(&sandbox, own.unwrap());
+    let mut all = cases.iter();
+    let case = all.find(|case| case.name() == "velocity_gather:fine");
+    let files = files_of(&sandbox, case.unwrap());
     let whole = make_page(&sandbox);
     let mut browser = Browser::new(1280, 900);
-    let article = "$$('article.open > :not(.viewer_place)').map((own) => own.textContent).join()";
+    let article = "$$('article.open > :not(.viewer_place)').map((part) => part.textContent).join()";
     open_case(&mut browser, &whole, "plate/velocity_gather:fine");
     let words = browser.text(article);
     assert!(words.contains("flip_moving"), "{words}");

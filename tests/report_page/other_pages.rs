@@ -23,7 +23,7 @@ fn a_comparison_shows_pictures_first_and_a_change_with_sign_and_word() {
     assert!(top + height < 900.0, "the pictures are on the first screen");
     let before = browser.picture(".pair");
     browser.value(
-        "(() => { const own = $('.trio input'); own.value = 5; own.dispatchEvent(new Event('input')); })()",
+        "(() => { const input = $('.trio input'); input.value = 5; input.dispatchEvent(new Event('input')); })()",
     );
     assert!(browser.picture(".pair") != before, "the divider moves");
     let changes = browser.text("$$('td.worse').map(cell => cell.textContent).join('; ')");
@@ -53,7 +53,7 @@ fn a_tuning_fits_the_screen_and_marks_unbeaten_candidates() {
     let beaten = "(() => { const marks = [...$$('.drawings svg')[0].querySelectorAll('circle:not(.ring)')]; \
                   const at = mark => [mark.cx.baseVal.value, -mark.cy.baseVal.value]; \
                   const blue = marks.filter(mark => !mark.classList.contains('faint')); \
-                  return [blue.length, blue.filter(own => marks.some(other => at(other)[0] < at(own)[0] - 0.05 && at(other)[1] < at(own)[1] - 0.05)).length]; })()";
+                  return [blue.length, blue.filter(mark => marks.some(other => at(other)[0] < at(mark)[0] - 0.05 && at(other)[1] < at(mark)[1] - 0.05)).length]; })()";
     let counts = browser.value(beaten);
     assert!(counts[0].as_u64().unwrap() > 0, "{counts}");
     assert_eq!(counts[1], 0);
@@ -69,11 +69,10 @@ fn a_sequence_plays_in_step_and_goes_frame_by_frame() {
     // The last sequence is the filter's.
     let last = sandbox.read_run().sequences.len() - 1;
     browser.open(&page, &format!("#{last}"));
-    let loaded =
-        "$$('#pictures img:not([hidden])').every(own => own.complete && own.naturalWidth === 64)";
+    let loaded = "$$('#pictures img:not([hidden])').every(image => image.complete && image.naturalWidth === 64)";
     browser.until(loaded);
     let addresses = |browser: &mut Browser| {
-        browser.text("$$('#pictures img:not([hidden])').map(own => own.src).join(' ')")
+        browser.text("$$('#pictures img:not([hidden])').map(image => image.src).join(' ')")
     };
     // The first frame has no change.
     assert_eq!(addresses(&mut browser).split(' ').count(), 4);

@@ -40,8 +40,8 @@ fn the_search_filters_rows_and_references_show_on_request() {
     let failing = show("at('[name=failing]').checked = true");
     assert_eq!(failing, "identity:default");
     show("at('[name=failing]').checked = false");
-    let found = show("at('[name=search]').value = 'Gather'");
-    assert_eq!(found, "velocity_gather:fine");
+    let shown = show("at('[name=search]').value = 'Gather'");
+    assert_eq!(shown, "velocity_gather:fine");
     let all = show("at('[name=search]').value = ''; at('[name=references]').checked = true");
     // A check has no accumulations except the one that skill is counted from.
     let due = "accumulate:1 identity identity:default scatter_oracle velocity_gather:fine";
@@ -138,21 +138,24 @@ fn tables_have_captions_and_pictures_have_words(browser: &mut Browser, page: &Pa
         browser.open(page, part);
         browser.until("document.documentElement.classList.contains('scripted')");
         for (elements, lacks) in [
-            ("table", "!own.caption?.textContent.trim()"),
-            ("th", "!own.scope"),
-            ("img", "!own.hasAttribute('alt')"),
+            ("table", "!element.caption?.textContent.trim()"),
+            ("th", "!element.scope"),
+            ("img", "!element.hasAttribute('alt')"),
             (
                 "canvas",
-                "!hidden && own.checkVisibility() && !own.ariaLabel",
+                "!hidden && element.checkVisibility() && !element.ariaLabel",
             ),
-            ("svg", "!hidden && !own.ariaLabel"),
-            ("button", "!own.ariaLabel && !own.textContent.trim()"),
+            ("svg", "!hidden && !element.ariaLabel"),
+            (
+                "button",
+                "!element.ariaLabel && !element.textContent.trim()",
+            ),
         ] {
-            let lacks = lacks.replace("hidden", "own.closest('[aria-hidden=true]')");
-            let found = browser.text(&format!(
-                "$$('{elements}').filter(own => {lacks}).map(own => own.outerHTML.slice(0, 200)).join('; ')"
+            let lacks = lacks.replace("hidden", "element.closest('[aria-hidden=true]')");
+            let lacking = browser.text(&format!(
+                "$$('{elements}').filter(element => {lacks}).map(element => element.outerHTML.slice(0, 200)).join('; ')"
             ));
-            assert_eq!(found, "", "{part} {elements}");
+            assert_eq!(lacking, "", "{part} {elements}");
         }
     }
 }
@@ -162,10 +165,10 @@ fn everything_fits_a_narrow_screen(browser: &mut Browser, page: &Path) {
     browser.resize(360, 800);
     for part in ["", "#plate/identity:default", "#filter:identity:default"] {
         browser.open(page, part);
-        // It need not be scrolled sideways.
+        // The page need not be scrolled sideways.
         assert_eq!(browser.value(width), 360, "{part}");
     }
-    // Nor need the printed overview.
+    // The printed overview need not be scrolled either.
     browser.resize(794, 1123);
     browser.print();
     browser.open(page, "");

@@ -58,7 +58,7 @@ fn find_dead_links(folder: &Path) -> (Vec<String>, usize) {
                 file => page.parent().unwrap().join(file).canonicalize(),
             };
             let leads = target.is_ok_and(|target| {
-                let has_place = || places.get(&target).is_none_or(|own| own.contains(place));
+                let has_place = || places.get(&target).is_none_or(|ids| ids.contains(place));
                 target.is_file() && (place.is_empty() || has_place())
             });
             if !leads {
@@ -85,9 +85,9 @@ fn dead_links_are_found() {
         "<p id=\"there\"><a href=\"d.html\"><img alt=\"\" src=\"missing.png\"><a href=\".\">",
     );
     let (dead, _) = find_dead_links(folder.path());
-    let found: Vec<&str> = dead
+    let complaints: Vec<&str> = dead
         .iter()
-        .map(|own| own.rsplit('/').next().unwrap())
+        .map(|complaint| complaint.rsplit('/').next().unwrap())
         .collect();
     let due = [
         "a.html: b.html#here",
@@ -95,7 +95,7 @@ fn dead_links_are_found() {
         "b.html: .",
         "b.html: missing.png",
     ];
-    assert_eq!(found, due);
+    assert_eq!(complaints, due);
 }
 
 #[test]
@@ -178,5 +178,7 @@ fn the_tables_sort(browser: &mut Browser, site: &Path) {
 
 fn the_search_finds(browser: &mut Browser, page: &Path) {
     browser.open(page, "?search=vignette");
-    browser.until("$$('#mdbook-searchresults li').some(own => own.textContent.includes('Dagor'))");
+    browser.until(
+        "$$('#mdbook-searchresults li').some(result => result.textContent.includes('Dagor'))",
+    );
 }

@@ -43,8 +43,8 @@ fn roughness_makes_gloss_and_metallic_makes_metal_and_a_scene_changes_them() {
         ("Pr 0.5\nPm 1", both, coated(0.5, 1.3)),
         ("Pr 0.5", "index_of_refraction = 1", Finish::Diffuse),
     ] {
-        let found = load_finish(statements, keys);
-        assert_eq!(found, expected, "{statements} then {keys}");
+        let actual = load_finish(statements, keys);
+        assert_eq!(actual, expected, "{statements} then {keys}");
     }
 }
 

@@ -26,10 +26,12 @@ fn pixel_range(scene: &Scene, name: &str, time: f64) -> [DVec2; 2] {
     let to_world = scene.object_to_world(index, time);
     let positions = &scene.meshes[scene.objects[index].mesh].positions;
     let world = |position: &glam::Vec3| to_world.transform_point3(position.as_dvec3());
-    let pixels = positions.iter().map(|own| project(scene, world(own)));
+    let pixels = positions
+        .iter()
+        .map(|position| project(scene, world(position)));
     let none = [DVec2::INFINITY, DVec2::NEG_INFINITY];
-    pixels.fold(none, |[least, largest], own| {
-        [least.min(own), largest.max(own)]
+    pixels.fold(none, |[least, largest], pixel| {
+        [least.min(pixel), largest.max(pixel)]
     })
 }
 
@@ -61,10 +63,10 @@ fn every_scene_loads_with_every_variant() {
 #[test]
 fn the_generator_reproduces_the_shipped_files() {
     for file in generator::generate_files() {
-        let found = std::fs::read(scenes().join(&file.path));
+        let bytes = std::fs::read(scenes().join(&file.path));
         let path = file.path;
-        let found = found.unwrap_or_else(|error| panic!("{path}: {error}"));
-        let is_same = found == file.bytes;
+        let bytes = bytes.unwrap_or_else(|error| panic!("{path}: {error}"));
+        let is_same = bytes == file.bytes;
         assert!(is_same, "{path} differs; run `cargo run -p generator`");
     }
 }
@@ -88,8 +90,8 @@ fn the_panel_moves_at_the_speed_of_its_variant() {
         let (sine, cosine) = angle.to_radians().sin_cos();
         let expected = speed * DVec2::new(cosine, -sine);
         // Keys are written to a micrometre: 1e-4 pixels each.
-        let found = after - before;
-        assert!(found.distance(expected) < 3e-4, "{variant}: {found}");
+        let actual = after - before;
+        assert!(actual.distance(expected) < 3e-4, "{variant}: {actual}");
     }
 }
 

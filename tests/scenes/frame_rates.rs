@@ -59,9 +59,12 @@ fn a_bar_smears_by_its_speed_and_the_shutter_of_each_rate() {
     ] {
         let scene = load_scene(&folder, Some(variant)).unwrap();
         for (alignment, side) in [(Alignment::Trailing, -0.5), (Alignment::Centred, 0.0)] {
-            let [middle, found] = measure_smear(&render_truth(&scene, alignment));
+            let [middle, actual] = measure_smear(&render_truth(&scene, alignment));
             // Some 4 sigma at 64 samples per pixel.
-            assert!((found - length).abs() < 0.1, "{variant}: {found} {length}");
+            assert!(
+                (actual - length).abs() < 0.1,
+                "{variant}: {actual} {length}"
+            );
             let off = middle - side * length;
             assert!(off.abs() < 0.05, "{variant}: {off}");
         }
@@ -73,8 +76,8 @@ fn a_bar_smears_by_its_speed_and_the_shutter_of_each_rate() {
             assert!((f64::from(right) - step).abs() < 1e-3, "{variant}: {right}");
             assert!(down.abs() < 1e-3);
             assert!((frame.exposure * step - length).abs() < 1e-9, "{variant}");
-            let own = Some(rate.per_second).filter(|rate| *rate != 60.0);
-            assert_eq!(frame.frames_per_second, own);
+            let kept_rate = Some(rate.per_second).filter(|rate| *rate != 60.0);
+            assert_eq!(frame.frames_per_second, kept_rate);
         }
     }
 }
@@ -165,10 +168,11 @@ fn frames_of_a_sequence_follow_at_the_rate() {
     // The second frame at 120 frames per second is the first one at 60.
     let folder = Folder::new();
     write_paths(&folder, 1.0, 0.5);
-    let [plain, fast] = [None, Some("120fps")].map(|it| load_scene(&folder.path, it).unwrap());
+    let [plain, fast] =
+        [None, Some("120fps")].map(|variant| load_scene(&folder.path, variant).unwrap());
     let mut fast = fast.at_frame(2);
     assert_eq!(fast.id.to_string(), "square@120fps/0002");
-    // Samples are chosen for the time that the shutter is open, which has to be the same.
+    // The shutters have to be open for the same time, since samples are chosen for that time.
     fast.exposure = 2.0 * plain.exposure;
     let [one, other] =
         [plain.at_frame(1), fast].map(|scene| render_frame(&scene, VelocityKind::Instantaneous));
@@ -224,7 +228,7 @@ fn times_beyond_the_keys_are_refused() {
     }
     let text = check("24fps", Alignment::Leading).unwrap();
     assert!(text.contains("end at frame 0.4"), "{text}");
-    // So are those that the velocity since the previous frame needs.
+    // Times that the velocity since the previous frame needs are refused as well.
     let scene = load_shipped("flag@24fps");
     let mut settings = RenderSettings::default();
     assert!(settings.check_frame(&scene).is_ok());

@@ -10,7 +10,7 @@ use crate::{load_shipped, shipped};
 const WIDTH: u32 = 64;
 const HEIGHT: u32 = 36;
 
-/// Renders at the pixels' centres, without a lens, which has its own noise.
+/// Renders at the pixels' centres, and without a lens, since lenses make noise.
 fn render(scene: &Scene, seed: u64) -> Frame {
     let mut settings = settings([WIDTH, HEIGHT], 1);
     settings.seed = seed;
@@ -29,7 +29,13 @@ fn every_scene_has_sealed_variants_that_move_otherwise() {
         let [plain, sealed, other] = [plain, sealed, other].map(|scene| render(&scene, 1));
         assert_ne!(sealed.velocity, plain.velocity, "{name}");
         assert_ne!(sealed.velocity, other.velocity, "{name}");
-        let moves = |frame: &Frame| frame.velocity.pixels.iter().any(|own| *own != [0.0; 2]);
+        let moves = |frame: &Frame| {
+            frame
+                .velocity
+                .pixels
+                .iter()
+                .any(|velocity| *velocity != [0.0; 2])
+        };
         assert!(moves(&sealed), "{name} stands still");
     }
 }

@@ -13,7 +13,7 @@ use crate::{
 /// Multiplies the light of a picture.
 fn times(picture: &Picture, factors: &Plane) -> Picture {
     Picture {
-        color: (picture.color).zip(factors, |color, factor| color.map(|own| own * factor)),
+        color: (picture.color).zip(factors, |color, factor| color.map(|part| part * factor)),
         ..picture.clone()
     }
 }
@@ -45,12 +45,12 @@ fn grain_is_the_standard_deviation_of_noise_and_sees_patterns_and_not_blurs() {
         let expected = f64::from(part);
         // Some hundreds of pixels, many at edges, where brightness is averaged: measured 10 % too
         // high.
-        let found = grain(&times(&right, &white_noise(&right, part)));
-        assert_near("noise", found, expected, 0.15 * expected);
+        let score = grain(&times(&right, &white_noise(&right, part)));
+        assert_near("noise", score, expected, 0.15 * expected);
         // A checkerboard is all at the highest frequency: 16 / 6 of white noise's, over what white
         // noise has left.
-        let found = grain(&times(&right, &checkerboard(&right, part)));
-        assert_near("a checkerboard", found, 2.79 * expected, 0.42 * expected);
+        let score = grain(&times(&right, &checkerboard(&right, part)));
+        assert_near("a checkerboard", score, 2.79 * expected, 0.42 * expected);
     }
     // Scores of a picture that is much too blurred, or shows no blur at all, where 2 % of grain
     // would be 0.02.
@@ -61,8 +61,8 @@ fn grain_is_the_standard_deviation_of_noise_and_sees_patterns_and_not_blurs() {
             sliding_disc().render(&Blur::IDENTITY, Sampling::CLEAN),
         ),
     ] {
-        let found = grain(&wrong);
-        assert!(found < 0.01, "{what}: {found}");
+        let score = grain(&wrong);
+        assert!(score < 0.01, "{what}: {score}");
     }
 }
 
@@ -86,8 +86,8 @@ fn grain_in_a_part_of_what_moves_is_seen() {
         });
         let scores = measure_scores(&times(&right, &half), &frame, &truth);
         // Half of the pixels have 4 %: 2.8 % in the root mean square.
-        let found = find_value(&scores, "grain_support");
-        assert!((0.018..0.036).contains(&found), "{what}: {found}");
+        let score = find_value(&scores, "grain_support");
+        assert!((0.018..0.036).contains(&score), "{what}: {score}");
     }
 }
 
@@ -95,7 +95,7 @@ fn grain_in_a_part_of_what_moves_is_seen() {
 fn a_perfect_picture_s_grain_seldom_exceeds_its_floor_and_hardly_ever_three_times_its_square() {
     let disc = sliding_disc();
     let (frame, converged) = (disc.frame(), disc.render(&Blur::TRUE, noisy(8192, 9)));
-    let found: Vec<Score> = (0..100)
+    let scores: Vec<Score> = (0..100)
         .map(|seed| {
             let truth = disc.truth([noisy(16, 3000 + seed), noisy(16, 4000 + seed)]);
             find_score(&measure_scores(&converged, &frame, &truth), "grain_support")
@@ -103,11 +103,11 @@ fn a_perfect_picture_s_grain_seldom_exceeds_its_floor_and_hardly_ever_three_time
         .collect();
     let above = |part: f64| {
         let is_above = |score: &&Score| score.value > part.sqrt() * score.floor * 1.0001;
-        found.iter().filter(is_above).count()
+        scores.iter().filter(is_above).count()
     };
-    assert!(found.iter().all(|score| score.floor > 0.0));
-    // It scatters about 0.
-    let negative = found.iter().filter(|score| score.value < 0.0).count();
+    assert!(scores.iter().all(|score| score.floor > 0.0));
+    // The score scatters about 0.
+    let negative = scores.iter().filter(|score| score.value < 0.0).count();
     assert!((30..=70).contains(&negative), "{negative}");
     // One normal value of six is above a standard deviation, one of 44 above two and one of 740
     // above three; 4 sigma of 100.

@@ -48,14 +48,17 @@ fn measure_intervals(scene: &Scene, blur: &Blur) -> Found {
     let frame = scene.frame();
     let converged = scene.truth([noisy(8192, 1), noisy(8192, 2)]);
     let picture = scene.render(blur, noisy(4096, 3));
-    let found = (0..SEEDS)
+    let intervals_by_seed = (0..SEEDS)
         .into_par_iter()
         .map(|seed| {
             let samplings = (0..REPLICATES).map(|index| noisy(16, 100 + REPLICATES * seed + index));
             intervals_of(&[&picture], &frame, &scene.replicates(samplings)).remove(0)
         })
         .collect();
-    (found, measure_scores(&picture, &frame, &converged))
+    (
+        intervals_by_seed,
+        measure_scores(&picture, &frame, &converged),
+    )
 }
 
 /// Does the same for a shipped scene, with truths traced as for users, and for several pictures.
@@ -85,7 +88,7 @@ fn trace_intervals(
         ("4 sub-frames", four),
         ("8 sub-frames, moved", shift(&eight)),
     ];
-    let found: Vec<Vec<Intervals>> = (0..seeds)
+    let intervals_by_seed: Vec<Vec<Intervals>> = (0..seeds)
         .into_par_iter()
         .map(|seed| {
             let tracer =
@@ -99,8 +102,17 @@ fn trace_intervals(
         .collect();
     std::array::from_fn(|at| {
         let (name, picture) = &pictures[at];
-        let own = found.iter().map(|it| it[at].clone()).collect();
-        (*name, (own, measure_scores(picture, &frame, &truth)))
+        let intervals_of_picture = intervals_by_seed
+            .iter()
+            .map(|intervals| intervals[at].clone())
+            .collect();
+        (
+            *name,
+            (
+                intervals_of_picture,
+                measure_scores(picture, &frame, &truth),
+            ),
+        )
     })
 }
 
@@ -114,10 +126,10 @@ fn shift(picture: &Picture) -> Picture {
 }
 
 /// Counts the intervals of a metric that contain its converged score.
-fn count_holding(metric: &str, (found, converged): &Found) -> usize {
+fn count_holding(metric: &str, (all_intervals, converged): &Found) -> usize {
     let metric = metric.parse().unwrap();
     let expected = converged.get(metric).value().unwrap();
-    (found.iter().map(|intervals| &intervals[&metric]))
+    (all_intervals.iter().map(|intervals| &intervals[&metric]))
         .filter(|interval| (interval.low..=interval.high).contains(&expected))
         .count()
 }

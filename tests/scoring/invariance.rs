@@ -46,7 +46,8 @@ fn remap(
     turn: impl Fn([f32; 2]) -> [f32; 2],
 ) -> Scores {
     let (frame, truth, output) = VARIED.clone();
-    let mattes = |all: &[Plane]| (all.iter().map(|it| take(it, width, height, &source))).collect();
+    let mattes =
+        |all: &[Plane]| (all.iter().map(|plane| take(plane, width, height, &source))).collect();
     let picture = |picture: &Picture| Picture {
         color: take(&picture.color, width, height, &source),
         coverage: mattes(&picture.coverage),
@@ -97,16 +98,16 @@ fn take<T: Clone>(
 }
 
 #[track_caller]
-fn assert_same_scores(found: &Scores, expected: &Scores, metrics: &[Metric], tolerance: f64) {
+fn assert_same_scores(actual: &Scores, expected: &Scores, metrics: &[Metric], tolerance: f64) {
     let mut compared = 0;
     for metric in metrics {
-        match (found.get(*metric), expected.get(*metric)) {
-            (Measured::Score(found), Measured::Score(expected)) => {
+        match (actual.get(*metric), expected.get(*metric)) {
+            (Measured::Score(actual), Measured::Score(expected)) => {
                 compared += 1;
                 let tolerance = tolerance * expected.value.abs().max(1.0);
-                assert_near(&metric.name(), found.value, expected.value, tolerance);
+                assert_near(&metric.name(), actual.value, expected.value, tolerance);
             }
-            (found, expected) => assert_eq!(found, expected, "{metric}"),
+            (actual, expected) => assert_eq!(actual, expected, "{metric}"),
         }
     }
     assert!(compared > 10, "only {compared} scores to compare");
@@ -136,14 +137,14 @@ fn a_scene_moved_by_whole_pixels_has_the_same_matte_scores() {
     for object in &mut moved.objects {
         object.center = [object.center[0] + 4.0, object.center[1] - 3.0];
     }
-    // All but FLIP on the object, which depends on what is behind it.
+    // FLIP on the object is left out, since it depends on the background.
     let mattes = ObjectMetric::ALL
         .into_iter()
-        .filter(|own| *own != ObjectMetric::Flip);
+        .filter(|metric| *metric != ObjectMetric::Flip);
     let mattes: Vec<Metric> = mattes.map(Metric::Object).collect();
     // Sampling positions are the same in every pixel; only rounding differs.
-    let found = measure_blur(&moved, WRONG).scores;
-    assert_same_scores(&found, &measure_varied().scores, &mattes, 1e-6);
+    let actual = measure_blur(&moved, WRONG).scores;
+    assert_same_scores(&actual, &measure_varied().scores, &mattes, 1e-6);
 }
 
 #[test]
@@ -151,8 +152,8 @@ fn object_numbers_do_not_matter() {
     let mut swapped = varied_scene();
     swapped.objects.reverse();
     // Nothing overlaps, so the order does not matter; sums over objects round.
-    let found = measure_blur(&swapped, WRONG).scores;
-    assert_same_scores(&found, &measure_varied().scores, &Metric::all(), 1e-12);
+    let actual = measure_blur(&swapped, WRONG).scores;
+    assert_same_scores(&actual, &measure_varied().scores, &Metric::all(), 1e-12);
 }
 
 #[test]
@@ -192,7 +193,7 @@ fn brighter_pictures_seen_through_a_darker_exposure_have_the_same_scores() {
         flip_stop: VIEWING.flip_stop - 2.0,
         ..VIEWING
     };
-    let found = measure(&picture(&output), &frame, &truth, None, &darker).expect("they agree");
+    let actual = measure(&picture(&output), &frame, &truth, None, &darker).expect("they agree");
     // Exposures are powers of two, and FLIP works in 32 bits.
-    assert_same_scores(&found.scores, &expected.scores, &Metric::all(), 1e-5);
+    assert_same_scores(&actual.scores, &expected.scores, &Metric::all(), 1e-5);
 }

@@ -54,11 +54,11 @@ fn jods_are_those_of_the_reference_implementation() {
     let mut compared = 0;
     for (display, per_second) in [("standard_fhd", 30.0), ("standard_4k", 60.0)] {
         for (name, formula) in CASES {
-            let found = video_jod(&clip(formula), &reference, display, per_second).unwrap();
+            let actual = video_jod(&clip(formula), &reference, display, per_second).unwrap();
             let expected = expected[&format!("{name} {} {per_second}", display)];
             // Both compute in 32 bits and add in another order.
-            let off = (found - expected).abs();
-            assert!(off < 1e-3, "{name}: {found}, expected {expected}");
+            let off = (actual - expected).abs();
+            assert!(off < 1e-3, "{name}: {actual}, expected {expected}");
             compared += 1;
         }
     }

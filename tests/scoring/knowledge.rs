@@ -193,8 +193,9 @@ fn probes_locate_a_filter_s_taps() {
     }
     let reference = make_reference(&frame, &truth);
     let measured = |taps: &[([i32; 2], f32)]| {
-        let found = reference.measure_probes(&gather_probes(taps)).scores;
-        [&found.unity, &found.gather_offset, &found.gather_spread].map(|it| it.value().unwrap())
+        let scores = reference.measure_probes(&gather_probes(taps)).scores;
+        [&scores.unity, &scores.gather_offset, &scores.gather_spread]
+            .map(|score| score.value().unwrap())
     };
     let narrow = (1.0f64 + 1.0 / 6.0).sqrt() - (1.0f64 / 6.0).sqrt();
     for (taps, [unity, offset, spread]) in [
@@ -204,11 +205,11 @@ fn probes_locate_a_filter_s_taps() {
         // The middle does not depend on the sum of weights.
         (&[([2, 0], 0.55), ([4, 0], 0.55)], [0.1, 0.0, 0.0]),
     ] {
-        let found = measured(taps);
-        assert_near("unity", found[0], unity, 1e-6);
+        let scores = measured(taps);
+        assert_near("unity", scores[0], unity, 1e-6);
         // Squares of coordinates up to 36 in 32 bits: 1e-4 of a square pixel.
-        assert_near("offset", found[1], offset, 1e-4);
-        assert_near("spread", found[2], spread, 1e-3);
+        assert_near("offset", scores[1], offset, 1e-4);
+        assert_near("spread", scores[2], spread, 1e-3);
     }
 }
 

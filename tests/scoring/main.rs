@@ -50,14 +50,14 @@ fn smear(from: f64, to: f64) -> Blur {
 
 /// Shifts the true smear along and across the motion, in pixels.
 fn shifted(shift: [f64; 2]) -> Blur {
-    let own = Blur::TRUE;
-    Blur { shift, ..own }
+    let rest = Blur::TRUE;
+    Blur { shift, ..rest }
 }
 
 /// Dilates the true smear across the motion to both sides, in pixels.
 fn dilated(dilation: f64) -> Blur {
-    let own = Blur::TRUE;
-    Blur { dilation, ..own }
+    let rest = Blur::TRUE;
+    Blur { dilation, ..rest }
 }
 
 /// Mixes two pictures, `part` of the way to the second.

@@ -77,23 +77,24 @@ fn a_perfect_picture_s_unbiased_error_scatters_by_its_floor() {
     let truths = (0..100).map(|seed| score(&converged, &truth(seed)));
     let truths: Vec<Scores> = truths.collect();
     for name in "mse_moving mse_support mse_full relmse_moving mse_frozen".split(' ') {
-        let found = truths.iter().map(|scores| find_score(scores, name));
-        let found: Vec<Score> = found.collect();
+        let all_scores = truths.iter().map(|scores| find_score(scores, name));
+        let all_scores: Vec<Score> = all_scores.collect();
         let root_mean_square = |values: &dyn Fn(&Score) -> f64| {
-            let squares = found.iter().map(|score| values(score).powi(2));
-            (squares.sum::<f64>() / found.len() as f64).sqrt()
+            let squares = all_scores.iter().map(|score| values(score).powi(2));
+            (squares.sum::<f64>() / all_scores.len() as f64).sqrt()
         };
         let scatter = root_mean_square(&|score| score.value);
         let floor = root_mean_square(&|score| score.floor);
         let within = |floors: f64| {
             let inside = |score: &&Score| score.value.abs() <= floors * score.floor;
-            found.iter().filter(inside).count()
+            all_scores.iter().filter(inside).count()
         };
         // A standard deviation from 100 values errs by a fourteenth; noise that is not normal moves
         // the floor by a fifth.
         let ratio = scatter / floor;
         assert!((0.7..1.25).contains(&ratio), "{name}: {ratio}");
-        // Of 100 normal values, 68, 95 and 99.7 are inside; four standard deviations below.
+        // Of 100 normal values 68, 95 and 99.7 are inside on average. The limits are four standard
+        // deviations lower.
         for (floors, least) in [(1.0, 50), (2.0, 86), (3.0, 96)] {
             assert!(within(floors) >= least, "{name} within {floors} floors");
         }

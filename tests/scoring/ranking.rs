@@ -40,8 +40,8 @@ fn any_scores() -> Scores {
 
 fn make_case(scene: usize, scores: &Scores, (name, bar, alignment, flip, common): Entry) -> Case {
     let of = |name: &str| {
-        let own = (ENTRIES.iter()).find(|entry| (entry.0, entry.2) == (name, alignment));
-        own.unwrap().3 * SCENES[scene]
+        let entry = (ENTRIES.iter()).find(|entry| (entry.0, entry.2) == (name, alignment));
+        entry.unwrap().3 * SCENES[scene]
     };
     let flip = flip * SCENES[scene];
     let sharp = match alignment {
@@ -106,9 +106,9 @@ fn make_run() -> Run {
 }
 
 fn mean<'a>(run: &'a Run, filter: &str, metric: &str) -> &'a Overall {
-    let mut found = run.overall.iter();
-    let found = found.find(|mean| mean.name == filter && mean.metric.name() == metric);
-    found.unwrap_or_else(|| panic!("{metric} of {filter} has no mean"))
+    let mut all = run.overall.iter();
+    let mean = all.find(|mean| mean.name == filter && mean.metric.name() == metric);
+    mean.unwrap_or_else(|| panic!("{metric} of {filter} has no mean"))
 }
 
 /// Prints the run's table without colour codes.
@@ -144,8 +144,8 @@ fn a_trailing_filter_of_more_skill_ranks_above_a_centred_one_of_less_flip() {
     });
     assert!(flip[0] > flip[1], "{flip:?}");
     // (0.156 - 0.100) / (0.156 - 0.050) and (0.154 - 0.087) / (0.154 - 0.024).
-    for (found, due) in skill.into_iter().zip([0.5283, 0.5154]) {
-        assert!((found - due).abs() < 1e-3, "{skill:?}");
+    for (actual, due) in skill.into_iter().zip([0.5283, 0.5154]) {
+        assert!((actual - due).abs() < 1e-3, "{skill:?}");
     }
     let ranking = print_means(&run, 2, "Skill is by");
     assert_order(&ranking, &["jump_flood:paper", "kino:default"]);
@@ -158,7 +158,7 @@ fn a_filter_worse_than_doing_nothing_ranks_below_it() {
     let due = (0.154 - 0.253) / 0.130;
     assert!((skill.mean - due).abs() < 1e-9, "{skill:?}");
     assert!(skill.interval[1] < 0.0);
-    // Its FLIP is nevertheless smaller than the identity's against the trailing truth.
+    // The filter's FLIP is nevertheless smaller than the identity's against the trailing truth.
     assert!(mean(&run, "jimenez:wicked", "flip_moving").mean < 0.270);
     let ranking = print_means(&run, 2, "Skill is by");
     // The trailing frame lags: it is worse still, and its lag has a line of its own.
@@ -183,8 +183,8 @@ fn a_ranking_by_flip_stays_within_a_shutter_and_shows_its_references() {
     let of_centred = "[scatter_oracle] kino:default [identity] jimenez:wicked";
     for (rows, names) in [(trailing, of_trailing), (centred, of_centred)] {
         let rows = rows.lines().skip(1).filter(|line| line.starts_with("  "));
-        let found = rows.map(|line| line.split_whitespace().next().unwrap());
-        assert_eq!(found.collect::<Vec<_>>().join(" "), names);
+        let actual = rows.map(|line| line.split_whitespace().next().unwrap());
+        assert_eq!(actual.collect::<Vec<_>>().join(" "), names);
     }
     let text = print_table(&run);
     let fits = text.lines().all(|line| line.chars().count() <= 80);
@@ -210,10 +210,10 @@ fn skill_over_scenes_is_a_ratio_of_means() {
     }
     let means = overall(&cases).into_iter();
     let mut means = means.filter(|mean| mean.name == "kino:default");
-    let found = means.find(|mean| mean.metric == Metric::SKILL).unwrap();
+    let mean = means.find(|mean| mean.metric == Metric::SKILL).unwrap();
     let [way, gained] = [0.6 * (0.154 - 0.024), 0.6 * (0.154 - 0.087)];
     let due = (gained + 0.010) / (way + 0.001);
-    assert!((found.mean - due).abs() < 1e-9, "{found:?} {due}");
+    assert!((mean.mean - due).abs() < 1e-9, "{mean:?} {due}");
 }
 
 #[test]
@@ -237,13 +237,13 @@ fn compared_runs_have_the_means_of_skill_of_each_run() {
     let is_own = |mean: &&judge::MeanChange| {
         mean.filter == "jump_flood:paper" && mean.metric == Metric::SKILL
     };
-    let found = means.find(is_own).unwrap();
-    for (found, due) in [found.first, found.second].into_iter().zip(due) {
-        assert!((found - due).abs() < 1e-9, "{found}, not {due}");
+    let change = means.find(is_own).unwrap();
+    for (actual, due) in [change.first, change.second].into_iter().zip(due) {
+        assert!((actual - due).abs() < 1e-9, "{actual}, not {due}");
     }
     for (run, due) in runs.iter().zip(due) {
-        let found = mean(&run.run, "jump_flood:paper", "skill_flip").mean;
-        assert!((found - due).abs() < 1e-9, "{found}, not {due}");
+        let actual = mean(&run.run, "jump_flood:paper", "skill_flip").mean;
+        assert!((actual - due).abs() < 1e-9, "{actual}, not {due}");
     }
 }
 
@@ -276,8 +276,8 @@ fn scenes_without_skill_are_counted() {
 fn flip_against_the_common_shutter_has_a_mean_of_its_own() {
     let run = make_run();
     assert!((mean(&run, "jump_flood:paper", "flip_common").mean - 0.140).abs() < 1e-12);
-    let own = run.cases[0].scores.get(Metric::FLIP);
-    assert_ne!(run.cases[0].common.flip, own);
+    let flip = run.cases[0].scores.get(Metric::FLIP);
+    assert_ne!(run.cases[0].common.flip, flip);
 }
 
 #[test]

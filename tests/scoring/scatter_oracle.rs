@@ -33,8 +33,8 @@ fn oracle(frame: &Frame, shutter: Shutter) -> Picture {
 #[track_caller]
 fn assert_row(image: &Image, row: u32, expected: impl Fn(u32) -> f64, tolerance: f64) {
     for x in 0..image.width {
-        let found = f64::from(image.at(x, row)[0]);
-        crate::assert_near(&format!("column {x}"), found, expected(x), tolerance);
+        let actual = f64::from(image.at(x, row)[0]);
+        crate::assert_near(&format!("column {x}"), actual, expected(x), tolerance);
     }
 }
 
@@ -49,8 +49,8 @@ fn a_still_frame_comes_out_unchanged() {
 
 #[test]
 fn a_mover_leaves_ramps_and_shows_its_background() {
-    // From 20 to 30, 8 pixels per frame: over the shutter it covers column x while -8 t is between
-    // x's distances.
+    // The block is from 20 to 30 and moves 8 pixels per frame. Over the shutter it covers column x
+    // while -8 t is between the distances of x from its ends.
     let frame = block(20..30, 8.0);
     let ramp = |x: u32, from: f64| ((f64::from(x) + 0.5 - from) / 8.0).clamp(0.0, 1.0);
     for (shutter, shift) in [(trailing(), -8.0), (Shutter::new(0.0, 1.0).unwrap(), 0.0)] {

@@ -15,8 +15,8 @@ use crate::{measure_scores, noisy, scene};
 
 /// Compares a score.
 #[track_caller]
-fn assert_near(found: f64, expected: f64, tolerance: f64) {
-    crate::assert_near("score", found, expected, tolerance);
+fn assert_near(actual: f64, expected: f64, tolerance: f64) {
+    crate::assert_near("score", actual, expected, tolerance);
 }
 
 /// Motion per frame in pixels: whole ones, so that moving a picture along is exact.
@@ -25,7 +25,7 @@ const SPEED: [f64; 2] = [4.0, 2.0];
 const FRAMES: u32 = 5;
 /// Half the width of uniform noise.
 const NOISE: f32 = 0.2;
-/// Its variance.
+/// Variance of the uniform noise.
 const VARIANCE: f64 = (NOISE * NOISE) as f64 / 3.0;
 
 /// Makes a disc that slides over a picture of 96x64 pixels; the shutter is open for half a frame.
@@ -100,7 +100,7 @@ fn a_still_scene_has_no_change_to_get_wrong() {
     let (instants, truths) = slide([0.0, 0.0]);
     assert!(!instants[0].moving.pixels.contains(&true));
     assert_perfect(&instants, &truths);
-    // The same wrong picture in every frame.
+    // Every frame has the same wrong picture.
     let measured = measure_all(&instants, &add_noise(&truths, |_| 1));
     let changes = [Flicker, FlickerAlong, Popping];
     for metric in changes {

@@ -17,7 +17,8 @@ const MANY: u32 = 64;
 /// A number of sub-frames that is no rung.
 const FEW: u32 = 3;
 
-/// A truth and some accumulations of its shutter, and the same without each group of samples.
+/// A truth and some accumulations of its shutter, and the same truth and accumulations without each
+/// group of samples.
 struct Rendered {
     truth: Truth,
     without: Vec<Truth>,
@@ -58,16 +59,16 @@ impl Rendered {
             .map(|(group, truth)| reference(truth, &self.ladder.without(group)))
             .collect();
         let errors: Vec<(&Reference, Errors)> = (references.iter().zip(without))
-            .map(|(own, picture)| (own, own.measure_errors(picture).unwrap().unwrap()))
+            .map(|(part, picture)| (part, part.measure_errors(picture).unwrap().unwrap()))
             .collect();
-        let own = reference(&self.truth, &self.ladder);
-        own.count_subframes(&own.measure(whole).unwrap().scores, &errors)
+        let whole_reference = reference(&self.truth, &self.ladder);
+        whole_reference.count_subframes(&whole_reference.measure(whole).unwrap().scores, &errors)
     }
 }
 
 fn settings(size: [u32; 2], samples: u32, seed: u64) -> RenderSettings {
-    let own = tests::settings(size, samples);
-    RenderSettings { seed, ..own }
+    let common = tests::settings(size, samples);
+    RenderSettings { seed, ..common }
 }
 
 fn find_count(counts: &EquivalentScores, metric: EquivalentMetric) -> Subframes {
@@ -92,14 +93,14 @@ fn load(name: &str) -> (Scene, Frame) {
 /// is wrong.
 fn check_many(name: &str, samples: u32) -> Vec<String> {
     let (scene, frame) = load(name);
-    let own = Rendered::new(&scene, &settings([96, 54], samples, 1), &LADDER);
-    if !own.truth.support.moving.pixels.contains(&true) {
+    let rendered = Rendered::new(&scene, &settings([96, 54], samples, 1), &LADDER);
+    if !rendered.truth.support.moving.pixels.contains(&true) {
         return Vec::new();
     }
     let other = Rendered::new(&scene, &settings([96, 54], samples, 2), &[MANY]);
     let (whole, without) = other.pictures();
     let without: Vec<&Picture> = without.iter().collect();
-    let counts = own.count(&frame, &whole, &without);
+    let counts = rendered.count(&frame, &whole, &without);
     let wrong = EquivalentMetric::ALL.into_iter().filter_map(|metric| {
         let count = find_count(&counts, metric);
         let is_right = contains(&count, f64::from(MANY));
@@ -158,7 +159,10 @@ fn a_rung_of_64_sub_frames_has_less_noise_than_the_truth() {
         let truth = Truth::of(&replicates).unwrap();
         let rung = LadderTracer::new(&scene, &settings, &truth, &LADDER).unwrap();
         let rung = rung.trace(MANY, &unwatched).unwrap().rungs.remove(0);
-        let of_truth: Vec<&Image> = replicates.iter().map(|own| &own.picture.color).collect();
+        let of_truth: Vec<&Image> = replicates
+            .iter()
+            .map(|replicate| &replicate.picture.color)
+            .collect();
         let of_rung: Vec<&Image> = rung.groups.iter().map(|group| &group.color).collect();
         let [of_rung, of_truth] = [of_rung, of_truth].map(|parts| measure_noise(&parts, &truth));
         assert!(of_rung < of_truth, "{name}: {of_rung} {of_truth}");

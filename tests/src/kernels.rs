@@ -77,7 +77,7 @@ pub fn sees_camera_only(filter: &str, preset: &str) -> bool {
 /// Returns the taps of one pixel with this noise value in [0, 1).
 pub fn place_taps(filter: &str, preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     match filter {
-        "identity" => vec![own(1.0)],
+        "identity" => vec![tap_here(1.0)],
         "velocity_gather" | "camera_gather" => gathers::plain(preset, steady),
         // The packed flood paints the same pixels.
         "jump_flood" | "jump_flood_packed" => gathers::jump_flood(preset, steady, noise),
@@ -106,7 +106,7 @@ pub fn along_motion(steady: &Steady, offset: [f64; 2]) -> f64 {
 }
 
 /// Makes a tap on the pixel itself.
-fn own(weight: f64) -> Tap {
+fn tap_here(weight: f64) -> Tap {
     tap([0.0, 0.0], weight)
 }
 

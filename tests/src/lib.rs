@@ -41,8 +41,11 @@ pub fn settings([width, height]: [u32; 2], samples_per_pixel: u32) -> RenderSett
 
 /// Makes settings of a truth in another number of replicates.
 pub fn settings_of(size: [u32; 2], samples_per_pixel: u32, replicates: u32) -> RenderSettings {
-    let own = settings(size, samples_per_pixel);
-    RenderSettings { replicates, ..own }
+    let common = settings(size, samples_per_pixel);
+    RenderSettings {
+        replicates,
+        ..common
+    }
 }
 
 /// Watches a render and lets it continue.

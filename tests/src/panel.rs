@@ -24,13 +24,13 @@ const TENT: f64 = 2.0;
 /// Size of pictures of a shot, unless another is given.
 pub const SMALL: [u32; 2] = [256, 144];
 
-/// What moves in a shot.
+/// The thing that moves in a shot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mover {
     /// The panel, before a still camera.
     Panel,
-    /// The camera, the other way: the panel moves alike in the picture, and the wall behind it too,
-    /// less.
+    /// The camera, in the opposite direction: the panel moves alike in the picture, and the wall
+    /// behind it moves too, but less.
     Camera,
 }
 

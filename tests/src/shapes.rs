@@ -222,7 +222,10 @@ pub fn icosphere(radius: f32, splits: u32) -> Mesh {
         });
         triangles = split.collect();
     }
-    let normals: Vec<Vec3> = directions.iter().map(|it| it.as_vec3()).collect();
+    let normals: Vec<Vec3> = directions
+        .iter()
+        .map(|direction| direction.as_vec3())
+        .collect();
     let positions = normals.iter().map(|normal| radius * *normal).collect();
     Mesh {
         normals,

@@ -46,7 +46,7 @@ pub fn coverage_estimates(truth: &Truth, expected: impl Fn(u32, u32) -> f64) -> 
     let replicates = f64::from(truth.provenance.replicates);
     let floor = (0.3 * 0.7 / replicates).sqrt() / f64::from(samples);
     let mut estimates = estimate_pixels(truth, expected);
-    let partial = |it: &&mut Estimate| it.expected > 0.0 && it.expected < 1.0;
+    let partial = |estimate: &&mut Estimate| estimate.expected > 0.0 && estimate.expected < 1.0;
     (estimates.iter_mut().filter(partial)).for_each(|estimate| estimate.floor = floor);
     estimates
 }

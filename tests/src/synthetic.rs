@@ -168,13 +168,13 @@ impl Scene {
     /// Finds the pixels that the open shutter sees: the same for all truths of the scene, whatever
     /// their noise, rendered once per scene.
     pub fn support(&self) -> Support {
-        static FOUND: Mutex<Vec<(Scene, Support)>> = Mutex::new(Vec::new());
-        let mut found = FOUND.lock().expect("no test fails in here");
-        if let Some((_, support)) = found.iter().find(|(scene, _)| scene == self) {
+        static SUPPORTS: Mutex<Vec<(Scene, Support)>> = Mutex::new(Vec::new());
+        let mut supports = SUPPORTS.lock().expect("no test fails in here");
+        if let Some((_, support)) = supports.iter().find(|(scene, _)| scene == self) {
             return support.clone();
         }
         let support = self.find_support();
-        found.push((self.clone(), support.clone()));
+        supports.push((self.clone(), support.clone()));
         support
     }
 

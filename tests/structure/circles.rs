@@ -33,7 +33,7 @@ fn find_circles(pairs: &Pairs) -> String {
     let mut circles = BTreeSet::new();
     for (module, _) in pairs {
         let mut circle = reach(pairs, module);
-        circle.retain(|it| reach(pairs, it).contains(module));
+        circle.retain(|member| reach(pairs, member).contains(module));
         circles.insert(circle);
     }
     let texts = circles.iter().map(|circle| describe(pairs, circle));
@@ -46,8 +46,10 @@ fn reach<'a>(pairs: &'a Pairs, from: &'a Module) -> BTreeSet<&'a Module> {
     let mut open = vec![from];
     while let Some(module) = open.pop() {
         let from_here = pairs.range((module.clone(), Module::new())..);
-        let used = from_here.take_while(|it| it.0 == *module).map(|it| &it.1);
-        open.extend(used.filter(|it| reached.insert(*it)));
+        let used = from_here
+            .take_while(|pair| pair.0 == *module)
+            .map(|pair| &pair.1);
+        open.extend(used.filter(|module| reached.insert(*module)));
     }
     reached
 }
@@ -108,7 +110,7 @@ fn circles_of_files_and_of_folders_are_found() {
             .filter_map(|part| part.split_once('\n'));
         let module = |name: &str| name.split_terminator('/').map(str::to_owned).collect();
         let texts = parts.map(|(name, text)| (module(name), text.to_owned()));
-        let found = find_all_circles(&texts.collect());
-        assert_eq!(found, [of_files, of_folders]);
+        let circles = find_all_circles(&texts.collect());
+        assert_eq!(circles, [of_files, of_folders]);
     }
 }

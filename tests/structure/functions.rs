@@ -47,7 +47,7 @@ const WORDS: &str = "pub pub(crate) pub(super) async const unsafe extern \"C\"";
 /// below its beginning.
 fn find_functions(text: &str) -> Vec<(usize, &str, usize)> {
     let lines: Vec<&str> = text.lines().collect();
-    let mut found = Vec::new();
+    let mut functions = Vec::new();
     for (at, line) in lines.iter().enumerate() {
         let code = line.trim_start();
         let indent = &line[..line.len() - code.len()];
@@ -65,9 +65,9 @@ fn find_functions(text: &str) -> Vec<(usize, &str, usize)> {
         };
         let end = lines[at..].iter().position(is_end);
         let name = after.split(['(', '<']).next().unwrap_or_default();
-        found.extend(end.map(|end| (at + 1, name, end + 1)));
+        functions.extend(end.map(|end| (at + 1, name, end + 1)));
     }
-    found
+    functions
 }
 
 const SAMPLE: &str = "\
@@ -91,6 +91,6 @@ fn short() {}
 
 #[test]
 fn functions_are_found_with_their_lengths() {
-    let found = [(2, "area", 3), (7, "long", 8), (16, "short", 1)];
-    assert_eq!(find_functions(SAMPLE), found);
+    let functions = [(2, "area", 3), (7, "long", 8), (16, "short", 1)];
+    assert_eq!(find_functions(SAMPLE), functions);
 }

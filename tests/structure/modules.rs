@@ -21,7 +21,7 @@ pub fn read_modules(sources: &Path) -> Texts {
     let read = |path: PathBuf| {
         let below = path.strip_prefix(sources).expect("it is below");
         let stem = below.with_extension("");
-        let mut module: Module = stem.iter().map(|it| it.display().to_string()).collect();
+        let mut module: Module = stem.iter().map(|part| part.display().to_string()).collect();
         module.pop_if(|last| ["mod", "lib", "main"].contains(&last.as_str()));
         (module, fs::read_to_string(&path).expect("sources are text"))
     };
@@ -33,10 +33,10 @@ pub fn read_modules(sources: &Path) -> Texts {
 pub fn find_pairs(texts: &Texts) -> Pairs {
     let (mut exports, mut uses) = (BTreeMap::new(), Vec::new());
     for (module, text) in texts {
-        for found in find_uses(text) {
-            match resolve(texts, module, &found.path) {
-                Some(path) if found.is_export => {
-                    exports.insert((module.clone(), found.name), path);
+        for import in find_uses(text) {
+            match resolve(texts, module, &import.path) {
+                Some(path) if import.is_export => {
+                    exports.insert((module.clone(), import.name), path);
                 }
                 Some(path) => uses.push((module.clone(), path)),
                 None => {}
@@ -51,7 +51,7 @@ pub fn find_pairs(texts: &Texts) -> Pairs {
 /// Finds the path from the root; none for a path of another crate.
 fn resolve(texts: &Texts, module: &Module, path: &[String]) -> Option<Module> {
     let (first, rest) = path.split_first()?;
-    let climbs = path.iter().take_while(|it| *it == "super").count();
+    let climbs = path.iter().take_while(|part| *part == "super").count();
     match first.as_str() {
         "crate" => Some(rest.to_vec()),
         "self" => Some([module, rest].concat()),

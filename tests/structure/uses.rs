@@ -32,7 +32,11 @@ pub fn find_uses(text: &str) -> Vec<Use> {
         uses.extend(expand(&tree).iter().map(|path| parse(path, is_export)));
     }
     let words = other.split(|c: char| !c.is_alphanumeric() && c != '_' && c != ':');
-    let inner = words.filter(|word| ["crate::", "super::"].iter().any(|it| word.starts_with(it)));
+    let inner = words.filter(|word| {
+        ["crate::", "super::"]
+            .iter()
+            .any(|root| word.starts_with(root))
+    });
     uses.extend(inner.map(|path| parse(path.trim_end_matches(':'), false)));
     uses
 }
@@ -76,7 +80,11 @@ pub fn strip(text: &str) -> String {
         let code = line.split("//").next().unwrap_or_default();
         let indent = line.len() - line.trim_start().len();
         match end {
-            Some(own) if indent == own && (code.ends_with(';') || code.trim() == "}") => end = None,
+            Some(test_indent)
+                if indent == test_indent && (code.ends_with(';') || code.trim() == "}") =>
+            {
+                end = None
+            }
             Some(_) => {}
             None if code.trim() == "#[cfg(test)]" => end = Some(indent),
             None => kept += &format!("{code}\n"),

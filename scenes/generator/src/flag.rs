@@ -36,7 +36,7 @@ Kd 0.9 0.7 0.2
 pub(crate) fn files() -> Files {
     let mut files = Files::new();
     for shape in 0..5 {
-        // From one frame before the instant to one after it.
+        // The shapes go from one frame before the instant to one after it.
         let time = 0.5 * f64::from(shape) - 1.0;
         let mut mesh = Mesh::default();
         mesh.add_surface(PARTS, stripe, |u, v| cloth(u, v, time));

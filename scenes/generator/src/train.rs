@@ -62,7 +62,7 @@ fn wagon(body: &'static str) -> Mesh {
         add("door", [0.0, 2.15, 1.28 * side], [1.9, 2.1, 0.06]);
         add("iron", [0.0, 3.25, 1.3 * side], [4.0, 0.08, 0.08]);
         for end in [-3.6, 3.6] {
-            // On the side of the body and not in it, so that their ends share no place.
+            // Bars are on the side of the body and not in it, so that their ends share no place.
             add("iron", [end, 2.2, 1.27 * side], [0.1, 2.4, 0.04]);
         }
         for axle in [-2.5, 2.5] {

@@ -36,10 +36,10 @@ fn a_broken_bound_gives_exit_code_1_and_its_evidence() {
     let picture = "out/plate/identity_default/worst_flip_moving.png";
     assert!(sandbox.path(picture).is_file());
     // JSON has the same verdict.
-    let found = json(&sandbox, "--filters identity");
-    assert_eq!(found["format"], judge::CHECK_FORMAT);
-    assert_eq!(found["decision"], "broken");
-    let finding = &found["findings"][0];
+    let verdict = json(&sandbox, "--filters identity");
+    assert_eq!(verdict["format"], judge::CHECK_FORMAT);
+    assert_eq!(verdict["decision"], "broken");
+    let finding = &verdict["findings"][0];
     for (key, value) in [
         ("kind", "broken"),
         ("level", "required"),
@@ -61,10 +61,10 @@ fn a_blur_unlike_every_decoy_is_reported_as_such() {
     // A box over everything that moves, with front and back swapped: wrong in a way that no decoy
     // is. Scaled to 64 pixels, its tiles would be too small to blur anything.
     let filters = "--filters mcguire:motion_blur_demo,mcguire:paper --as-written";
-    let found = json(&sandbox, filters);
-    let [own, short] = [0, 1].map(|filter| &found["findings"][filter]);
-    assert_eq!([&own["kind"], &short["kind"]], ["broken"; 2]);
-    assert!(own["resembles"].is_null(), "{own}");
+    let verdict = json(&sandbox, filters);
+    let [box_filter, short] = [0, 1].map(|filter| &verdict["findings"][filter]);
+    assert_eq!([&box_filter["kind"], &short["kind"]], ["broken"; 2]);
+    assert!(box_filter["resembles"].is_null(), "{box_filter}");
     // Taps count less towards the ends of the trail. At 3 px that is a large part of it.
     assert_eq!(short["resembles"]["decoy"], "half_length", "{short}");
 }
@@ -86,15 +86,15 @@ fn a_bound_of_level_report_fails_nothing() {
 #[test]
 fn a_limit_inside_the_interval_gives_exit_code_4_and_the_samples_to_decide() {
     let sandbox = make_bounded(0.9, "required");
-    let found = &json(&sandbox, "--filters identity")["findings"][0];
-    let [low, high] = ["low", "high"].map(|end| found["interval"][end].as_f64().unwrap());
+    let finding = &json(&sandbox, "--filters identity")["findings"][0];
+    let [low, high] = ["low", "high"].map(|end| finding["interval"][end].as_f64().unwrap());
     // The limit is a little more than a quarter of the half width off the interval's middle. 16
     // times the samples halve the width twice.
     let limit = 0.5 * (low + high) + 0.26 * 0.5 * (high - low);
     sandbox.write("bounds.toml", &bound("flip_moving", limit, "required"));
     let parts = "UNDECIDED flip_moving | 1024 samples per pixel would settle it | raise the samples per pixel";
     check(&sandbox, "", 4, &parts);
-    let value = found["value"].as_f64().unwrap();
+    let value = finding["value"].as_f64().unwrap();
     write_target(&sandbox, value.min(limit));
     check(&sandbox, "-v", 0, &["target undecided flip_moving"]);
 }
@@ -102,14 +102,14 @@ fn a_limit_inside_the_interval_gives_exit_code_4_and_the_samples_to_decide() {
 #[test]
 fn an_undecided_bound_within_three_floors_gives_exit_code_2_and_the_strictest_bound() {
     let sandbox = make_bounded(0.9, "required");
-    // So little motion is nearly noise.
+    // The error of so little motion is hardly more than noise.
     sandbox.write("scene.toml", &SCENE.replace("-1.6", "-0.002"));
-    let found = &json(&sandbox, "--filters identity")["findings"][0];
-    let [floor, strictest] = ["floor", "strictest"].map(|key| found[key].as_f64().unwrap());
+    let finding = &json(&sandbox, "--filters identity")["findings"][0];
+    let [floor, strictest] = ["floor", "strictest"].map(|key| finding[key].as_f64().unwrap());
     assert_eq!(strictest, 3.0 * floor);
-    let [low, high] = ["low", "high"].map(|end| found["interval"][end].as_f64().unwrap());
+    let [low, high] = ["low", "high"].map(|end| finding["interval"][end].as_f64().unwrap());
     let middle = f64::midpoint(low, high);
-    assert!(middle < strictest && high < strictest, "{found}");
+    assert!(middle < strictest && high < strictest, "{finding}");
     sandbox.write("bounds.toml", &bound("flip_moving", middle, "required"));
     let allowed = format!("the noise floor of {floor:.5}");
     let within = "LIMIT WITHIN NOISE flip_moving";
@@ -119,7 +119,7 @@ fn an_undecided_bound_within_three_floors_gives_exit_code_2_and_the_strictest_bo
     // A target fails nothing.
     write_target(&sandbox, middle);
     check(&sandbox, "-v", 0, &["target within noise flip_moving"]);
-    // What an interval decides is certain, and so is another bound that is broken.
+    // Limits outside the interval are decided for certain, and so is another bound that is broken.
     sandbox.write("bounds.toml", &bound("flip_moving", 0.5 * low, "required"));
     check(&sandbox, "", 1, &["BROKEN flip_moving"]);
     sandbox.write(
@@ -172,17 +172,17 @@ fn check_refuses_bad_input_before_it_renders() {
     }
     fs::create_dir(sandbox.path("scenes/plates")).unwrap();
     sandbox.put("scenes/plates/bounds.toml", "");
-    let found = "plates/bounds.toml: bounds of a scene that does not exist";
-    refuse("", &[found]);
+    let message = "plates/bounds.toml: bounds of a scene that does not exist";
+    refuse("", &[message]);
 }
 
 #[test]
 fn an_error_map_that_no_file_holds_is_measured_again() {
     let sandbox = make_bounded(0.9, "required");
     sandbox.write("bounds.toml", &bound("mae_moving", 0.001, "required"));
-    let found = json(&sandbox, "--filters identity");
-    let map = &found["findings"][0]["worst"]["map"];
-    assert_eq!(*map, "absolute_error", "{found}");
+    let verdict = json(&sandbox, "--filters identity");
+    let map = &verdict["findings"][0]["worst"]["map"];
+    assert_eq!(*map, "absolute_error", "{verdict}");
     let case = &sandbox.read_filter_cases()[0];
     let out = sandbox.path("out");
     let errors = read_exr(&out.join(&case.folder).join("errors.exr")).unwrap();
@@ -198,8 +198,8 @@ fn an_error_map_that_no_file_holds_is_measured_again() {
         sum * scale / 3.0
     });
     assert!(expected.pixels.iter().any(|error| *error > 0.05));
-    for (found, expected) in map.pixels.iter().zip(&expected.pixels) {
-        assert!((found - expected).abs() < 1e-6, "{found} {expected}");
+    for (error, expected) in map.pixels.iter().zip(&expected.pixels) {
+        assert!((error - expected).abs() < 1e-6, "{error} {expected}");
     }
 }
 

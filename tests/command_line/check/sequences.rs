@@ -28,7 +28,9 @@ fn a_check_judges_the_sequence_and_the_first_frame_as_without_it() {
     ];
     check(&sandbox, "", 0, &parts);
     let findings = sandbox.read_findings();
-    let outcomes = findings.iter().map(|own| (own.metric.name(), own.outcome));
+    let outcomes = findings
+        .iter()
+        .map(|finding| (finding.metric.name(), finding.outcome));
     let due = [
         ("flip_moving", Outcome::Kept),
         ("flicker", Outcome::NotJudged),
@@ -84,15 +86,19 @@ fn assert_flicker(sandbox: &Sandbox) -> u32 {
     assert_eq!(flicker.outcome, Outcome::Broken);
     assert_eq!(flicker.frames, Some(3));
     let run = sandbox.read_run();
-    let own = run.sequences.iter().find(|own| !own.is_reference).unwrap();
+    let sequence = run
+        .sequences
+        .iter()
+        .find(|sequence| !sequence.is_reference)
+        .unwrap();
     let metric = Metric::Sequence(SequenceMetric::Flicker);
-    let interval = own.intervals[&metric];
+    let interval = sequence.intervals[&metric];
     assert_eq!(flicker.interval, Some(interval));
     let value = flicker.value.unwrap();
     assert!(interval.low < value && value < interval.high);
-    let worst = own.worst_frames[&metric];
+    let worst = sequence.worst_frames[&metric];
     assert_eq!(flicker.worst_frame, Some(worst));
-    assert_eq!(flicker.pictures, own.frames[worst as usize].folder);
+    assert_eq!(flicker.pictures, sequence.frames[worst as usize].folder);
     let pictures = sandbox.path("out").join(&flicker.pictures);
     assert!(pictures.join("change.png").is_file());
     worst

@@ -51,8 +51,8 @@ fn nothing_outside_of_the_folder_is_included() {
             let head = if *file == "blur.comp" { GLSL } else { "" };
             let text = text.replace("SECRET", &secret);
             fs::write(folder.join(file), format!("{head}{text}\n")).unwrap();
-            let own = format!("#include \"{secret}\"\n");
-            fs::write(folder.join("own.h"), own).unwrap();
+            let include = format!("#include \"{secret}\"\n");
+            fs::write(folder.join("own.h"), include).unwrap();
             symlink(&secret, folder.join("link.h")).unwrap();
             symlink(sandbox.path(""), folder.join("linked")).unwrap();
             let named = if line == "1" { "own.h" } else { file };
@@ -83,7 +83,8 @@ fn no_folder_of_an_includer_leads_outside() {
     for (file, head, includes) in [
         ("p/q/blur.comp", GLSL, "../../top.h"),
         ("top.h", "", "p/q/r/s/deep.h"),
-        // From p/q/r/s and from p/q it stays within, from the folder of top.h it does not.
+        // The path stays in the folder if it is taken from p/q/r/s or p/q, and leaves it from the
+        // folder of top.h.
         ("p/q/r/s/deep.h", "", "../../secret.txt"),
     ] {
         let text = format!("{head}#include \"{includes}\"\n");
@@ -103,7 +104,8 @@ fn no_directive_is_hidden_from_the_program() {
     let sandbox = Sandbox::new();
     let place = write_secret(&sandbox);
     install_glslang(&sandbox);
-    // From the folder of the copies: a compiler may join an absolute path to it.
+    // The path begins in the folder of the copies: a compiler may join an absolute path to that
+    // folder.
     let secret = format!("{}..{place}", "../".repeat(11));
     let folder = sandbox.path("").display().to_string();
     let words = [
@@ -151,7 +153,8 @@ fn honest_includes_work_and_errors_name_their_lines() {
     };
     let write = |file: &str, text: &str| fs::write(folder.join("in").join(file), text).unwrap();
     write("blur.comp", &shader(&body.replace('\n', "\r\n")));
-    // Each includes the other. Only the second path is a file, next to the shader.
+    // The two files include each other. Of the two paths only the second is a file, next to the
+    // shader.
     write(
         "lib/a.h",
         "#ifndef A_H\n#define A_H\n#include \"deep/b.h\"\nfloat a() { return b(); }\n#endif\n",

@@ -18,9 +18,9 @@ fn find_program(name: &str) -> Option<PathBuf> {
 
 /// Puts the real glslangValidator, and nothing else, on the bench's PATH.
 pub fn install_glslang(sandbox: &Sandbox) {
-    let found = find_program("glslangValidator").expect("apt-get install glslang-tools");
+    let glslang = find_program("glslangValidator").expect("apt-get install glslang-tools");
     fs::create_dir_all(sandbox.path("bin")).unwrap();
-    std::os::unix::fs::symlink(found, sandbox.path("bin/glslangValidator")).unwrap();
+    std::os::unix::fs::symlink(glslang, sandbox.path("bin/glslangValidator")).unwrap();
 }
 
 /// Copies the fixtures into the folder of a filter in one language, with the documented example's
@@ -33,8 +33,8 @@ fn write_fixture(sandbox: &Sandbox, language: &str, head: &str) {
     fs::write(manifest, format!("{head}{passes}")).unwrap();
 }
 
-/// One filter in three languages, each with every installed compiler for it. `glslangValidator`
-/// always is.
+/// One filter in three languages, each translated by every installed compiler for it.
+/// `glslangValidator` is always installed.
 #[test]
 fn each_compiler_makes_the_picture_that_wgsl_makes() {
     const README: &str = include_str!("../../../shaders/README.md");
@@ -59,18 +59,18 @@ fn each_compiler_makes_the_picture_that_wgsl_makes() {
         ("slang", "slangc"),
         ("wesl", "wesl"),
     ] {
-        let Some(found) = find_program(program) else {
+        let Some(compiler) = find_program(program) else {
             println!("{program} is not on the PATH: {language} was not tried with it");
             continue;
         };
         let bin = sandbox.path(&format!("bin_{program}"));
         fs::create_dir_all(&bin).unwrap();
-        _ = std::os::unix::fs::symlink(found, bin.join(program));
+        _ = std::os::unix::fs::symlink(compiler, bin.join(program));
         write_fixture(&sandbox, language, head);
         for preset in ["fast", "fine"] {
-            let [expected, found] =
+            let [expected, actual] =
                 ["centre_blur", language].map(|filter| blur(&format!("./{filter}:{preset}"), &bin));
-            let difference = largest_difference(&expected, &found);
+            let difference = largest_difference(&expected, &actual);
             let tried = format!("{language}, {program}, {preset}");
             assert!(difference < 1e-5, "{tried}: {difference}");
         }

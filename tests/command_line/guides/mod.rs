@@ -51,8 +51,8 @@ fn read_pages() -> Vec<(String, Vec<Step>)> {
 /// Finds the line of shell that makes a command's prerequisites.
 fn find_prepared(page: &str, command: &str) -> Option<&'static str> {
     let mut all = list_prepared().into_iter();
-    let found = all.find(|(of, beginning, _)| *of == page && command.starts_with(beginning));
-    found.map(|(_, _, line)| line)
+    let prepared = all.find(|(of, beginning, _)| *of == page && command.starts_with(beginning));
+    prepared.map(|(_, _, line)| line)
 }
 
 fn is_left_out(command: &str) -> bool {

@@ -3,7 +3,7 @@
 /// Programs that begin a page's commands.
 const PROGRAMS: &str = "shuttertruth cargo cat make cp pip python3";
 
-/// One step of a page's reader.
+/// A step that the reader of a page takes.
 pub enum Step {
     /// Writes a file, which the page names before a block of code.
     Write { path: String, text: String },
@@ -65,7 +65,7 @@ fn is_name(text: &str) -> bool {
 fn find_command(line: &str) -> Option<Step> {
     let command = line.split(" #").next()?.trim_end();
     let program = command.split(' ').next()?;
-    (PROGRAMS.split(' ').any(|it| it == program)).then(|| Step::Run(command.to_owned()))
+    (PROGRAMS.split(' ').any(|name| name == program)).then(|| Step::Run(command.to_owned()))
 }
 
 /// Finds the path in a paragraph such as "`my_blur/filter.toml` says what it is:".

@@ -125,7 +125,7 @@ fn assert_printed(path: &Path, find_rows: fn(&str) -> Vec<&str>, least: usize) {
     }
     let lines: Vec<String> = printed.lines().map(squeeze).collect();
     let mut rows = find_rows(&page);
-    rows.retain(|row| *row != ".." && !commands.iter().any(|own| own == row));
+    rows.retain(|row| *row != ".." && !commands.iter().any(|command| command == row));
     assert!(rows.len() >= least, "only {} lines are shown", rows.len());
     for row in rows {
         let name = path.display();

@@ -29,7 +29,9 @@ fn take_buffers(capture: &Capture) -> [Vec<Plane>; 4] {
         let channels = ["R", "G", "B"].iter().take(split(passes).len());
         match name {
             "object" => vec![capture.frame.object_id.map(|id| *id as f32)],
-            _ => channels.map(|it| file.plane(it).unwrap()).collect(),
+            _ => channels
+                .map(|channel| file.plane(channel).unwrap())
+                .collect(),
         }
     })
 }
@@ -78,15 +80,15 @@ fn one_file_of_blender_s_passes_gives_the_same_frame() {
         .retain(|channel| !channel.name.starts_with("Composite"));
     write_exr(&capture.path("color.exr"), &both).unwrap();
     assert_eq!(show(&sandbox), expected);
-    // Its vectors may end before the motion to the next frame, which is then no motion of the last
-    // one.
+    // The file's vectors may lack the last channel of the motion to the next frame. No motion to
+    // the next frame is read then.
     both.push_plane("Vector.Z", &expected.2);
     write_exr(&capture.path("color.exr"), &both).unwrap();
     ingest(&sandbox);
     let frame = Frame::read(&sandbox.path(OUT).join("frame.exr")).unwrap();
     assert_eq!(frame.velocity_next, None);
     write_exr(&capture.path("color.exr"), &file).unwrap();
-    // A render of its own for colour.
+    // Colour may come from a separate render.
     fs::rename(capture.path("color.exr"), capture.path("buffers.exr")).unwrap();
     capture.write_color("color.exr", &capture.frame.color);
     assert_eq!(show(&sandbox), expected);
@@ -194,13 +196,13 @@ fn files_of_two_captures_are_not_mixed() {
     sandbox.done("engine ingest capture --quiet -o out/engine/other");
     let words = "run --quiet --scenes out/engine/mine --filter identity";
     for name in ["frame.exr", "truth_trailing.exr"] {
-        let [own, other] =
-            ["mine", "other"].map(|it| sandbox.path("out/engine").join(it).join(name));
-        let before = fs::read(&own).unwrap();
-        fs::copy(other, &own).unwrap();
+        let [path, other] =
+            ["mine", "other"].map(|scene| sandbox.path("out/engine").join(scene).join(name));
+        let before = fs::read(&path).unwrap();
+        fs::copy(other, &path).unwrap();
         let parts = [name, "is of another capture", "ingest the capture again"];
         sandbox.refuse(words, &parts);
-        fs::write(&own, before).unwrap();
+        fs::write(&path, before).unwrap();
     }
     sandbox.done(words);
     sandbox.put("out/engine/mine/ingested.json", "{}");

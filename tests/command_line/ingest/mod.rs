@@ -39,19 +39,19 @@ fn a_capture_in_another_convention_comes_back_as_our_own_frame() {
     assert_eq!(frame.options.velocity, VelocityKind::PreviousFrame);
     assert_eq!(frame.provenance.engine.as_deref(), Some("Test Engine 1.2"));
     assert_eq!(frame.provenance.traversal, "none", "no ray was traced");
-    let near = |found: f32, due: f32| (found - due).abs() <= HALF * due.abs();
-    for (found, due) in frame.color.pixels.iter().zip(&ours.color.pixels) {
-        assert!(std::iter::zip(found, due).all(|(found, due)| near(*found, *due)));
+    let near = |actual: f32, due: f32| (actual - due).abs() <= HALF * due.abs();
+    for (actual, due) in frame.color.pixels.iter().zip(&ours.color.pixels) {
+        assert!(std::iter::zip(actual, due).all(|(actual, due)| near(*actual, *due)));
     }
-    for (found, due) in frame.velocity.pixels.iter().zip(&ours.velocity.pixels) {
-        let is_near = near(found[0], due[0]) && near(found[1], due[1]);
-        assert!(is_near, "{found:?} {due:?}");
+    for (actual, due) in frame.velocity.pixels.iter().zip(&ours.velocity.pixels) {
+        let is_near = near(actual[0], due[0]) && near(actual[1], due[1]);
+        assert!(is_near, "{actual:?} {due:?}");
     }
     let mut motions = frame.velocity.pixels.iter();
     let moves = motions.any(|motion| motion[0] > 9.0 && motion[1] > 4.0);
     assert!(moves, "the plate moves to the right and down");
-    for (found, due) in frame.depth.pixels.iter().zip(&ours.depth.pixels) {
-        assert!(near(*found, *due), "{found} {due}");
+    for (actual, due) in frame.depth.pixels.iter().zip(&ours.depth.pixels) {
+        assert!(near(*actual, *due), "{actual} {due}");
     }
     assert!(frame.depth.pixels.contains(&FAR_DEPTH), "a background");
 }
@@ -76,7 +76,13 @@ fn the_mean_of_sub_frames_is_our_truth_within_its_limit() {
     // path differently.
     let marks = (engines.support.moving.pixels.iter()).zip(&ours.support.moving.pixels);
     let different = marks.filter(|(one, other)| one != other).count();
-    let moving = ours.support.moving.pixels.iter().filter(|it| **it).count();
+    let moving = ours
+        .support
+        .moving
+        .pixels
+        .iter()
+        .filter(|moves| **moves)
+        .count();
     assert!(different * 10 < moving, "{different} of {moving}");
     // The smear's ramp rises by the plate's contrast over 9.3 px. Sub-frames are 0.58 px apart, so
     // a pixel is off by at most half of that step; noise of 64 samples and half floats come on top.
@@ -91,8 +97,8 @@ fn the_mean_of_sub_frames_is_our_truth_within_its_limit() {
 /// Finds a filter's case, on the plate or on the engine's picture.
 fn find<'a>(run: &'a Run, scene: &str, filter: &str) -> &'a Case {
     let mut cases = run.cases.iter();
-    let found = cases.find(|case| case.scene == scene && case.filter == filter);
-    found.unwrap_or_else(|| panic!("no {scene} / {filter}"))
+    let case = cases.find(|case| case.scene == scene && case.filter == filter);
+    case.unwrap_or_else(|| panic!("no {scene} / {filter}"))
 }
 
 /// Reads a filter's score, on the engine's picture and on the plate.
@@ -106,9 +112,9 @@ fn read_scores(run: &Run, filter: &str, metric: &str) -> [f64; 2] {
 
 #[track_caller]
 fn assert_absent(case: &Case, metric: &str, why: &str) {
-    let found = case.scores.get(metric.parse().unwrap());
-    let is_due = matches!(&found, Measured::NotApplicable { reason } if reason.contains(why));
-    assert!(is_due, "{metric}: {found:?}");
+    let score = case.scores.get(metric.parse().unwrap());
+    let is_due = matches!(&score, Measured::NotApplicable { reason } if reason.contains(why));
+    assert!(is_due, "{metric}: {score:?}");
 }
 
 #[test]
@@ -120,7 +126,7 @@ fn a_run_on_a_capture_scores_near_our_own_scene_and_ranks_the_engine() {
                  --input velocity=float32";
     let printed = sandbox.done(words);
     assert_contains(&printed, &["Test_Engine_1.2"]);
-    // The same filters on both frames, and the engine's own blur on its own.
+    // This table has the filters that blur both frames, and the engine's blur of its own frame.
     let twins = printed.split("whose frames").nth(1).unwrap();
     let row = |name: &str| -> Vec<&str> {
         let mut lines = twins.lines().map(|line| line.split_whitespace());
@@ -143,10 +149,10 @@ fn a_run_on_a_capture_scores_near_our_own_scene_and_ranks_the_engine() {
         let ratio = engines / ours;
         assert!((ratio - 1.0).abs() < 0.15, "{filter}: {engines} {ours}");
     }
-    let own = find(&run, NAME, "Test_Engine_1.2");
-    assert!(!own.is_reference && own.preset.is_empty());
-    assert_eq!(own.name(), "Test_Engine_1.2");
-    let drawn = own.drawn.as_ref().unwrap();
+    let case = find(&run, NAME, "Test_Engine_1.2");
+    assert!(!case.is_reference && case.preset.is_empty());
+    assert_eq!(case.name(), "Test_Engine_1.2");
+    let drawn = case.drawn.as_ref().unwrap();
     assert_eq!(drawn.engine, "Test Engine 1.2");
     assert_eq!(drawn.subframes, 32);
     assert_eq!(drawn.scene, Some("plate".parse().unwrap()));
@@ -191,8 +197,8 @@ fn ids_in_the_sub_frames_bring_the_scores_of_objects() {
         let difference = (engines - ours).abs();
         assert!(difference < most, "{filter} {metric}: {engines} {ours}");
     }
-    let own = find(&run, NAME, "Test_Engine_1.2");
-    assert_absent(own, "bleed_lateral", "an engine's picture does not say");
+    let case = find(&run, NAME, "Test_Engine_1.2");
+    assert_absent(case, "bleed_lateral", "an engine's picture does not say");
     sandbox.done("report out --html again.html --exr layers");
 }
 

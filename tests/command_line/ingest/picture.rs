@@ -36,8 +36,8 @@ fn the_gain_of_a_blur_is_that_of_still_pixels() {
     brighten(&capture, 17.0 / 16.0, |_, _| true);
     let told = ingest(&sandbox);
     // Half floats round 1.0625 times 0.2.
-    let found = "FOUND: the engine's blur makes the picture brighter, 1.062";
-    assert_contains(&told, &[found, " times where no velocity reaches"]);
+    let finding = "FOUND: the engine's blur makes the picture brighter, 1.062";
+    assert_contains(&told, &[finding, " times where no velocity reaches"]);
 }
 
 #[test]

@@ -61,7 +61,7 @@ fn pictures_that_cannot_be_right_are_refused() {
         let mut file = read_exr(&capture.path(name)).unwrap();
         let mut plane = file.plane(channel).unwrap();
         plane.pixels[96 + 5] = value;
-        file.channels.retain(|own| own.name != channel);
+        file.channels.retain(|entry| entry.name != channel);
         file.push_plane(channel, &plane);
         write_exr(&capture.path(name), &file).unwrap();
     };
@@ -126,7 +126,9 @@ fn conventions_that_make_impossible_numbers_are_refused() {
         ),
     ] {
         let (key, _) = line.split_once(' ').unwrap();
-        let lines = CONVENTION.lines().filter(|own| !own.starts_with(key));
+        let lines = CONVENTION
+            .lines()
+            .filter(|default_line| !default_line.starts_with(key));
         let convention: String = lines
             .chain([line])
             .map(|line| format!("{line}\n"))

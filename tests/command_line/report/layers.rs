@@ -58,8 +58,8 @@ fn layers_equal_the_files_of_the_case() {
         assert_eq!(plane(name), frame.velocity.map(|velocity| velocity[axis]));
     }
     assert_eq!(plane("coverage.plate"), truth.coverage[1]);
-    let own = output.plane("coverage.plate").unwrap();
-    assert_eq!(plane("output_coverage.plate"), own);
+    let coverage = output.plane("coverage.plate").unwrap();
+    assert_eq!(plane("output_coverage.plate"), coverage);
     assert_eq!(layers.attributes["filter"], "velocity_gather:fine");
     // tev shows the part before the last dot as a group.
     let mut groups: BTreeMap<&str, usize> = BTreeMap::new();
@@ -67,9 +67,9 @@ fn layers_equal_the_files_of_the_case() {
         let group = channel.name.rsplit_once('.').map_or("", |(group, _)| group);
         *groups.entry(group).or_default() += 1;
     }
-    let found = (groups.iter()).map(|(group, count)| format!("{group} {count}"));
+    let counts = (groups.iter()).map(|(group, count)| format!("{group} {count}"));
     let due = " 3, coverage 2, depth 1, instant 3, output 3, output_coverage 2, signed 3, truth 3, velocity 2";
-    assert_eq!(found.collect::<Vec<_>>().join(", "), due);
+    assert_eq!(counts.collect::<Vec<_>>().join(", "), due);
 }
 
 #[test]

@@ -36,14 +36,14 @@ fn a_page_shows_the_scores_and_means_of_the_run() {
         let count = count.replace('<', "&lt;").replace('>', "&gt;");
         assert_contains(panel(&page, "n_eq"), &[&format!("{link}>{count}</a>")]);
     }
-    // Each follows the previous one.
+    // The rows follow each other in the order of their means.
     let mut rest = between(&page, "aria-label=\"FLIP of every case\"", "</table>")[0];
     let mut means: Vec<_> = run.overall.iter().collect();
     means.retain(|mean| mean.metric == Metric::FLIP);
     means.sort_by(|a, b| a.mean.total_cmp(&b.mean));
     assert_eq!(means.len(), 10, "seven references and three filters");
-    for own in means {
-        let (mean, [low, high]) = (own.mean, own.interval);
+    for summary in means {
+        let (mean, [low, high]) = (summary.mean, summary.interval);
         let interval = format!("<td class=\"note\">{low:.3} to {high:.3}</td>");
         let cells = format!("data-value=\"{mean}\">{mean:.3}</td>{interval}");
         rest = rest.split_once(&cells).expect(&cells).1;
@@ -57,9 +57,9 @@ fn every_case_has_an_article_with_its_layers() {
     let page = make_page(&sandbox);
     let scenes = planes(&page);
     assert_eq!(scenes.len(), 2, "one list per scene");
-    for own in &scenes {
-        let once: BTreeSet<&String> = own.iter().collect();
-        assert_eq!(once.len(), own.len(), "a plane stands there twice");
+    for names in &scenes {
+        let once: BTreeSet<&String> = names.iter().collect();
+        assert_eq!(once.len(), names.len(), "a plane stands there twice");
     }
     let run = sandbox.read_run();
     for case in &run.cases {
@@ -121,7 +121,7 @@ fn the_page_of_a_check_ranks_as_the_terminal_does() {
     // Both name the same best filters, and the same ties.
     let best = between(&page, "<ul class=\"winners\">", "</ul>")[0];
     for group in judge::rank_for_summary(&run.cases) {
-        let mut first = group.iter().filter(|own| own.may_be_best());
+        let mut first = group.iter().filter(|entry| entry.may_be_best());
         let best_name = &first.next().unwrap().name;
         let name = format!("shutter: <strong><a href=\"#filter:{best_name}\">{best_name}</a>");
         assert!(best.contains(&name), "{name}: {best}");
@@ -145,11 +145,11 @@ fn rankings_by_flip_are_grouped_by_shutter_and_rankings_by_skill_are_not() {
     let by_flip = ranking("FLIP");
     let (trailing, centred) = by_flip.split_once("centred shutter").unwrap();
     assert!(trailing.contains("trailing shutter"));
-    for (group, own, other) in [
+    for (group, member, other) in [
         (trailing, "velocity_gather:fine", "bevy:high"),
         (centred, "bevy:high", "velocity_gather:fine"),
     ] {
-        assert!(group.contains(own) && !group.contains(other), "{group}");
+        assert!(group.contains(member) && !group.contains(other), "{group}");
         for bar in [">identity<", ">scatter_oracle<"] {
             assert_eq!(group.matches(bar).count(), 1, "{bar}: {group}");
         }
@@ -183,11 +183,11 @@ fn costs_come_from_the_bench_beside_the_run() {
     let mut timed: suite::Bench = sandbox.read_json("out/bench.json");
     let mut costs = timed.cases.iter();
     let timing = costs.find(|cost| cost.filter == "identity").unwrap();
-    // Every table of scores has one cell for the filter both run and timed. Those only timed, or
-    // run with other parameters, have none.
+    // Every table of scores has one cell for the filter both run and timed. Filters that were only
+    // timed, or run with other parameters, have none.
     let cell = "<td class=\"cost\" data-value";
-    let own = format!("{cell}=\"{}\">", timing.seconds.median);
-    for cell in [cell, &own] {
+    let timed_cell = format!("{cell}=\"{}\">", timing.seconds.median);
+    for cell in [cell, &timed_cell] {
         assert_eq!(page.matches(cell).count(), 11, "{cell}");
     }
     let costs = between(&page, "<section class=\"costs\">", "</section>")[0];
@@ -221,8 +221,8 @@ fn a_run_keeps_the_jump_flood_s_dilated_map() {
         (60, 16, [0.0; 2]),
         (32, 2, [0.0; 2]),
     ] {
-        let found = [*x.at(column, row), *y.at(column, row)];
-        assert_eq!(found, due, "({column}, {row})");
+        let actual = [*x.at(column, row), *y.at(column, row)];
+        assert_eq!(actual, due, "({column}, {row})");
     }
 }
 

@@ -87,18 +87,18 @@ fn the_page_of_a_sensitivity_study_shows_intervals_and_slices() {
     let sandbox = set_up();
     sandbox.done(&format!("tune sensitivity --rows 4 {WORDS}"));
     let page = make_page(&sandbox);
-    let found: Sensitivity = sandbox.read_json("tuned/sensitivity.json");
+    let study: Sensitivity = sandbox.read_json("tuned/sensitivity.json");
     let table = find_section(&page, "Which parameters can become constants");
-    for own in found.parameters.values() {
-        let total = own.indices.total;
+    for parameter in study.parameters.values() {
+        let total = parameter.indices.total;
         assert_contains(table, &[&format!("{:.3} to {:.3}", total.low, total.high)]);
     }
     let slices = find_section(&page, "Error along each parameter");
-    assert_eq!(slices.matches("<polyline").count(), found.parameters.len());
+    assert_eq!(slices.matches("<polyline").count(), study.parameters.len());
     // A study of a version without Sobol indices.
-    let mut old: serde_json::Value = serde_json::to_value(&found).unwrap();
-    for own in old["parameters"].as_object_mut().unwrap().values_mut() {
-        own["indices"] = serde_json::Value::Null;
+    let mut old: serde_json::Value = serde_json::to_value(&study).unwrap();
+    for parameter in old["parameters"].as_object_mut().unwrap().values_mut() {
+        parameter["indices"] = serde_json::Value::Null;
     }
     sandbox.put("tuned/sensitivity.json", old.to_string());
     let parts = "tuned/sensitivity.json | no Sobol indices | `shuttertruth tune search`";

@@ -40,9 +40,9 @@ impl Preset {
     /// Returns all that the preset says of itself: its text and how it differs from its source.
     fn text(&self) -> String {
         let name = &self.settings.preset;
-        let preset = (self.filter.presets.iter()).find(|own| own.name == *name);
+        let preset = (self.filter.presets.iter()).find(|candidate| candidate.name == *name);
         let preset = preset.unwrap();
-        let differs = preset.source.iter().flat_map(|own| &own.differs);
+        let differs = preset.source.iter().flat_map(|origin| &origin.differs);
         let texts = differs.chain([&preset.doc]);
         texts.cloned().collect::<Vec<_>>().join(" ")
     }
@@ -213,7 +213,7 @@ fn tap_phrases(engine: &Engine, preset: &Preset) -> Vec<String> {
             vec![format!("{tiles} tiles of {} pixels", number("tile_size"))]
         }
         "mcguire:g3d" => {
-            // The filter's own text, which `filtering calibration` measures.
+            // The number is in the filter's own text, whose claim `filtering calibration` measures.
             let text = &preset.filter.cannot;
             let grows = text.split_once("grows on each side").unwrap().1;
             let grows = grows.split_once("(g3d ").unwrap().1;
@@ -340,23 +340,23 @@ const SETTINGS: [Setting; 6] = [
 impl Setting {
     fn find(shape: &str) -> Self {
         let mut all = SETTINGS.into_iter();
-        all.find(|own| own.shape == shape).expect(shape)
+        all.find(|setting| setting.shape == shape).expect(shape)
     }
 
     fn engine(&self) -> Engine {
         let mut engines = list_engines().into_iter();
-        engines.find(|own| own.shape == self.shape).unwrap()
+        engines.find(|engine| engine.shape == self.shape).unwrap()
     }
 
     /// Returns the factors on the motion of a frame: as shipped, and of the preset at an exposure.
     fn factors(&self, exposure: f64) -> [f64; 2] {
         let engine = self.engine();
         // realism-effects has its exposure as its setting.
-        let [own, shape] = match self.parameter {
+        let [engine_value, shape] = match self.parameter {
             "" => [1.0, 1.0],
             name => [shipped(&engine, name), Preset::new(self.shape).number(name)],
         };
-        [own * engine.shipped.exposure, shape * exposure]
+        [engine_value * engine.shipped.exposure, shape * exposure]
     }
 
     /// Returns the engine's own value at which it smears like the preset at this exposure.
@@ -377,10 +377,10 @@ fn settings_of_length_are_what_the_pages_say() {
             (setting.at_180, HALF_FRAME, text.clone()),
         ] {
             assert!(texts.contains(words), "{shape}: no \"{words}\"");
-            let found = setting.at(exposure);
+            let length = setting.at(exposure);
             assert!(
-                (found / value - 1.0).abs() < 1e-9,
-                "{shape}: {words}, {found}"
+                (length / value - 1.0).abs() < 1e-9,
+                "{shape}: {words}, {length}"
             );
         }
         // Measured lengths have the same ratio, in whole degrees; O3DE's lose whole pixels, and
@@ -397,23 +397,23 @@ fn settings_of_length_are_what_the_pages_say() {
 #[test]
 fn eevee_is_scored_by_a_mean_of_its_samples_which_is_better_than_one() {
     let engines = list_engines();
-    let eevee = engines.iter().find(|own| own.name.contains("EEVEE"));
+    let eevee = engines.iter().find(|engine| engine.name.contains("EEVEE"));
     let eevee = eevee.unwrap();
     let mean = Preset::new(&eevee.shape);
-    let [draws, one] = [&mean, &Preset::new("blender:eevee")].map(|own| own.number("draws"));
+    let [draws, one] = [&mean, &Preset::new("blender:eevee")].map(|preset| preset.number("draws"));
     assert_eq!(one, 1.0);
-    let own = format!("the mean of {draws} of its 64 samples");
-    assert!(mean.text().contains(&own), "{}", mean.text());
+    let phrase = format!("the mean of {draws} of its 64 samples");
+    assert!(mean.text().contains(&phrase), "{}", mean.text());
     assert!(eevee.name.ends_with("64 samples"), "{}", eevee.name);
     let results = Results::read_all(&root().join("results")).unwrap();
     let main = main_results(&results).unwrap();
     for scene in main.scenes() {
         let [mean, one] = [&*eevee.shape, "blender:eevee"].map(|name| {
             let mut scores = main.scores.iter();
-            let own = scores.find(|own| own.scene == *scene && own.name == name);
-            own.unwrap().score(Metric::FLIP).unwrap()
+            let score = scores.find(|score| score.scene == *scene && score.name == name);
+            score.unwrap().score(Metric::FLIP).unwrap()
         });
-        // One sample of noise is no truer anywhere that is certain.
+        // One sample is certainly truer than the mean on no scene.
         assert!(mean < one + 0.001, "{scene}: {mean}, one sample {one}");
     }
 }
@@ -455,7 +455,7 @@ fn godot_phrases() -> Vec<String> {
 /// Lists the parts of a finding that hold numbers which no quoted line has.
 fn finding_phrases(page: &str) -> Vec<String> {
     let engines = list_engines();
-    let find = |shape: &str| engines.iter().find(|own| own.shape == shape).unwrap();
+    let find = |shape: &str| engines.iter().find(|engine| engine.shape == shape).unwrap();
     let number = |preset: &str, parameter: &str| Preset::new(preset).number(parameter);
     // Device coordinates go from -1 to 1, and texture coordinates from 0 to 1.
     let wide = "2 wide".to_owned();
@@ -519,7 +519,7 @@ fn prose(page: &str) -> (String, Vec<f64>) {
 fn every_number_of_a_finding_is_the_preset_s_or_in_a_quoted_line() {
     let named: std::collections::BTreeSet<String> = list_engines()
         .into_iter()
-        .filter_map(|own| own.finding)
+        .filter_map(|engine| engine.finding)
         .collect();
     assert!(named.len() > 4);
     for name in named {
@@ -547,8 +547,13 @@ fn an_engine_has_the_change_of_its_search_and_no_defect_only_if_there_is_none() 
     let mut searched = 0;
     for engine in list_engines() {
         let verdict = verdict(&engine.shape);
-        let is_none = verdict.as_ref().is_some_and(|own| own.starts_with("none"));
-        let change = engine.change.as_ref().map(|own| format!("`{}`", own.set));
+        let is_none = verdict
+            .as_ref()
+            .is_some_and(|text| text.starts_with("none"));
+        let change = engine
+            .change
+            .as_ref()
+            .map(|change| format!("`{}`", change.set));
         assert_eq!(
             change,
             verdict.filter(|_| !is_none),

@@ -30,8 +30,8 @@ fn parts() -> Sandbox {
 }
 
 #[track_caller]
-fn refuse(sandbox: &Sandbox, parts: &str, found: &(impl Parts + ?Sized)) {
-    sandbox.refuse(&format!("truths merge {parts} --out whole"), found);
+fn refuse(sandbox: &Sandbox, parts: &str, message: &(impl Parts + ?Sized)) {
+    sandbox.refuse(&format!("truths merge {parts} --out whole"), message);
     assert!(!sandbox.path("whole").exists(), "{parts} wrote files");
 }
 
@@ -43,13 +43,13 @@ fn measure_other(sandbox: &Sandbox, more: &str) {
 #[test]
 fn runs_of_other_settings_are_refused() {
     let sandbox = parts();
-    for (more, found) in read_table("parts of other runs") {
+    for (more, message) in read_table("parts of other runs") {
         measure_other(&sandbox, &format!("--scenes slow --filter {more}"));
-        refuse(&sandbox, "plate other", &found);
+        refuse(&sandbox, "plate other", &message);
     }
     sandbox.edit("slow/run.json", "\"driver\": \"", "\"driver\": \"other ");
-    let found = "plate/run.json has the adapter and driver | slow/run.json has | (other  | the same adapter and driver";
-    refuse(&sandbox, "plate slow", found);
+    let message = "plate/run.json has the adapter and driver | slow/run.json has | (other  | the same adapter and driver";
+    refuse(&sandbox, "plate slow", message);
 }
 
 #[test]
@@ -57,16 +57,16 @@ fn cases_against_other_truths_are_refused() {
     let sandbox = parts();
     let words = "--filter jump_flood:paper --scenes plate --exposure 0.25";
     measure_other(&sandbox, words);
-    let found = "hold plate / identity (trailing) with other numbers";
-    refuse(&sandbox, "plate other", &[found]);
+    let message = "hold plate / identity (trailing) with other numbers";
+    refuse(&sandbox, "plate other", &[message]);
     measure_other(&sandbox, &format!("{words} --part filters"));
-    let found = "plate/plate/frame.exr and other/plate/frame.exr differ";
-    refuse(&sandbox, "plate other", &[found]);
-    // The same exposure, and another truth: another tracer's.
+    let message = "plate/plate/frame.exr and other/plate/frame.exr differ";
+    refuse(&sandbox, "plate other", &[message]);
+    // The exposure is the same, but the truth is of another tracer.
     let hash = "\"truth_hash\": \"";
     sandbox.edit("flood/run.json", hash, &format!("{hash}0"));
-    let found = "flood/run.json: the truth of plate/jump_flood_paper has the hash 0 | plate/plate/truth_trailing.exr has";
-    refuse(&sandbox, "plate flood", found);
+    let message = "flood/run.json: the truth of plate/jump_flood_paper has the hash 0 | plate/plate/truth_trailing.exr has";
+    refuse(&sandbox, "plate flood", message);
 }
 
 #[test]
@@ -74,20 +74,20 @@ fn one_case_or_picture_with_two_contents_is_refused() {
     let sandbox = parts();
     sandbox.put("copy/run.json", sandbox.text("plate/run.json"));
     sandbox.edit("copy/run.json", "\"value\": 0.", "\"value\": 1.");
-    let found = "plate/run.json and copy/run.json hold plate /  | with other numbers";
-    refuse(&sandbox, "plate copy", found);
+    let message = "plate/run.json and copy/run.json hold plate /  | with other numbers";
+    refuse(&sandbox, "plate copy", message);
     sandbox.put("flood/plate/frame.png", "another frame");
-    let found = "plate/plate/frame.png and flood/plate/frame.png differ";
-    refuse(&sandbox, "plate flood", &[found]);
+    let message = "plate/plate/frame.png and flood/plate/frame.png differ";
+    refuse(&sandbox, "plate flood", &[message]);
 }
 
 #[test]
 fn missing_cases_are_named() {
     let sandbox = parts();
-    let found = "no part holds slow / jump_flood:paper (trailing shutter)";
-    refuse(&sandbox, "plate slow flood", &[found]);
-    let found = "references of the trailing shutter | the part with the references";
-    refuse(&sandbox, "flood", found);
+    let message = "no part holds slow / jump_flood:paper (trailing shutter)";
+    refuse(&sandbox, "plate slow flood", &[message]);
+    let message = "references of the trailing shutter | the part with the references";
+    refuse(&sandbox, "flood", message);
 }
 
 #[test]
@@ -117,8 +117,8 @@ fn nothing_behind_a_link_is_taken() {
     sandbox.done("truths merge plate slow --out without");
     assert!(!sandbox.path("without/slow/ladder_trailing").exists());
     link("slow/slow/frame.png", "secret");
-    let found = "no part holds slow/frame.png, or it is a link";
-    refuse(&sandbox, "plate slow", &[found]);
+    let message = "no part holds slow/frame.png, or it is a link";
+    refuse(&sandbox, "plate slow", &[message]);
 }
 
 #[test]
@@ -130,8 +130,12 @@ fn parts_without_all_of_their_pictures_are_refused() {
         let path = sandbox.path("slow").join(&file);
         let whole = fs::read(&path).unwrap();
         fs::remove_file(&path).unwrap();
-        let found = format!("slow/run.json: no part holds {file}");
-        refuse(&sandbox, "plate slow", &[&found, "measure that case again"]);
+        let message = format!("slow/run.json: no part holds {file}");
+        refuse(
+            &sandbox,
+            "plate slow",
+            &[&message, "measure that case again"],
+        );
         fs::write(&path, whole).unwrap();
     }
     sandbox.done("truths merge plate slow --out whole");

@@ -32,8 +32,8 @@ fn assert_parts_equal_one_process(scenes: &str, filters: &str, common: &str, opt
         parts += &format!(" {references}");
         for (index, filter) in filters.split(',').enumerate() {
             let part = format!("parts/{scene}_{index}");
-            let own = format!("--part filters --filter {filter} --truths {references}");
-            shared.done(&format!("{run} {own} --out {part}"));
+            let words = format!("--part filters --filter {filter} --truths {references}");
+            shared.done(&format!("{run} {words} --out {part}"));
             parts += &format!(" {part}");
         }
     }

@@ -45,7 +45,7 @@ fn a_tuning_beats_its_start_and_records_the_way() {
     let begun = |preset: &str| {
         let values = filter.settings(Some(preset)).unwrap().values;
         let mut first = trials[..13].iter().map(|trial| trial.values.iter());
-        first.any(|mut own| own.all(|(name, value)| values[name] == *value))
+        first.any(|mut pairs| pairs.all(|(name, value)| values[name] == *value))
     };
     let presets = ["paper", "july_2024", "corrected", "tuned"];
     assert_eq!(presets.map(begun), [true, true, true, false]);
@@ -55,13 +55,13 @@ fn a_tuning_beats_its_start_and_records_the_way() {
     assert!(tuning.chosen.error.unwrap() < -0.01, "{table}");
     assert_eq!(tuning.start.error, Some(0.0));
     assert_eq!(tuning.start.values["samples"], filters::Value::Integer(8));
-    let is_dropped = |it: &&Trial| it.outcome == TrialOutcome::Dropped;
+    let is_dropped = |trial: &&Trial| trial.outcome == TrialOutcome::Dropped;
     let dropped: Vec<_> = trials.iter().filter(is_dropped).collect();
     // Seven scenes are enough to drop what is worse on six.
     assert!(!dropped.is_empty());
     assert_eq!(dropped.len(), tuning.dropped);
-    for own in dropped {
-        assert!(own.scenes.len() == 6 && own.loss > tuning.chosen.loss);
+    for trial in dropped {
+        assert!(trial.scenes.len() == 6 && trial.loss > tuning.chosen.loss);
     }
     let families = tuning.folds.iter().map(|fold| fold.family.as_str());
     assert!(families.eq(["camera", "thin", "translation"]));
@@ -153,11 +153,11 @@ fn a_trial_scores_like_a_run() {
     assert_eq!(cases.len(), 7);
     for case in cases {
         let score = trial.scenes[&case.scene.to_string()];
-        let found = ["flip_moving", "bleed_lateral"].map(|name| {
+        let scores = ["flip_moving", "bleed_lateral"].map(|name| {
             let score = case.scores.get(name.parse().unwrap());
             score.value()
         });
-        assert_eq!([Some(score.flip), score.bleed], found, "{}", case.scene);
+        assert_eq!([Some(score.flip), score.bleed], scores, "{}", case.scene);
     }
 }
 
@@ -178,7 +178,7 @@ fn with_preset(sandbox: &Sandbox, preset: &str) -> Filter {
 #[test]
 fn two_presets_are_compared_scene_by_scene() {
     let sandbox = set_up();
-    for (presets, found) in [
+    for (presets, verdict) in [
         ("paper corrected", "over 7 scenes: corrected is better"),
         (
             "paper paper",
@@ -187,7 +187,7 @@ fn two_presets_are_compared_scene_by_scene() {
     ] {
         let text = sandbox.done(&format!("tune compare {presets} {QUICK} {ON_SEVEN}"));
         let text = squeeze(&text);
-        assert_contains(&text, &[found]);
+        assert_contains(&text, &[verdict]);
         assert!(
             text.contains("+0.0 %, 90 % CI") || presets != "paper paper",
             "{text}"
@@ -202,18 +202,19 @@ fn a_study_finds_the_parameters_that_matter() {
     let sandbox = set_up();
     let more = "--from corrected --vary samples,behind_extent --scenes a,b --rows 4";
     let table = sandbox.done(&format!("tune sensitivity {QUICK} {more}"));
-    let found: tune::Sensitivity = sandbox.read_json("out/sensitivity.json");
+    let study: tune::Sensitivity = sandbox.read_json("out/sensitivity.json");
     // Weighted taps do not read the extent; only replaced ones do.
-    let extent = &found.parameters["behind_extent"];
+    let extent = &study.parameters["behind_extent"];
     assert!(extent.constant && extent.slice.iter().all(|(_, error)| *error == 0.0));
-    // Nine points from 1 to 64, two of them rounded to the same number.
-    let samples = &found.parameters["samples"];
+    // The slice has nine points from 1 to 64, of which two are rounded to the same number.
+    let samples = &study.parameters["samples"];
     assert!(!samples.constant && samples.slice.len() == 8, "{samples:?}");
-    // As many as are announced: four rows of two axes, and both slices.
+    // The study measures as many candidates as it announces: four rows of two axes, and both
+    // slices.
     let filter = Filter::builtin("jump_flood").unwrap();
     let axes = ["samples", "behind_extent"].map(str::to_owned);
     let space = Space::new(&filter, filter.settings(Some("corrected")).unwrap(), &axes).unwrap();
-    assert_eq!(found.candidates, 16 + 8 + 9);
+    assert_eq!(study.candidates, 16 + 8 + 9);
     assert_eq!(count_candidates(&space, 4), 16 + 8 + 9);
     let row = |name: &str| {
         let mut lines = table.lines().map(str::trim_start);

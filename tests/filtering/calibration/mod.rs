@@ -24,26 +24,27 @@ fn the_truth_s_smear_is_as_long_as_the_exposure_and_takes_as_much_as_it_gives() 
         (Alignment::Centred, 0.0, [0.125; 4]),
     ] {
         let truth = shot.true_matte(alignment);
-        let found = Light::of(&shot, &truth).all();
-        for (found, expected) in found.into_iter().zip(light) {
+        let shares = Light::of(&shot, &truth).all();
+        for (actual, expected) in shares.into_iter().zip(light) {
             // The panel's edge is within a pixel, and the tent is 2 wide.
-            assert_near(found, expected * shot.speed, 0.5);
+            assert_near(actual, expected * shot.speed, 0.5);
         }
         let truth = shot.profile(&truth);
         for side in [1.0, -1.0] {
-            // One side of the panel's middle, with positions counted from the panel's edge there.
+            // The ramps are of one side of the panel's middle. Their positions are counted from the
+            // panel's edge on that side.
             let [before, after] = [&shot.matte_profile, &truth].map(|profile| {
-                let own = profile
+                let half = profile
                     .iter()
                     .filter(|(position, _)| position * side >= 0.0);
                 let edge =
-                    own.map(|(position, value)| (position - side * shot.half_panel(), *value));
+                    half.map(|(position, value)| (position - side * shot.half_panel(), *value));
                 Ramp::of(&edge.collect::<Vec<_>>())
             });
-            let found = after.beyond(before);
+            let smear = after.beyond(before);
             // Noise of 32 samples in a band of 33 pixels, weighted by squared distances.
-            assert_near(found.length, shot.speed, 0.2);
-            assert_near(found.middle, middle * shot.speed, 0.2);
+            assert_near(smear.length, shot.speed, 0.2);
+            assert_near(smear.middle, middle * shot.speed, 0.2);
         }
     }
 }
@@ -79,7 +80,7 @@ fn check_ramp(outcome: &Outcome) -> Option<String> {
     let Outcome { filter, preset, .. } = outcome;
     let trail = outcome.shot.speed * outcome.shot.exposure;
     let painted = Ramp::of(&outcome.shot.profile(&outcome.painted));
-    let found = painted.beyond(outcome.shot.painted_ramp);
+    let ramp = painted.beyond(outcome.shot.painted_ramp);
     // The camera is still.
     let expected = if sees_camera_only(filter, preset) {
         Ramp {
@@ -102,15 +103,15 @@ fn check_ramp(outcome: &Outcome) -> Option<String> {
         "default" if filter == "dagor" => 0.95,
         _ => 0.2 + 0.01 * trail,
     };
-    let off = (found.length - expected.length).abs();
-    if off.max((found.middle - expected.middle).abs()) > tolerance {
-        return Some(format!("{found:?} instead of {expected:?}"));
+    let off = (ramp.length - expected.length).abs();
+    if off.max((ramp.middle - expected.middle).abs()) > tolerance {
+        return Some(format!("{ramp:?} instead of {expected:?}"));
     }
     let promise = promised_smear(filter, preset, &outcome.steady);
     if promise == 0.0 {
-        return (found.length > 0.01).then(|| format!("{found:?} instead of none"));
+        return (ramp.length > 0.01).then(|| format!("{ramp:?} instead of none"));
     }
-    let part = (100.0 * found.length / promise).round() / 100.0;
+    let part = (100.0 * ramp.length / promise).round() / 100.0;
     println!(
         "    {part:.2} of the promised length, which is {:.2} of the true one",
         promise / trail
@@ -130,9 +131,9 @@ fn measure_presets(shots: &[(f64, f64, f64)]) {
         .collect();
     for shot in &shots {
         let middle = shot.frame.velocity.at(SMALL[0] / 2, SMALL[1] / 2);
-        for (found, expected) in middle.iter().zip(shot.steady().velocity) {
+        for (actual, expected) in middle.iter().zip(shot.steady().velocity) {
             // 32-bit floats of up to 48 pixels.
-            assert_near(*found, expected, 1e-4);
+            assert_near(*actual, expected, 1e-4);
         }
     }
     let outcomes = blur_shots(&shots);
@@ -141,14 +142,14 @@ fn measure_presets(shots: &[(f64, f64, f64)]) {
     for outcome in &outcomes {
         println!("{}", outcome.describe());
         let light = Light::of(outcome.shot, &outcome.matte);
-        let mut found = vec![silhouette::check_growth(outcome, light)];
+        let mut complaints = vec![silhouette::check_growth(outcome, light)];
         if fits(outcome) {
-            found.push(check_ramp(outcome));
-            found.push(silhouette::check_light(outcome, light));
+            complaints.push(check_ramp(outcome));
+            complaints.push(silhouette::check_light(outcome, light));
             measured += 1;
         }
-        let found = found.into_iter().flatten();
-        wrong.extend(found.map(|found| format!("{}: {found}", outcome.describe())));
+        let complaints = complaints.into_iter().flatten();
+        wrong.extend(complaints.map(|complaint| format!("{}: {complaint}", outcome.describe())));
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     // All except long smears of seven presets.

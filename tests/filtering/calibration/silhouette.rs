@@ -24,8 +24,8 @@ impl Light {
         let after = shot.profile(blurred);
         let sum = |from: f64, to: f64| {
             let pairs = before.iter().zip(&after);
-            let own = pairs.filter(|((position, _), _)| (from..to).contains(position));
-            own.map(|((_, before), (_, after))| after - before)
+            let part = pairs.filter(|((position, _), _)| (from..to).contains(position));
+            part.map(|((_, before), (_, after))| after - before)
                 .sum::<f64>()
         };
         let (far, half) = (f64::INFINITY, shot.half_panel());
@@ -100,12 +100,12 @@ fn expected_light(outcome: &Outcome) -> [Option<f64>; 4] {
 }
 
 /// Compares the light with the preset's taps. Returns what is wrong.
-pub fn check_light(outcome: &Outcome, found: Light) -> Option<String> {
+pub fn check_light(outcome: &Outcome, light: Light) -> Option<String> {
     // The smear behind the panel leaves the picture.
     if outcome.shot.half_panel() + outcome.ramp.length >= outcome.shot.to_border() {
         return None;
     }
-    let shares = (found.all()).map(|light| format!("{:.2}", light / outcome.shot.speed));
+    let shares = (light.all()).map(|light| format!("{:.2}", light / outcome.shot.speed));
     println!(
         "    behind, lost at back, lost at front, ahead: {}",
         shares.join(" ")
@@ -113,9 +113,9 @@ pub fn check_light(outcome: &Outcome, found: Light) -> Option<String> {
     // The panel's edge is within a pixel, and the tent is 2 wide. The steps of some filters are a
     // sixteenth.
     let tolerance = 0.5 + 0.02 * outcome.shot.speed;
-    let pairs = found.all().into_iter().zip(expected_light(outcome));
-    let differs = |(found, expected): (f64, Option<f64>)| {
-        expected.is_some_and(|it| (found - it).abs() > tolerance)
+    let pairs = light.all().into_iter().zip(expected_light(outcome));
+    let differs = |(actual, expected): (f64, Option<f64>)| {
+        expected.is_some_and(|expected| (actual - expected).abs() > tolerance)
     };
     (pairs.clone().any(differs)).then(|| format!("light of {:?}", pairs.collect::<Vec<_>>()))
 }

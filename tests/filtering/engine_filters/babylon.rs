@@ -11,10 +11,11 @@ use crate::reference::{read_clamped, sample_linear};
 fn the_longest_trail_has_as_many_pixels_as_there_are_samples() {
     for (speed, samples, expected) in [(90.0, "32", 32.0), (90.0, "64", 64.0), (24.0, "32", 24.0)] {
         let picture = moving_edge(256, 16, [speed, 0.0]);
-        let found = ramp_length(&picture.blur("babylon", "default", &format!("samples={samples}")));
+        let length =
+            ramp_length(&picture.blur("babylon", "default", &format!("samples={samples}")));
         // The step between pixels, 8 bits of velocity, and the first tap, which the pixel itself
         // replaces.
-        assert_near(found, expected, 3.0);
+        assert_near(length, expected, 3.0);
     }
 }
 
@@ -32,7 +33,7 @@ fn a_wide_picture_turns_diagonals_upright() {
         across = across.max((f64::from(x) - 80.0).abs());
         up = up.max((f64::from(y) - 40.0).abs());
     }
-    // In parts of width and height the motion is twice as steep.
+    // The motion is twice as steep in parts of width and height as in pixels.
     assert_near(up / across, 2.0, 0.25);
 }
 
@@ -95,10 +96,10 @@ fn the_screen_based_mode_equals_its_source_in_64_bits() {
             result += linear(u + velocity[0] * part, v + velocity[1] * part);
         }
         result /= f64::from(samples);
-        let found = f64::from(output.at(x, y)[0]);
+        let actual = f64::from(output.at(x, y)[0]);
         // Positions in 32 bits err by 1e-5 pixels, and neighbouring pixels differ by up to 2.
-        assert_near(found, result, 1e-3);
-        blurred += i32::from((found - f64::from(frame.color.at(x, y)[0])).abs() > 0.01);
+        assert_near(actual, result, 1e-3);
+        blurred += i32::from((actual - f64::from(frame.color.at(x, y)[0])).abs() > 0.01);
     }
     assert_within(blurred, 41.0..);
 }

@@ -13,8 +13,8 @@ fn each_sample_is_two_taps_and_none_is_the_pixel_itself() {
             .filter(|value| *value > 0.0 && *value < 1.0)
             .collect();
         assert!(on_ramp.len() > 2000, "the ramp is 64 pixels in 64 rows");
-        // One tap of equal weight more or less. Bilinear fetches mix both sides in one pixel of 64
-        // / (2 samples) at the edge.
+        // Values on the ramp differ by whole taps of equal weight. Bilinear fetches mix both sides
+        // in one pixel of 64 / (2 samples) at the edge.
         let share_of = |taps: f32| {
             let whole = |value: &&f32| (*value * taps - (*value * taps).round()).abs() < 1e-4;
             on_ramp.iter().filter(whole).count() as f64 / on_ramp.len() as f64
@@ -45,8 +45,8 @@ fn a_surface_in_front_counts_by_its_motion_over_a_whole_frame() {
     // An object that moves 20 pixels in a frame moves 2.5 to each side while the shutter is open.
     // Yet at 2.5 pixels from it, all of the trail that it covers counts: a quarter.
     assert_near(seen(20.0), 0.25, 0.05);
-    // This one moves 2 pixels in half a whole frame, so it does not count, except in the half pixel
-    // at its edge where a bilinear fetch mixes its motion with the background's.
+    // A slower object moves 2 pixels in half a whole frame. It does not count, except in the half
+    // pixel at its edge, where a bilinear fetch mixes its motion with the background's.
     assert_within(seen(4.0), ..0.08);
 }
 
@@ -84,7 +84,8 @@ fn a_wide_picture_skews_weights_on_diagonals() {
 #[test]
 fn the_sky_counts_at_any_motion() {
     let seen = |depth: f32| {
-        let [ground, sky] = [BLACK_WALL.moving(24.0, 0.0), white(0.0)].map(|it| it.at(depth));
+        let [ground, sky] =
+            [BLACK_WALL.moving(24.0, 0.0), white(0.0)].map(|surface| surface.at(depth));
         let picture = Picture::halves(120, 64, ground, sky);
         column(&picture.blur("bevy", "high", ""), 56)
     };

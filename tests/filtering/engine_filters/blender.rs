@@ -21,7 +21,7 @@ fn the_compositor_overlooks_movers_above_a_border_of_tiles() {
     // Without brackets, noise looks 6 or 7 pixels lower.
     assert_eq!(light(&shipped, 0..6), 0.0);
     assert_within(light(&shipped, 7..13), 1.0..);
-    // With brackets, up to 8 pixels higher or lower.
+    // With brackets, noise looks up to 8 pixels higher or lower.
     assert_within(light(&mended, 0..6), 0.6 * light(&mended, 9..15)..);
 }
 
@@ -39,7 +39,7 @@ fn eevee_compares_the_motion_of_a_tile_in_whole_pixels() {
         assert_eq!(opening, -closing);
         closing
     };
-    // Of equal ones, the highest row counts.
+    // Of two motions that round to the same length, that of the highest row counts.
     assert_near(longest("clipped"), 3.2, 1e-5);
     assert_near(longest("whole"), 3.9, 1e-5);
 }
@@ -52,7 +52,8 @@ fn eevee_ends_the_motion_of_tiles_at_the_border() {
     });
     let tiles = picture.texture("blender", "", "tile_motion");
     let [opening, _, closing, _] = *tiles.at(0, 0);
-    // From the pixel's middle to the border, and half of 100 pixels.
+    // The opening's motion ends at the border, 10.5 pixels from the pixel's middle. The closing's
+    // is half of 100 pixels.
     assert_near(opening, -10.5, 1e-4);
     assert_near(closing, 50.0, 1e-4);
 }

@@ -20,7 +20,7 @@ fn the_vignette_shortens_smears_in_the_middle_to_a_sixth() {
 
 #[test]
 fn a_tap_beyond_the_border_reads_the_motion_at_the_opposite_border() {
-    // What is off the picture on the left is the last columns.
+    // A tap off the left border reads the motion of the last columns.
     let picture = |last: f32| {
         Picture::new(160, 48, |x, _| match x {
             150.. => white(last),
@@ -41,7 +41,7 @@ fn what_is_before_the_sky_takes_none_of_its_light() {
     let sky = BLACK_WALL.at(FAR_DEPTH).gray(1.0);
     let picture = Picture::halves(160, 48, white(24.0).gray(0.0), sky);
     let taken = |changes: &str| light(&picture.blur("dagor", "mended", changes), 0..80);
-    // Only colours between the mover's last pixel and the sky's first one.
+    // Only fetches between the mover's last pixel and the sky's first one take some of its light.
     assert_within(taken(""), ..0.2);
     // Cones on the sky against cylinders on the mover let through about a twentieth of the trail.
     assert_near(taken("sky=counts"), 24.0 / 20.0, 0.4);

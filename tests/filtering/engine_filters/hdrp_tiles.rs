@@ -12,7 +12,8 @@ fn plain_tiles_forget_depth_where_motions_are_alike() {
         let overrides = format!("plain_tiles={plain} mirror=off");
         column(&picture.blur("jimenez", "hdrp", &overrides), 72)
     };
-    // It moves 4 pixels to each side; a distance of 8 is more than a step of 3 beyond that.
+    // The surface smears 4 pixels to each side. A distance of 8 is more than a step of 3 beyond its
+    // smear.
     assert_within(seen("never"), ..0.01);
     // A box of 24 pixels, with 4.5 of them in it.
     assert_near(seen("similar"), 4.5 / 24.0, 0.03);
@@ -27,7 +28,7 @@ fn neighbouring_tiles_cut_long_smears_and_tiles_along_the_motion_do_not() {
         let output = picture.blur("jimenez", preset, "tile_dither=0");
         (0..160).filter(|x| column(&output, *x) > 0.0).count()
     };
-    // One tile of 20 pixels next to the mover's.
+    // The smear ends after one tile of 20 pixels next to the mover's.
     assert_eq!(reach("slides_2014"), 20);
     // A quarter of 200 pixels, less a fiftieth for the diagonal.
     assert!((47..=50).contains(&reach("hdrp")), "{}", reach("hdrp"));

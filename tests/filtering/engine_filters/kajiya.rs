@@ -16,7 +16,7 @@ fn kajiya_lets_things_smear_twice_as_far_as_they_move() {
     assert_within(light_above(&smear("pixels"), 3..5), 0.2..);
     // A pixel less than half its motion, and one pixel for fetches.
     assert_eq!(light_above(&smear("pixels"), 6..30), 0.0);
-    // One step more than its own.
+    // The smear ends within one step of its own length.
     assert_eq!(light_above(&smear("steps"), 3..30), 0.0);
 }
 
@@ -40,7 +40,7 @@ fn kajiya_shifts_taps_by_one_of_32_numbers() {
         .collect();
     shifts.sort_unstable();
     shifts.dedup();
-    // From -15 to 16 thirtieths of a step.
+    // Noise shifts taps by -15 to 16 thirtieths of a step.
     assert_eq!(shifts, (-15..=16).collect::<Vec<_>>());
 }
 

@@ -42,11 +42,11 @@ fn packed_motion_has_steps_and_no_zero() {
     assert_near(still[0], 0.5 * step, 1e-5);
     assert_near(still[1], 0.5 * step, 1e-5);
     for x in 0..64 {
-        let found = f64::from(packed.at(x, 7)[0]);
-        let steps = found / step - 0.5;
+        let value = f64::from(packed.at(x, 7)[0]);
+        let steps = value / step - 0.5;
         assert_near(steps, steps.round(), 1e-3);
         // Half of the motion, to the nearest step; 1e-5 for rounding.
-        assert_near(found, f64::from(x) / 100.0, 0.5 * step + 1e-5);
+        assert_near(value, f64::from(x) / 100.0, 0.5 * step + 1e-5);
     }
     let exact = picture.texture("kino", "storage=exact", "motion");
     assert_eq!(exact.at(0, 7)[0], 0.0);

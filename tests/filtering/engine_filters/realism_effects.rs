@@ -18,9 +18,13 @@ fn shifts(jitter: &str) -> Vec<f64> {
 fn noise_moves_the_trail_ahead_and_never_back() {
     // Seventeen of the eighteen colours are taps.
     let farthest = 24.0 * 17.0 / 18.0;
-    let found = shifts("1");
-    let mean = found.iter().sum::<f64>() / found.len() as f64;
-    assert!(found.iter().all(|shift| (-1e-3..farthest).contains(shift)));
+    let trail_shifts = shifts("1");
+    let mean = trail_shifts.iter().sum::<f64>() / trail_shifts.len() as f64;
+    assert!(
+        trail_shifts
+            .iter()
+            .all(|shift| (-1e-3..farthest).contains(shift))
+    );
     assert_near(mean, 0.5 * farthest, 0.3);
     // Without noise the trail is centred, as the comments of the original say.
     assert!(shifts("0").iter().all(|shift| shift.abs() < 1e-3));

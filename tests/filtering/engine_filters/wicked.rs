@@ -10,14 +10,14 @@ fn the_smear_of_wicked_depends_on_the_width_of_the_picture() {
     for width in [240, 480] {
         println!("{width} wide");
         let picture = moving_edge(width, 64, [12.0, 0.0]);
-        let found = ramp_length(&picture.blur("jimenez", "wicked", "strength=-100"));
+        let length = ramp_length(&picture.blur("jimenez", "wicked", "strength=-100"));
         // 1500 pixels per picture width of motion, scaled by noise with a mean square of a third;
         // 16 taps at (2 i - 15) / 15.
         let taps = (0..16).map(|i| ((2.0 * f64::from(i) - 15.0) / 15.0).powi(2));
         let square = taps.sum::<f64>() / 16.0 / 3.0;
         let expected = (3.0 * square).sqrt() * 1500.0 * 12.0 / f64::from(width);
         // A twentieth: noise of 64 rows.
-        assert_near(found / expected, 1.0, 0.05);
+        assert_near(length / expected, 1.0, 0.05);
     }
 }
 
@@ -45,8 +45,8 @@ fn wicked_lets_slow_things_smear_as_far_as_fast_ones() {
     let picture = slow_above_fast(4.8, 24.0);
     let as_published = picture.blur("jimenez", "wicked", "strength=-100");
     assert_within(light_above(&as_published, 20..40), 1.0..);
-    // Compared with the taps' distances, it ends after its own length and a step of 8 pixels. Half
-    // a pixel for fetches.
+    // If motion is compared with the taps' distances, the slow smear ends after its own length, a
+    // step of 8 pixels, and half a pixel for fetches.
     let by_steps = picture.blur("jimenez", "wicked", "strength=-100 spread=steps");
     assert_within(light_above(&by_steps, 1..8), 1.0..);
     assert_eq!(light_above(&by_steps, 20..40), 0.0);

@@ -64,10 +64,10 @@ fn depth_and_the_camera_s_matrices_give_its_velocity_in_every_language() {
             let filter = files.with(file, text).load().unwrap();
             for frame in &frames {
                 let output = run(&filter, frame, frame.camera).unwrap();
-                let apart = output.zip(&frame.velocity, |found, expected| {
-                    (found[0] - expected[0])
+                let apart = output.zip(&frame.velocity, |actual, expected| {
+                    (actual[0] - expected[0])
                         .abs()
-                        .max((found[1] - expected[1]).abs())
+                        .max((actual[1] - expected[1]).abs())
                 });
                 let compared = apart.pixels.iter().zip(&frame.depth.pixels);
                 let near = compared.filter(|(_, depth)| **depth < 30.0);
@@ -93,7 +93,7 @@ fn matrices_in_structs_lie_as_those_of_the_block_itself() {
         .map(|name| format!("#define {name} GBuffer.{name}\n"))
         .concat();
     let block = format!("jitter;\n}};\ncbuffer Scene : register(b0) {{ View GBuffer; }}\n{macros}");
-    let own = [0, 1, 3, 4]
+    let members = [0, 1, 3, 4]
         .map(|at| format!(", GBuffer.{0} = \"{0}\"", names[at]))
         .concat();
     for layout in ["", "row_major"] {
@@ -110,12 +110,12 @@ fn matrices_in_structs_lie_as_those_of_the_block_itself() {
         .changed(
             "filter.toml",
             "view_projection\"",
-            &format!("view_projection\"{own}"),
+            &format!("view_projection\"{members}"),
         )
         .with("move.hlsl", nested);
-        let [due, found] =
+        let [due, actual] =
             [files, in_struct].map(|files| run(&files.load().unwrap(), &frame, frame.camera));
-        assert_eq!(due.unwrap(), found.unwrap(), "{layout}");
+        assert_eq!(due.unwrap(), actual.unwrap(), "{layout}");
     }
 }
 

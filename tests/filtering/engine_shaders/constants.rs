@@ -37,8 +37,8 @@ fn parameters_set_specialisation_constants_of_both_languages() {
     };
     for (preset, taps) in [("low", 2), ("high", 16)] {
         for filter in [&wgsl, &glsl] {
-            let found = blur(filter, &set(filter, preset, &[]), &picture);
-            assert_within(largest_difference(&found, &expected(taps)), ..1e-6);
+            let actual = blur(filter, &set(filter, preset, &[]), &picture);
+            assert_within(largest_difference(&actual, &expected(taps)), ..1e-6);
         }
     }
     let half = set(&glsl, "high", &[("reach", Value::Choice("half".into()))]);
@@ -98,11 +98,11 @@ const DEFINED: [(&str, &str); 2] = [
 fn macros_reach_the_compilers_of_glsl_and_hlsl() {
     let color = busy_picture().color;
     for (pass, bindings) in DEFINED {
-        let found = blur_busy(&make("constants", &format!("[[pass]]\n{pass}{bindings}")));
+        let output = blur_busy(&make("constants", &format!("[[pass]]\n{pass}{bindings}")));
         for (x, y) in [(3, 5), (12, 9), (40, 30)] {
             let due = color.at(x + 2, y + 3).map(|part| 1.5 * part);
             // Compilers may turn 3 / 2 x into 3 x 0.5 x.
-            let apart = (found.at(x, y).iter().zip(due)).map(|(found, due)| (found - due).abs());
+            let apart = (output.at(x, y).iter().zip(due)).map(|(actual, due)| (actual - due).abs());
             assert_within(apart.fold(0.0, f32::max), ..1e-5);
         }
     }

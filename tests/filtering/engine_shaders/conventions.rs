@@ -33,9 +33,9 @@ fn a_shader_sees_what_its_engine_would_show_it() {
     for (convention, seen, scale) in cases {
         println!("{convention}");
         let output = blur_busy(&declare(&format!("[convention]\n{convention}")));
-        for (found, seen) in output.at(12, 9).iter().zip(seen) {
+        for (actual, seen) in output.at(12, 9).iter().zip(seen) {
             // The output is divided by the factor that colours were multiplied by.
-            assert_near(*found, seen / scale + 100.0 * gray, 1e-3);
+            assert_near(*actual, seen / scale + 100.0 * gray, 1e-3);
         }
     }
 }

@@ -55,9 +55,12 @@ fn every_control_flow_is_right_or_refused() {
     let expected = make("flows", "").text("expected.txt");
     for line in expected.lines() {
         let (name, numbers) = line.split_once(' ').unwrap();
-        let numbers: Vec<f32> = (numbers.split(' ').map(|it| it.parse().unwrap())).collect();
+        let numbers: Vec<f32> =
+            (numbers.split(' ').map(|number| number.parse().unwrap())).collect();
         for (kind, files) in make_both(name) {
-            let mut refused = REFUSED.iter().filter(|it| it.0 == name && it.1 == kind);
+            let mut refused = REFUSED
+                .iter()
+                .filter(|refusal| refusal.0 == name && refusal.1 == kind);
             match (run(&files), refused.next()) {
                 (Ok(shown), None) => assert_eq!(shown, numbers, "{name}, {kind}"),
                 (Err(error), Some((.., words))) => assert_contains(&error, &[words]),

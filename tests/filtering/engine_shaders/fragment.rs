@@ -10,13 +10,13 @@ use crate::filter_files::{FilterFiles, ready};
 
 /// Makes the documented example of a fragment shader in WGSL and one in GLSL, with more keys.
 fn declare(keys: &str) -> FilterFiles {
-    let own = FilterFiles::fixture("filters/fragment");
-    let files = with_passes(&format!("{keys}{}", own.text("passes.toml")));
+    let fixture = FilterFiles::fixture("filters/fragment");
+    let files = with_passes(&format!("{keys}{}", fixture.text("passes.toml")));
     // Keys of the whole filter come before its first table.
     let manifest = format!("time_limit = 60\n{}", files.text("filter.toml"));
     files
         .with("filter.toml", manifest)
-        .with("fastest.wgsl", own.text("fastest.wgsl"))
+        .with("fastest.wgsl", fixture.text("fastest.wgsl"))
 }
 
 #[test]

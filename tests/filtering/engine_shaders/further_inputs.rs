@@ -47,9 +47,9 @@ fn shaders_read_them_by_name_and_in_the_convention_of_velocity() {
             .run(&input)
             .unwrap()
             .remove(0);
-        let found = output.at(12, 9).map(f64::from);
+        let actual = output.at(12, 9).map(f64::from);
         for (axis, expected) in [10.5, -6.25, 3.5].into_iter().enumerate() {
-            assert_near(found[axis], factors[axis] * expected, 1e-5);
+            assert_near(actual[axis], factors[axis] * expected, 1e-5);
         }
     }
 }

@@ -42,11 +42,11 @@ pub(super) fn assert_blurs_as_the_guide(filter: &Filter, picture: &Picture) {
         block("`my_blur/filter.toml` says what it is:"),
         block("`my_blur/my_blur.wgsl` says what it does:"),
     );
-    let [expected, found] = [&kernel.unwrap(), filter]
+    let [expected, actual] = [&kernel.unwrap(), filter]
         .map(|filter| blur(filter, &filter.settings(None).unwrap(), picture));
     // Halves have 11 binary digits: 0.003 of 7 pixels, where neighbours differ by up to 2.5, and
     // 0.001 of colours below 4.
-    let difference = largest_difference(&expected, &found);
+    let difference = largest_difference(&expected, &actual);
     assert_within(difference, f64::MIN_POSITIVE..0.02);
 }
 

@@ -30,9 +30,9 @@ fn a_picture_in_place_begins_with_the_colours_and_keeps_what_is_not_written() {
                     }
                 }
                 // Halves have 11 binary digits, four times.
-                let found = output.at(x, y)[0];
+                let actual = output.at(x, y)[0];
                 assert_near(
-                    found,
+                    actual,
                     row[x as usize],
                     0.002 * f64::from(row[x as usize]) + 1e-6,
                 );

@@ -25,7 +25,7 @@ fn pyramid() -> FilterFiles {
 fn drawn() -> FilterFiles {
     let drawn = pyramid().changed("filter.toml", DRAWN.0, DRAWN.1);
     let drawn = drawn.changed("filter.toml", WRITTEN, "");
-    // It has no sampler.
+    // The fragment shader reads without a sampler.
     let read = "level = \"iteration\"\n";
     drawn.changed(
         "filter.toml",

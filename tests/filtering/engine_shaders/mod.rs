@@ -80,13 +80,13 @@ fn blur(filter: &Filter, settings: &Settings, picture: &Picture) -> Image {
 fn assert_as_documented(filter: &Filter, tolerance: f32) {
     let (documented, picture) = (documented().load().unwrap(), busy_picture());
     for preset in ["fast", "fine"] {
-        let [expected, found] = [&documented, filter].map(|filter| {
+        let [expected, actual] = [&documented, filter].map(|filter| {
             let settings = filter.settings(Some(preset)).unwrap();
             blur(filter, &settings, &picture)
         });
         // The picture has something to blur.
         assert_within(largest_difference(&expected, &picture.color), 0.5..);
-        let difference = largest_difference(&expected, &found);
+        let difference = largest_difference(&expected, &actual);
         assert!(difference < tolerance, "{preset}: {difference}");
     }
 }

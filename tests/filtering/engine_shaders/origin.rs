@@ -18,8 +18,12 @@ fn show_rows(origin: &str, keys: &str) -> FilterFiles {
 
 #[test]
 fn rows_coordinates_and_clip_space_count_from_the_origin() {
-    let own = "vertex_shader = \"corner.vert\"\n";
-    for (origin, keys) in [("top_left", ""), ("bottom_left", ""), ("bottom_left", own)] {
+    let vertex_key = "vertex_shader = \"corner.vert\"\n";
+    for (origin, keys) in [
+        ("top_left", ""),
+        ("bottom_left", ""),
+        ("bottom_left", vertex_key),
+    ] {
         let shown = blur_busy(&show_rows(origin, keys));
         for y in [0, 7, HEIGHT - 1] {
             let below = y as f32 + 0.5;
@@ -50,8 +54,8 @@ fn textures_and_the_picture_are_turned_over_together() {
             -picture.velocity.at(x, y)[1],
             *picture.depth.at(x, y),
         ];
-        for (found, due) in shown.at(x, y).iter().zip(due) {
-            assert_near(*found, due, 1e-6);
+        for (actual, due) in shown.at(x, y).iter().zip(due) {
+            assert_near(*actual, due, 1e-6);
         }
     }
 }

@@ -56,10 +56,10 @@ fn storage_textures_keep_what_their_format_holds() {
         );
         let files = make("resources", &declarations);
         let shown = blur_busy(&files.changed("store.comp", "QUALIFIER", qualifier));
-        for (found, color) in shown.pixels.iter().zip(&color.pixels) {
+        for (actual, color) in shown.pixels.iter().zip(&color.pixels) {
             for channel in 0..channels {
                 let expected = [0.3, 0.2, 0.1][channel] * color[channel];
-                let difference = (0.3 * found[channel] - expected).abs();
+                let difference = (0.3 * actual[channel] - expected).abs();
                 assert!(difference <= error, "{format}: {difference} in {channel}");
             }
         }
@@ -118,12 +118,12 @@ fn halves_are_packed_in_every_language() {
         );
         let shown = blur_busy(&make("halves", &pass));
         let mut rounded = 0;
-        for (found, color) in shown.pixels.iter().zip(&busy_picture().color.pixels) {
-            for (found, color) in found.iter().zip(color) {
+        for (pixel, color) in shown.pixels.iter().zip(&busy_picture().color.pixels) {
+            for (actual, color) in pixel.iter().zip(color) {
                 let exact = 0.3 * color;
-                rounded += u32::from(*found != exact);
+                rounded += u32::from(*actual != exact);
                 // Halves of values below 1 have 11 binary digits; drivers may cut the rest off.
-                assert_near(*found, exact, 1.0 / 2048.0);
+                assert_near(*actual, exact, 1.0 / 2048.0);
             }
         }
         assert!(rounded > 1000, "{shader}: {rounded} values were rounded");
@@ -137,9 +137,9 @@ fn a_depth_texture_is_the_depth() {
     let shown = blur_busy(&files);
     let depth = busy_picture().depth;
     for (x, y) in [(12_u32, 9_u32), (40, 30), (0, 0)] {
-        let own = *depth.at(x, y);
+        let metres = *depth.at(x, y);
         // The second corner of a gather is the one at the bottom right.
-        let due = [own, 2.0 * own, *depth.at(x + 1, y + 1)];
+        let due = [metres, 2.0 * metres, *depth.at(x + 1, y + 1)];
         assert_eq!(*shown.at(x, y), due, "({x}, {y})");
     }
     files.assert_refused("depth");
@@ -182,14 +182,14 @@ fn an_image_that_is_read_and_written_keeps_what_is_not_written() {
 #[test]
 fn hlsl_without_registers_is_bound_by_name() {
     let files = make_declared("resources", "names.toml");
-    let found = blur_busy(&files);
+    let output = blur_busy(&files);
     let picture = busy_picture();
     for (x, y) in [(12_u32, 9_u32), (40, 30), (5, 5)] {
         let [gray, ..] = *picture.color.at(x + 1, y);
         let motion = picture.velocity.at(x, y);
         let expected = [1.7 * gray + motion[0], 1.7 * gray + motion[1], 1.7 * gray];
-        for (found, expected) in found.at(x, y).iter().zip(expected) {
-            assert_near(*found, expected, 1e-4);
+        for (actual, expected) in output.at(x, y).iter().zip(expected) {
+            assert_near(*actual, expected, 1e-4);
         }
     }
     files.assert_refused("names");
@@ -229,8 +229,8 @@ fn members_of_structs_and_storage_buffers_have_their_values() {
     let files = make_declared("resources", "members.toml");
     // Height and scale; two weights; the length of the array, its last number and 10 x exposure.
     let due = [43.5, 4.25, 5.0 + 80.0 + 7.0];
-    for (found, due) in blur_busy(&files).at(30, 20).iter().zip(due) {
-        assert_near(*found, due, 1e-4);
+    for (actual, due) in blur_busy(&files).at(30, 20).iter().zip(due) {
+        assert_near(*actual, due, 1e-4);
     }
     files.assert_refused("members");
     // Buffers of HLSL that are read have the registers of textures.

@@ -23,7 +23,8 @@ fn spir_v_blurs_as_the_glsl_that_it_was_made_from() {
     let folder = tempfile::tempdir().unwrap();
     let mut files = with_passes(&PASSES.replace(".comp", ".spv"));
     for name in ["fastest", "gather"] {
-        let [glsl, module] = ["comp", "spv"].map(|it| folder.path().join(name).with_extension(it));
+        let [glsl, module] =
+            ["comp", "spv"].map(|extension| folder.path().join(name).with_extension(extension));
         let text = files.text(&format!("{name}.comp"));
         fs::write(&glsl, text.replace("#[compute]", "")).unwrap();
         let compiled = Command::new("glslangValidator")

@@ -16,9 +16,9 @@ fn inputs_of_11_bits_and_sides_that_are_rounded_down() {
              [[pass]]\nshader = \"clear.wgsl\"\nover = \"coarse\"\n[[pass]]\nshader = \"sides.wgsl\"\n"
         );
         let shown = blur_busy(&make("texture_sizes", &declarations));
-        let (found, color) = (shown.at(3, 5), busy_picture().color.at(3, 5)[2]);
-        assert_eq!(found[..2], size, "{rounding}");
-        assert_within(found[2] / color, 63.0 / 64.0..=65.0 / 64.0);
+        let (texel, color) = (shown.at(3, 5), busy_picture().color.at(3, 5)[2]);
+        assert_eq!(texel[..2], size, "{rounding}");
+        assert_within(texel[2] / color, 63.0 / 64.0..=65.0 / 64.0);
     }
 }
 
@@ -46,7 +46,7 @@ fn textures_are_divided_by_what_an_engine_computes_of_the_picture() {
     }
     declare("\"unit\"").assert_refused("divided_by");
     // The picture contains the value.
-    for (divided_by, found) in [
+    for (divided_by, message) in [
         ("\"height / 20 + 0 * unit\"", "is 2.15;"),
         ("\"floor(height / 60) * unit\"", "is 0;"),
         ("\"unit / (height - 43)\"", "is inf;"),
@@ -56,6 +56,6 @@ fn textures_are_divided_by_what_an_engine_computes_of_the_picture() {
         let refused = ready(&filter, (61, 43)).unwrap_err();
         let parts = "61x43 | divided_by of texture \"coarse\" | whole numbers from 1";
         assert_contains(&refused.to_string(), parts);
-        assert_contains(&refused.to_string(), &[found]);
+        assert_contains(&refused.to_string(), &[message]);
     }
 }

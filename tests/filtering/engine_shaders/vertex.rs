@@ -23,9 +23,9 @@ const HLSL_PASS: &str = "[[pass]]\nshader = \"draw.hlsl\"\nentry = \"shade\"\nst
 #[test]
 fn a_vertex_stage_of_the_file_draws_as_the_program_s_own() {
     let picture = busy_picture();
-    let own = WGSL_PASS.replace("vertex = \"full_screen\"\n", "");
+    let pass_of_file = WGSL_PASS.replace("vertex = \"full_screen\"\n", "");
     for pass in [
-        &format!("{own}{SAMPLED}"),
+        &format!("{pass_of_file}{SAMPLED}"),
         &format!("{WGSL_PASS}{SAMPLED}"),
         GLSL_PASS,
         GODOT_PASS,
@@ -67,9 +67,9 @@ fn the_program_s_triangle_has_the_place_of_a_pixel_as_engines_do() {
     ] {
         println!("{shader:?}");
         let shown = blur_busy(&files(shader));
-        for (found, due) in shown.at(12, 9).iter().zip(due) {
+        for (actual, due) in shown.at(12, 9).iter().zip(due) {
             // Coordinates are interpolated over the triangle.
-            assert_near(*found, due, 1e-4);
+            assert_near(*actual, due, 1e-4);
         }
     }
     let whole = files(["flat", "int", "place"]).load().unwrap_err();

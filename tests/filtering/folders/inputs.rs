@@ -65,8 +65,8 @@ fn sizes_beyond_the_adapter_are_refused_before_allocation() {
 fn frames_that_cannot_be_blurred_are_refused() {
     let mut blur = make_blur("identity", None, "", (4, 3));
     let picture = Picture::uniform(4, 3, white(1.0));
-    let own = [&picture.color];
-    let input = picture.input(&own);
+    let single_color = [&picture.color];
+    let input = picture.input(&single_color);
     blur.run(&input).expect("this frame can be blurred");
     let mut broken_velocity = picture.velocity.clone();
     broken_velocity.pixels[6] = [f32::NAN, 0.0];

@@ -52,7 +52,10 @@ fn frames_of_noise_in_one_batch_equal_single_ones() {
                 assert_eq!(together, alone, "{name}");
                 noisy += 1;
             }
-            None => assert!(alone[1..].iter().all(|own| *own == alone[0]), "{name}"),
+            None => assert!(
+                alone[1..].iter().all(|output| *output == alone[0]),
+                "{name}"
+            ),
         }
     }
     assert!(noisy > 10, "only {noisy} presets draw noise");

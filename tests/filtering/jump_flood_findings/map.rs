@@ -17,9 +17,9 @@ fn beside_a_mover(map: &str) -> f64 {
 
 #[test]
 fn a_map_of_16_bits_moves_still_pixels_beside_a_mover() {
-    // Its only source is itself, and it is still.
+    // The pixel's only source is itself, and it is still.
     assert_eq!(beside_a_mover("float32"), 0.0);
-    // Its position, 80.5 of 200 pixels, is stored as 80.47, where a linear fetch mixes in 3 % of
-    // the mover's 40 pixels.
+    // The pixel's position, 80.5 of 200 pixels, is stored as 80.47. A linear fetch there mixes in 3
+    // % of the mover's 40 pixels.
     assert_within(beside_a_mover("float16"), 0.05..);
 }

@@ -33,9 +33,9 @@ fn the_leading_edge_fades_and_does_not_stay_hard() {
     for inside in [1, 4, 10, 16, 20] {
         // The mover reached the middle of the column this many pixels before it stopped.
         let truth = (f64::from(inside) - 0.5) / SPEED;
-        let found = share(MOVER_END - inside);
-        // One tap of eight.
-        assert_near(found, truth, 1.0 / 8.0);
+        let actual = share(MOVER_END - inside);
+        // The tolerance is one tap of eight.
+        assert_near(actual, truth, 1.0 / 8.0);
     }
     assert_within(share(MOVER_END - 1), ..0.15);
     assert_eq!(share(MOVER_END), 0.0, "nothing came here yet");

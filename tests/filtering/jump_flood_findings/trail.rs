@@ -11,20 +11,20 @@ fn displacements(preset: &str, jitter: &str, speed: f32) -> Vec<f32> {
     let slope = Picture::new(200, 32, |x, _| white(speed).gray(x as f32));
     let output = slope.blur("jump_flood", preset, &format!("jitter={jitter}"));
     let inner = (0..120).flat_map(|x| (0..32).map(move |y| (x, y)));
-    let mut found: Vec<f32> = inner.map(|(x, y)| output.at(x, y)[0] - x as f32).collect();
-    found.sort_by(f32::total_cmp);
-    found
+    let mut offsets: Vec<f32> = inner.map(|(x, y)| output.at(x, y)[0] - x as f32).collect();
+    offsets.sort_by(f32::total_cmp);
+    offsets
 }
 
 #[test]
 fn noise_scales_whole_trails_evenly_by_a_half_to_one_and_a_half() {
-    let found = displacements("paper", "step_scale", 20.0);
+    let offsets = displacements("paper", "step_scale", 20.0);
     // The mean of a trail of 20 pixels is 10 ahead.
     for part in [0.0, 0.25, 0.5, 0.75, 1.0] {
-        let index = (part * (found.len() - 1) as f64) as usize;
+        let index = (part * (offsets.len() - 1) as f64) as usize;
         // Noise of 3840 pixels, which is more even than random numbers: 0.024 would be 3 sigma of
         // those.
-        assert_near(found[index] / 10.0, 0.5 + part, 0.02);
+        assert_near(offsets[index] / 10.0, 0.5 + part, 0.02);
     }
 }
 
@@ -100,7 +100,7 @@ fn vertical_trails_of_a_wide_picture_are_cut_shorter() {
 
 #[test]
 fn the_cut_is_right_only_for_an_exposure_of_one_frame() {
-    // It divides by the exposure where it should not: 32 / 0.5 and 32 / 2 pixels.
+    // The cut wrongly divides by the exposure: 32 / 0.5 and 32 / 2 pixels.
     assert_eq!(reach("paper", false, 90.0, 0.5), 45);
     assert_eq!(reach("paper", false, 140.0, 0.5), 64);
     assert_eq!(reach("paper", false, 90.0, 2.0), 16);

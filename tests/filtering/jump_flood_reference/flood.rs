@@ -15,7 +15,7 @@ pub struct Chosen {
 const KERNEL: [[i64; 2]; 9] =
     [[0, 0], [1, 1], [0, 1], [-1, 1], [1, 0], [1, -1], [-1, 0], [-1, -1], [0, -1]];
 
-fn own(pixel: [i64; 2]) -> Chosen {
+fn pixel_itself(pixel: [i64; 2]) -> Chosen {
     Chosen {
         pixel,
         valid: false,
@@ -53,7 +53,7 @@ impl Reference<'_> {
     pub fn dilate(&self) -> Vec<Vec<Chosen>> {
         let [width, height] = self.size;
         let pixels = || (0..height).flat_map(move |y| (0..width).map(move |x| [x, y]));
-        let mut map: Vec<Vec<Chosen>> = pixels().map(|pixel| vec![own(pixel)]).collect();
+        let mut map: Vec<Vec<Chosen>> = pixels().map(|pixel| vec![pixel_itself(pixel)]).collect();
         let last = self.paper.passes - 1;
         for iteration in 0..=last {
             let step = (1 << (last - iteration)) * self.paper.step_multiplier;
@@ -132,7 +132,7 @@ impl Reference<'_> {
             }
         }
         if sure.is_empty() {
-            outcomes.push(own(pixel));
+            outcomes.push(pixel_itself(pixel));
         }
         outcomes
     }

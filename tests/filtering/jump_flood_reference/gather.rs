@@ -26,8 +26,8 @@ impl Reference<'_> {
             let position = sources(pixel);
             [0, 1].map(|axis| position[axis] / self.size[axis] as f64)
         };
-        let own = source_uv(pixel);
-        let v = self.velocity(own).map(|component| -component);
+        let source = source_uv(pixel);
+        let v = self.velocity(source).map(|component| -component);
         if v == [0.0, 0.0] {
             return Some((self.color(p), 0.0));
         }
@@ -64,11 +64,11 @@ impl Reference<'_> {
                 break;
             }
             let other = source_uv(position.map(|c| c.floor() as i64));
-            let weight = self.weight(own, other)?;
+            let weight = self.weight(source, other)?;
             let tap = match self.paper.behind_extent {
                 None => self.color(x),
                 Some(extent) => {
-                    let share = self.share(p, own, x, extent);
+                    let share = self.share(p, source, x, extent);
                     misread += share.error * length * trail_x.hypot(trail_y);
                     let place = [0, 1].map(|axis| p[axis] + share.value * (x[axis] - p[axis]));
                     self.color(place)
@@ -90,8 +90,8 @@ impl Reference<'_> {
 
     /// Returns how far from p towards x the colour is taken: max(nb, nf), and the error of 32-bit
     /// floats.
-    fn share(&self, p: Vec2, own: Vec2, x: Vec2, extent: f64) -> Share {
-        let [source, here, tap] = [own, p, x].map(|uv| self.depth(uv));
+    fn share(&self, p: Vec2, source_place: Vec2, x: Vec2, extent: f64) -> Share {
+        let [source, here, tap] = [source_place, p, x].map(|uv| self.depth(uv));
         let [source_reverse, here_reverse] = [source, here].map(|depth| 0.05 / depth);
         let nb = 1.0 - (source_reverse - here_reverse) / extent;
         let nf = 1.0 - ((tap - 0.1) - source) / 0.1;
@@ -114,11 +114,11 @@ impl Reference<'_> {
 
     /// Computes w = 1 - fg * D^0.1; none if the root would amplify rounding noise in D and the
     /// weight matters.
-    fn weight(&self, own: Vec2, other: Vec2) -> Option<f64> {
-        let v = self.to_path_space(self.velocity(own));
+    fn weight(&self, source: Vec2, other: Vec2) -> Option<f64> {
+        let v = self.to_path_space(self.velocity(source));
         let w = self.to_path_space(self.velocity(other));
         let d = dot(minus(v, w), v) / dot(v, v);
-        let ahead = (self.depth(other) - self.depth(own)) / self.paper.foreground_extent;
+        let ahead = (self.depth(other) - self.depth(source)) / self.paper.foreground_extent;
         let fg = (1.0 - ahead).clamp(0.0, 1.0);
         // Motion is known to 1e-4 of itself.
         if fg > 0.0 && d != 0.0 && d > -1e-4 && d < 1e-3 {

@@ -86,7 +86,7 @@ fn read_paper(run: &Run) -> Paper {
 
 #[test]
 fn the_dilation_agrees_with_a_64_bit_reference() {
-    let (mut found, mut all) = (0, 0);
+    let (mut moved, mut all) = (0, 0);
     for Flood { run, dilated, .. } in FLOODS.iter() {
         let seeds = &run.texture("seeds").pixels;
         let mut ties = 0;
@@ -101,7 +101,7 @@ fn the_dilation_agrees_with_a_64_bit_reference() {
                 run.name
             );
             ties += usize::from(outcomes.len() > 1);
-            found += usize::from(chosen.valid && chosen.pixel != pixel);
+            moved += usize::from(chosen.valid && chosen.pixel != pixel);
         }
         // A decision is a tie within 4e-6 of its threshold. A pixel makes up to 9 x 3 decisions in
         // each of up to 8 passes: one pixel in a thousand has a tie, and most ties do not change
@@ -111,7 +111,7 @@ fn the_dilation_agrees_with_a_64_bit_reference() {
         all += count;
     }
     // A dilation that carries nothing proves nothing.
-    assert!(4 * found > all, "only {found} of {all} found a source");
+    assert!(4 * moved > all, "only {moved} of {all} found a source");
 }
 
 #[test]

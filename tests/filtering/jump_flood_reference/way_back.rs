@@ -28,20 +28,20 @@ impl Reference<'_> {
     /// result that a correct run may store.
     pub fn backtrack(&self, pixel: [i64; 2], chosen: Chosen) -> Vec<Source> {
         let p = self.uv(pixel);
-        let own = |flag| Source {
+        let source_here = |flag| Source {
             position: self.pixels(self.round_as_stored(p)),
             flag,
         };
         if !chosen.valid {
-            return vec![own(0.0)];
+            return vec![source_here(0.0)];
         }
         let s = self.place(chosen.pixel, self.paper.passes - 1);
         let mut outcomes = Vec::new();
         let (z, z_best) = (self.depth(p), self.depth(s));
         if z != z_best {
             match at_most(z, z_best, ROUNDING * z) {
-                Answer::Yes => return vec![own(0.0)],
-                Answer::Either => outcomes.push(own(0.0)),
+                Answer::Yes => return vec![source_here(0.0)],
+                Answer::Either => outcomes.push(source_here(0.0)),
                 Answer::No => {}
             }
         }
@@ -95,7 +95,7 @@ impl Reference<'_> {
         }
         // Rows that the last probe cuts short do not count.
         if !rows.is_empty() {
-            outcomes.push(own(1.0));
+            outcomes.push(source_here(1.0));
         }
         outcomes
     }

@@ -36,7 +36,7 @@ struct Row {
     base: String,
     /// Piece of the base's filter.toml that the key and its value replace.
     at: String,
-    /// None if it takes each word that the program knows.
+    /// Values of the key; none if it takes each word that the program knows.
     #[serde(default)]
     values: Vec<String>,
     /// The value that a missing key has.
@@ -132,7 +132,7 @@ fn observe(files: &FilterFiles) -> Result<Observed, String> {
     }
     let reaching = settings.with_reach(&filter, 4).map_err(text)?;
     write!(does, " {:?}", reaching.values).unwrap();
-    // Only what the program itself starts; nothing runs here.
+    // Of a filter that is a program only its command is compared: no program runs here.
     if let Some(command) = &filter.command {
         write!(does, " {:?} {:?}", command.words, command.environment).unwrap();
     } else {
@@ -191,7 +191,7 @@ fn blur(filter: &Filter, settings: &filters::Settings) -> Result<String, String>
         .pixels
         .as_flattened()
         .iter()
-        .map(|it| format!("{:x}", it.to_bits()));
+        .map(|number| format!("{:x}", number.to_bits()));
     Ok(bits.collect())
 }
 

@@ -36,19 +36,19 @@ fn color(run: &Run, pixel: [i64; 2], tile: [i64; 2], noise: f64) -> Option<[f64;
     if length(largest) <= 0.5001 {
         return Some(super::color(run, pixel));
     }
-    let own = super::motion(run, pixel);
+    let motion = super::motion(run, pixel);
     let radius = |vector: Vec2| length(vector).max(0.5);
-    let center = center_direction(largest, own, run.real("own_direction_ramp"));
+    let center = center_direction(largest, motion, run.real("own_direction_ramp"));
     let samples = run.integer("samples") as f64;
     let eta_phi = run.real("jitter");
     let jitter = (2.0 * noise - 1.0) * eta_phi / samples;
-    let mut weight = samples / (run.real("center_weight_divisor") * radius(own));
+    let mut weight = samples / (run.real("center_weight_divisor") * radius(motion));
     let mut sum = super::color(run, pixel).map(|component| component * weight);
     for i in 0..run.integer("samples") {
         let step = 2.0 / (samples + 1.0);
         let t = -1.0 + step * (i as f64 + jitter + 1.0);
         let along = if is_own(run, i, variance)? {
-            own
+            motion
         } else {
             largest
         };
@@ -61,8 +61,8 @@ fn color(run: &Run, pixel: [i64; 2], tile: [i64; 2], noise: f64) -> Option<[f64;
         let a_weight = dot(center, direction(along)).abs();
         let b_weight = dot(scaled(other, 1.0 / radius(other)), direction(along)).abs();
         let a = f * cone(distance, radius(other)) * b_weight
-            + b * cone(distance, radius(own)) * a_weight
-            + 2.0 * cylinder(distance, radius(own).min(radius(other))) * a_weight.max(b_weight);
+            + b * cone(distance, radius(motion)) * a_weight
+            + 2.0 * cylinder(distance, radius(motion).min(radius(other))) * a_weight.max(b_weight);
         weight += a;
         let color = super::color(run, tap);
         sum = [0, 1, 2].map(|channel| sum[channel] + a * color[channel]);
@@ -115,15 +115,15 @@ fn direction(a: Vec2) -> Vec2 {
     tests::vector::direction(a, [0.0; 2])
 }
 
-fn center_direction(largest: Vec2, own: Vec2, gamma: f64) -> Vec2 {
+fn center_direction(largest: Vec2, motion: Vec2, gamma: f64) -> Vec2 {
     let along = direction(largest);
     let mut across = [-along[1], along[0]];
-    if dot(across, own) < 0.0 {
+    if dot(across, motion) < 0.0 {
         across = scaled(across, -1.0);
     }
-    let trust = ((length(own) - 0.5) / gamma).clamp(0.0, 1.0);
-    let own = direction(own);
-    direction([0, 1].map(|axis| across[axis] + trust * (own[axis] - across[axis])))
+    let trust = ((length(motion) - 0.5) / gamma).clamp(0.0, 1.0);
+    let motion = direction(motion);
+    direction([0, 1].map(|axis| across[axis] + trust * (motion[axis] - across[axis])))
 }
 
 /// Truncates towards zero; none if `margin` decides.

@@ -73,12 +73,12 @@ fn half_velocities_equal_the_papers() {
             let half = full.map(|component| 0.5 * run.field.exposure * f64::from(component));
             let longest = run.integer("tile_size") as f64;
             let expected = half_velocity(half, longest);
-            let found = motion(run, pixel);
+            let actual = motion(run, pixel);
             let is_near =
-                |axis: usize| (found[axis] - expected[axis]).abs() <= ROUNDING * length(expected);
+                |axis: usize| (actual[axis] - expected[axis]).abs() <= ROUNDING * length(expected);
             assert!(
                 (0..2).all(is_near),
-                "{}: pixel {pixel:?} is {found:?}; the reference says {expected:?}",
+                "{}: pixel {pixel:?} is {actual:?}; the reference says {expected:?}",
                 run.name
             );
             match length(half) {
@@ -107,11 +107,11 @@ fn full_and_partial_tiles_hold_their_longest_half_velocity() {
                 lengths().fold(f64::INFINITY, f64::min),
                 lengths().fold(0.0, f64::max),
             );
-            let found = vector(held, tile);
+            let actual = vector(held, tile);
             // Cut motion has one length, so a correct run may choose any of the longest.
             assert!(
-                motion.contains(&found) && length(found) >= longest * (1.0 - ROUNDING),
-                "{}: tile {tile:?} holds {found:?}; its longest has {longest} pixels",
+                motion.contains(&actual) && length(actual) >= longest * (1.0 - ROUNDING),
+                "{}: tile {tile:?} holds {actual:?}; its longest has {longest} pixels",
                 run.name
             );
             let least = texel(held, tile)[2];
@@ -132,7 +132,7 @@ fn neighbourhoods_hold_the_longest_of_the_tiles_that_count() {
         let rule = run.settings.values.get("neighbor_rule");
         let rule = rule.map_or("all".to_owned(), Value::to_string);
         for tile in tiles.all() {
-            let found = vector(run.texture("neighborhoods"), tile);
+            let actual = vector(run.texture("neighborhoods"), tile);
             let around: Vec<([i64; 2], Vec2)> = tiles.around(tile).collect();
             let counting: Vec<Vec2> = (around.iter())
                 .filter(|(offset, vector)| tiles::counts(&rule, *offset, *vector))
@@ -140,9 +140,9 @@ fn neighbourhoods_hold_the_longest_of_the_tiles_that_count() {
                 .collect();
             let longest = counting.iter().copied().map(length).fold(0.0, f64::max);
             assert!(
-                (counting.contains(&found) || longest == 0.0)
-                    && length(found) >= longest * (1.0 - ROUNDING),
-                "{}: tile {tile:?} holds {found:?}; the longest that counts has {longest} pixels",
+                (counting.contains(&actual) || longest == 0.0)
+                    && length(actual) >= longest * (1.0 - ROUNDING),
+                "{}: tile {tile:?} holds {actual:?}; the longest that counts has {longest} pixels",
                 run.name
             );
             let lengths = around.iter().map(|(_, vector)| length(*vector));
@@ -162,11 +162,11 @@ fn tile_variance_follows_the_directions_of_neighbouring_tiles() {
         let tiles = tiles(run);
         for tile in tiles.all() {
             let expected = tiles.variance(tile);
-            let found = texel(run.texture("neighborhoods"), tile)[2];
+            let actual = texel(run.texture("neighborhoods"), tile)[2];
             // A mean of nine cosines, each of two quotients.
             assert!(
-                (found - expected).abs() < 1e-5,
-                "{}: tile {tile:?} varies by {found}; the reference says {expected}",
+                (actual - expected).abs() < 1e-5,
+                "{}: tile {tile:?} varies by {actual}; the reference says {expected}",
                 run.name
             );
             varied += usize::from(expected > 0.1);

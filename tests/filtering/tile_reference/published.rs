@@ -55,8 +55,8 @@ fn the_filter_averages_moving_taps_and_not_every_tap() {
     for (beside, movers) in [(0, 7.0), (3, 4.0), (6, 1.0)] {
         // Each mover within reach weighs a cone of 0.99 to 1, near or far. Still taps weigh nothing
         // on a still pixel, and its own weight is 1 / 0.5.
-        let found = output.at(EDGE + beside, HEIGHT / 2)[0];
-        assert_near(found, movers / (movers + 2.0), 0.005);
+        let actual = output.at(EDGE + beside, HEIGHT / 2)[0];
+        assert_near(actual, movers / (movers + 2.0), 0.005);
     }
 }
 

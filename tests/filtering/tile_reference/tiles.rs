@@ -55,13 +55,13 @@ impl Tiles<'_> {
 
     /// Computes 1 - the mean |cosine| between a tile's half-velocity and its moving neighbours'.
     pub fn variance(&self, tile: [i64; 2]) -> f64 {
-        let own = direction(vector(self.vectors, tile), [0.0; 2]);
+        let middle = direction(vector(self.vectors, tile), [0.0; 2]);
         let cosines: Vec<f64> = self
             .around(tile)
             .filter(|(_, vector)| length(*vector) > 0.5001)
-            .map(|(_, vector)| dot(own, direction(vector, [0.0; 2])).abs())
+            .map(|(_, vector)| dot(middle, direction(vector, [0.0; 2])).abs())
             .collect();
-        match own {
+        match middle {
             [0.0, 0.0] => 0.0,
             _ => 1.0 - cosines.iter().sum::<f64>() / cosines.len() as f64,
         }

@@ -32,8 +32,8 @@ fn the_signed_rank_test_has_wilcoxons_probabilities() {
         (&[0.0], 1.0),
     ];
     for (differences, probability) in rows {
-        let found = signed_rank_p_value(differences);
-        assert_eq!(found, probability, "{differences:?}");
+        let actual = signed_rank_p_value(differences);
+        assert_eq!(actual, probability, "{differences:?}");
     }
     for (below, count) in [(3, 5.0), (5, 10.0), (6, 14.0)] {
         assert_eq!(signed_rank_p_value(&eight(below)), count / 256.0);

@@ -88,7 +88,7 @@ fn valley(point: &[f64]) -> f64 {
     let lowest = [0.31, 0.62, 0.18, 0.77];
     let off: Vec<f64> = point.iter().zip(lowest).map(|(at, low)| at - low).collect();
     let across = off[0] + off[1] - off[2] - off[3];
-    off.iter().map(|it| it * it).sum::<f64>() + 10.0 * across * across
+    off.iter().map(|part| part * part).sum::<f64>() + 10.0 * across * across
 }
 
 fn search_valley(search: &Search, count: usize) -> (Vec<Vec<f64>>, Vec<f64>) {
@@ -167,11 +167,11 @@ fn g_function(point: &[f64]) -> Result<f64, Infallible> {
 
 #[test]
 fn the_indices_of_ishigami_s_function_equal_the_published_ones() {
-    let found = sobol_indices(3, 1024, 1, ishigami).unwrap();
+    let indices_of_axes = sobol_indices(3, 1024, 1, ishigami).unwrap();
     // Closed form: variance 13.845; first-order indices 0.3139, 0.4424 and 0; total indices 0.5576,
     // 0.4424 and 0.2437.
     let expected = [(0.3139, 0.5576), (0.4424, 0.4424), (0.0, 0.2437)];
-    for (indices, (first, total)) in found.iter().zip(expected) {
+    for (indices, (first, total)) in indices_of_axes.iter().zip(expected) {
         for (estimate, expected) in [(indices.first, first), (indices.total, total)] {
             // Four standard errors of 1024 rows, about a quarter of the intervals' widths.
             let tolerance = estimate.high - estimate.low;
@@ -183,19 +183,19 @@ fn the_indices_of_ishigami_s_function_equal_the_published_ones() {
 
 #[test]
 fn the_indices_of_sobols_g_function_follow_its_formula() {
-    let found = sobol_indices(6, 1024, 1, g_function).unwrap();
-    let own = G.map(|a| 1.0 / (3.0 * (1.0 + a) * (1.0 + a)));
-    let variance = own.iter().map(|own| 1.0 + own).product::<f64>() - 1.0;
-    for (axis, indices) in found.iter().enumerate() {
-        let others = own.iter().map(|own| 1.0 + own).product::<f64>() / (1.0 + own[axis]);
-        let (first, total) = (own[axis] / variance, own[axis] * others / variance);
+    let indices_of_axes = sobol_indices(6, 1024, 1, g_function).unwrap();
+    let parts = G.map(|a| 1.0 / (3.0 * (1.0 + a) * (1.0 + a)));
+    let variance = parts.iter().map(|part| 1.0 + part).product::<f64>() - 1.0;
+    for (axis, indices) in indices_of_axes.iter().enumerate() {
+        let others = parts.iter().map(|part| 1.0 + part).product::<f64>() / (1.0 + parts[axis]);
+        let (first, total) = (parts[axis] / variance, parts[axis] * others / variance);
         for (estimate, expected) in [(indices.first, first), (indices.total, total)] {
             // The widest interval is 0.15; an index of the wrong axis is off by at least 0.3.
             let off = (estimate.value - expected).abs();
             assert!(off < 0.1, "{axis}: {indices:?}, not {expected}");
         }
     }
-    let total = |axis: usize| found[axis].total;
+    let total = |axis: usize| indices_of_axes[axis].total;
     assert!(total(4).high < 0.02, "it could be a constant");
     assert!(total(1).low > 0.02, "what matters could not");
 }

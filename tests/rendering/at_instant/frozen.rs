@@ -49,12 +49,12 @@ fn a_closed_mesh_does_not_hide_its_own_near_side() {
         let pairs = frozen.pixels.iter().zip(&live.pixels);
         let differences = pairs.map(|(frozen, live)| f64::from((frozen[0] - live[0]).abs()));
         let mean = differences.sum::<f64>() / f64::from(WIDTH * HEIGHT);
-        // The same random numbers from the same places: rounding may flip one sample in a thousand,
-        // by half of the sky's light.
+        // Both pictures take the same random numbers at the same places. Rounding may flip one
+        // sample in a thousand, by half of the sky's light.
         assert!(mean < 0.5e-3, "shaded again, {what} differ by {mean}");
         let seen = known.placed.pixels.iter().all(|placed| *placed == 1.0);
         assert!(seen, "everything is in front of the camera");
-        let unknown = known.unknowable.pixels.iter().filter(|it| **it > 0.0);
+        let unknown = known.unknowable.pixels.iter().filter(|share| **share > 0.0);
         assert_eq!(unknown.count(), 0, "pixels of a still sphere of {what}");
     }
 }
@@ -69,7 +69,7 @@ fn a_frozen_mirror_shows_the_view_of_the_instant_s_camera() {
     let floor = facing_up(DVec3::ZERO);
     add(&mut scene, rectangle(500.0, 500.0), mirror, floor);
     scene.background = heights(0.0, 0.0, 1.0);
-    // Straight down at a slope of 1 to 2, through a spot so small that all pixels see the same.
+    // The camera looks down at a slope of 1 to 2, on a spot so small that all pixels see the same.
     let view = DVec3::new(0.0, -1.0, -2.0);
     scene.camera.motion = through([-1.0, 1.0].map(|time| Key {
         time,
@@ -90,8 +90,8 @@ fn a_frozen_mirror_shows_the_view_of_the_instant_s_camera() {
     assert!((live - frozen).abs() > 0.05, "they can be told apart");
     // 384 pixels of 256 stratified samples; a quarter of these is shaded again.
     expect_near("live", mean_of(&truth.mean().color), live, 1e-4);
-    let found = mean_of(&truth.frozen_mean());
-    expect_near("frozen", found, frozen, 1e-3);
+    let actual = mean_of(&truth.frozen_mean());
+    expect_near("frozen", actual, frozen, 1e-3);
 }
 
 #[test]
@@ -138,12 +138,12 @@ fn a_turning_sphere_keeps_the_shading_of_the_instant() {
     let turning = spin(place, DVec3::Y, rate);
     add(&mut scene, icosphere(50.0, 6), diffuse(0.6), turning);
     scene.sun = sun(light, PI as f32, 0.0);
-    // So narrow that all pixels see nearly one normal: within 0.02 of +Z.
+    // The view is so narrow that all pixels see nearly one normal: within 0.02 of +Z.
     scene.camera.vertical_fov = vec![(0.0, 0.1)];
     let truth = render(&scene, Alignment::Trailing, 256);
     // The mean over the picture equals the centre except for second-order terms. A point seen there
     // at time t is, at the instant, where a turn by -rate t has brought it.
-    let found = mean_of(&truth.frozen_mean());
+    let actual = mean_of(&truth.frozen_mean());
     let steps = 10_000;
     let shaded = (0..steps).map(|step| {
         let turned = rate * EXPOSURE * (f64::from(step) + 0.5) / f64::from(steps);
@@ -152,7 +152,7 @@ fn a_turning_sphere_keeps_the_shading_of_the_instant() {
     });
     let expected = 0.6 * shaded.sum::<f64>() / f64::from(steps);
     // The square of 0.02, and interpolated normals.
-    expect_near("frozen", found, expected, 0.002);
+    expect_near("frozen", actual, expected, 0.002);
     let live = mean_of(&truth.mean().color);
     expect_near("live", live, 0.6 * light.z, 0.002);
 }

@@ -64,7 +64,8 @@ fn mean_over(left: f64, alignment: Alignment, value: impl Fn(f64, f64) -> f64) -
 
 #[test]
 fn uncovered_background_and_pixels_beyond_the_border_are_unknowable() {
-    // In the middle, and reaching over the right border; far from the wall and very near it.
+    // The panel is in the middle or reaches over the right border, far from the wall or very near
+    // it.
     let cases = [(2.0, 0.0, 5.0), (2.0, 13.0, 8.0), (1e-5, 0.0, 5.0)];
     for ((gap, at, half), alignment) in cases.into_iter().zip(Alignment::ALL) {
         let scene = panel_over_wall(gap, at, 2.0 * half as f32);
@@ -82,9 +83,9 @@ fn uncovered_background_and_pixels_beyond_the_border_are_unknowable() {
                 };
                 f64::from(unknown)
             });
-            let found = f64::from(known.unknowable.pixels[pixel]);
+            let actual = f64::from(known.unknowable.pixels[pixel]);
             let what = format!("{alignment}, panel at {at}, column {left}");
-            expect_near(&what, found, expected, STEP_ERROR);
+            expect_near(&what, actual, expected, STEP_ERROR);
         });
     }
 }
@@ -144,8 +145,8 @@ fn the_other_side_of_a_sheet_is_unknowable() {
     let expected = 1.0 - 0.5 * (shown[0] + shown[1]);
     let centre = (HEIGHT / 2 * WIDTH + WIDTH / 2) as usize;
     let unknown = [centre, centre - 1].map(|pixel| f64::from(known.unknowable.pixels[pixel]));
-    let found = 0.5 * (unknown[0] + unknown[1]);
-    expect_near("the sheet's other side", found, expected, STEP_ERROR);
+    let actual = 0.5 * (unknown[0] + unknown[1]);
+    expect_near("the sheet's other side", actual, expected, STEP_ERROR);
 }
 
 #[test]
@@ -160,10 +161,10 @@ fn points_behind_the_camera_have_no_place() {
         let expected = mean_over(left, Alignment::Trailing, |x, t| {
             f64::from((x / DISTANCE).atan() - rate * t < FRAC_PI_2)
         });
-        let found = f64::from(known.placed.pixels[pixel]);
-        expect_near(&format!("column {left}"), found, expected, STEP_ERROR);
+        let placed = f64::from(known.placed.pixels[pixel]);
+        expect_near(&format!("column {left}"), placed, expected, STEP_ERROR);
         let unknown = f64::from(known.unknowable.pixels[pixel]);
         // A point without a position cannot be known.
-        assert!(unknown >= 1.0 - found - 1e-6, "{unknown} {found}");
+        assert!(unknown >= 1.0 - placed - 1e-6, "{unknown} {placed}");
     });
 }

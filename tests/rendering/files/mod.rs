@@ -76,8 +76,8 @@ fn halves_come_back_bit_for_bit_from_a_smaller_file_and_larger_numbers_too() {
     let offsets = |truth: &Truth| truth.at_instant[0].offset.pixels.clone();
     let large = |offset: &[f32; 2]| offset.iter().all(|axis| axis.abs() > 65_520.0);
     let mut pairs = offsets(&exact).into_iter().zip(offsets(&short));
-    let found = pairs.find(|(exact, _)| large(exact));
-    let (exact_offset, kept) = found.expect("some are large");
+    let pair = pairs.find(|(exact, _)| large(exact));
+    let (exact_offset, kept) = pair.expect("some are large");
     assert_eq!(exact_offset, kept);
     written(&short);
 

@@ -30,7 +30,8 @@ fn disc_below(at: f64, radius: f64) -> f64 {
 #[test]
 fn motion_and_defocus_are_the_convolution_of_a_box_and_a_disc() {
     for (blur, alignment, angle, speed) in [
-        // So slow that it is still: the mean of the disc's chords over a hundredth of a pixel.
+        // The edge is so slow that it is still: its blur is the mean of the disc's chords over a
+        // hundredth of a pixel.
         (BLURS[0], Alignment::Centred, 0.4, 0.01),
         (BLURS[1], Alignment::Trailing, 0.0, SPEED),
         (BLURS[0], Alignment::Leading, 0.7, SPEED),
@@ -87,8 +88,8 @@ fn a_small_disc_becomes_its_circle_of_confusion_and_keeps_its_light() {
         // Variances add up: the circle's of confusion, the disc's, and a pixel's. Measured to 0.6
         // %; a circle a hundredth too wide is off by 1.7 %.
         let expected = CIRCLE * CIRCLE / 16.0 + radius * radius / 4.0 + 1.0 / 12.0;
-        for found in (square / light).to_array() {
-            expect_near(&what, found, expected, 0.012 * expected);
+        for actual in (square / light).to_array() {
+            expect_near(&what, actual, expected, 0.012 * expected);
         }
     }
 }
@@ -137,7 +138,7 @@ fn the_sky_at_infinity_has_a_circle_of_aperture_over_focus() {
             }
         }
         let expected = sum / points;
-        let found = f64::from(frame.color.at(column, row)[0]);
-        expect_near(&format!("row {row}"), found, expected, 0.02);
+        let actual = f64::from(frame.color.at(column, row)[0]);
+        expect_near(&format!("row {row}"), actual, expected, 0.02);
     }
 }

@@ -44,17 +44,17 @@ fn spotted_wall() -> Scene {
 fn where_the_pinhole_shows_everything_the_pass_is_the_lens() {
     let scene = with_lens(spotted_wall(), 5.0, 0.5 * DISTANCE);
     let [lens, pass, pinhole] = render(&scene);
-    let [own, without] = [&pass, &pinhole].map(|picture| rms_difference(picture, &lens));
+    let [with, without] = [&pass, &pinhole].map(|picture| rms_difference(picture, &lens));
     // 256 rays of a circle of 20 pixels, and the pixels' own width once more: measured 0.008,
     // against 0.16.
-    assert!(own < 0.02 && without > 5.0 * own, "{own} {without}");
+    assert!(with < 0.02 && without > 5.0 * with, "{with} {without}");
     // The pass keeps light, except what leaves the picture on one side and comes back on the other.
     expect_near("light", mean_of(&pass) / mean_of(&lens), 1.0, 0.02);
     let cancelled = trace_defocus(&scene, &own_settings(), &|_| {
         std::ops::ControlFlow::Break(())
     });
     assert_eq!(cancelled.err(), Some(TraceError::Cancelled));
-    // The same every time.
+    // Every pass gives the same picture.
     assert_eq!(trace_pass(&scene).apply_to_color(&pinhole), pass);
 }
 
@@ -80,10 +80,10 @@ fn ball_before_wall() -> Scene {
 #[test]
 fn what_the_pinhole_hides_behind_an_edge_is_traced() {
     let [lens, pass, pinhole] = render(&ball_before_wall());
-    let [own, without] = [&pass, &pinhole].map(|picture| rms_difference(picture, &lens));
+    let [with, without] = [&pass, &pinhole].map(|picture| rms_difference(picture, &lens));
     // A pass without the wall behind the ball makes the ball's rim too dense: 0.7 of the pinhole's
     // difference.
-    assert!(own < 0.3 * without, "{own} {without}");
+    assert!(with < 0.3 * without, "{with} {without}");
 }
 
 #[test]
@@ -101,6 +101,6 @@ fn colour_comes_from_the_picture_and_coverage_sums_to_one() {
     // Far from the ball no sample is left out: a picture twice as bright comes out twice as bright.
     let bright = frame.color.map(|color| color.map(|value| 2.0 * value));
     let bright = pass.apply_to_color(&bright).at(1, 1)[0];
-    let own = picture.color.at(1, 1)[0];
-    assert!((bright - 2.0 * own).abs() < 1e-5, "{bright} {own}");
+    let plain = picture.color.at(1, 1)[0];
+    assert!((bright - 2.0 * plain).abs() < 1e-5, "{bright} {plain}");
 }

@@ -50,7 +50,7 @@ fn where_next_to_nothing_moves_everything_is_known_and_in_its_place() {
         assert_eq!(known.unknowable.pixels[pixel], 0.0);
         // Only the samples' own positions in the pixel remain, which are spread evenly.
         for axis in 0..2 {
-            let [offset, spread] = [&known.offset, &known.spread].map(|own| own.pixels[pixel]);
+            let [offset, spread] = [&known.offset, &known.spread].map(|layer| layer.pixels[pixel]);
             expect_near("offset", offset[axis].into(), 0.0, 0.01);
             expect_near("spread", spread[axis].into(), 1.0 / 12.0, 0.01);
         }
@@ -67,7 +67,15 @@ fn the_support_holds_nearly_all_that_the_lens_spreads() {
     expect_support("fan", &truth);
     // The fan's blades reach beyond where the pinhole sees them.
     let sharp = render_truth(&load_shipped("fan"), &settings(4), Alignment::Trailing);
-    let count = |truth: &Truth| truth.support.moving.pixels.iter().filter(|it| **it).count();
+    let count = |truth: &Truth| {
+        truth
+            .support
+            .moving
+            .pixels
+            .iter()
+            .filter(|moves| **moves)
+            .count()
+    };
     let [lens, pinhole] = [&truth, &sharp].map(count);
     assert!(lens as f64 > 1.1 * pinhole as f64, "{lens} {pinhole}");
 }
@@ -90,6 +98,6 @@ fn sub_frames_have_the_lens() {
     let [with, without] = [&ladder, &sharp]
         .map(|ladder| rms_difference(&ladder.rungs[0].picture(&truth.mean()).color, &instant));
     assert!(with < 0.02 && without > 2.0 * with, "{with} {without}");
-    let own = LadderTracer::new(&scene, &settings, &truth, &[1]).unwrap();
-    assert_eq!(own.trace(1, &unwatched).unwrap(), ladder);
+    let ladder_tracer = LadderTracer::new(&scene, &settings, &truth, &[1]).unwrap();
+    assert_eq!(ladder_tracer.trace(1, &unwatched).unwrap(), ladder);
 }

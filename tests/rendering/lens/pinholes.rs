@@ -44,7 +44,7 @@ fn spheres() -> Scene {
 #[test]
 fn a_frame_is_the_mean_of_shifted_pinhole_frames() {
     let lens = with_lens(spheres(), APERTURE, FOCUS);
-    let own = render_frame(&lens, &settings_of_two(SIZE, 8192));
+    let frame = render_frame(&lens, &settings_of_two(SIZE, 8192));
     let pinholes = lens_points(160).zip(1..).map(|(point, seed)| {
         let mut scene = spheres();
         let key = &mut scene.camera.motion.keys[0];
@@ -55,27 +55,27 @@ fn a_frame_is_the_mean_of_shifted_pinhole_frames() {
             size: SIZE,
             offset: offset.into(),
         };
-        // With one seed their noise would be the same, and stay in the mean.
+        // With one seed all pinholes would have the same noise, which would stay in the mean.
         let mut settings = settings_of_two(SIZE, 64);
         settings.seed = seed;
         let traced = trace_frame_part(&scene, &settings, &grid, None, &unwatched);
         traced.unwrap().frame
     });
     let pictures: Vec<Picture> = pinholes.map(|frame: Frame| frame.picture()).collect();
-    expect_same(&own.picture(), &Picture::mean(&pictures));
+    expect_same(&frame.picture(), &Picture::mean(&pictures));
 }
 
 /// Compares a picture with a mean over the points of the lens. Points next to an edge make up 0.02
 /// of it (measured 0.017 at most).
-fn expect_same(own: &Picture, mean: &Picture) {
+fn expect_same(picture: &Picture, mean: &Picture) {
     let mut worst = 0.0_f32;
-    let mut off = |own: f32, mean: f32| worst = worst.max((own - mean).abs());
-    for (own, mean) in own.color.pixels.iter().zip(&mean.color.pixels) {
-        off(own[0], mean[0]);
+    let mut off = |value: f32, mean: f32| worst = worst.max((value - mean).abs());
+    for (pixel, mean) in picture.color.pixels.iter().zip(&mean.color.pixels) {
+        off(pixel[0], mean[0]);
     }
-    for (own, mean) in own.coverage.iter().zip(&mean.coverage) {
-        let pixels = own.pixels.iter().zip(&mean.pixels);
-        pixels.for_each(|(own, mean)| off(*own, *mean));
+    for (matte, mean) in picture.coverage.iter().zip(&mean.coverage) {
+        let pixels = matte.pixels.iter().zip(&mean.pixels);
+        pixels.for_each(|(value, mean)| off(*value, *mean));
     }
     assert!(worst < 0.025, "{worst}");
 }
@@ -104,30 +104,32 @@ fn every_layer_of_a_truth_is_the_mean_of_shifted_pinhole_truths() {
         let settings = settings_of_two(SIZE, samples);
         render_truth(scene, &settings, Alignment::Trailing)
     };
-    let own = render(&with_lens(panels(DVec2::ZERO), APERTURE, FOCUS), 8192);
+    let truth = render(&with_lens(panels(DVec2::ZERO), APERTURE, FOCUS), 8192);
     let pinholes: Vec<Truth> = lens_points(64)
         .map(|point| render(&panels(point), 256))
         .collect();
     let pictures: Vec<Picture> = pinholes.iter().map(Truth::mean).collect();
-    expect_same(&own.mean(), &Picture::mean(&pictures));
+    expect_same(&truth.mean(), &Picture::mean(&pictures));
 
-    let found = own.at_instant_mean();
+    let known = truth.at_instant_mean();
     let layers: Vec<AtInstant> = pinholes.iter().map(Truth::at_instant_mean).collect();
     let mean =
         |of: &dyn Fn(&AtInstant) -> f32| layers.iter().map(of).sum::<f32>() / layers.len() as f32;
-    for pixel in 0..found.placed.pixels.len() {
+    for pixel in 0..known.placed.pixels.len() {
         let compare = |what: &str, tolerance: f64, of: &dyn Fn(&AtInstant) -> f32| {
-            let [found, expected] = [of(&found), mean(of)].map(f64::from);
+            let [actual, expected] = [of(&known), mean(of)].map(f64::from);
             let what = format!("{what} of pixel {pixel}");
-            expect_near(&what, found, expected, tolerance);
+            expect_near(&what, actual, expected, tolerance);
         };
-        compare("shift", 0.025, &|it| it.shift.pixels[pixel][0]);
-        compare("unknowable", 0.03, &|it| it.unknowable.pixels[pixel]);
-        compare("placed", 1e-5, &|it| it.placed.pixels[pixel]);
+        compare("shift", 0.025, &|instant| instant.shift.pixels[pixel][0]);
+        compare("unknowable", 0.03, &|instant| {
+            instant.unknowable.pixels[pixel]
+        });
+        compare("placed", 1e-5, &|instant| instant.placed.pixels[pixel]);
         // The panels move by 2 and 1.9 pixels while the shutter is open.
-        compare("offset x", 0.1, &|it| it.offset.pixels[pixel][0]);
-        compare("offset y", 0.1, &|it| it.offset.pixels[pixel][1]);
-        compare("spread xx", 0.3, &|it| it.spread.pixels[pixel][0]);
-        compare("spread yy", 0.3, &|it| it.spread.pixels[pixel][1]);
+        compare("offset x", 0.1, &|instant| instant.offset.pixels[pixel][0]);
+        compare("offset y", 0.1, &|instant| instant.offset.pixels[pixel][1]);
+        compare("spread xx", 0.3, &|instant| instant.spread.pixels[pixel][0]);
+        compare("spread yy", 0.3, &|instant| instant.spread.pixels[pixel][1]);
     }
 }

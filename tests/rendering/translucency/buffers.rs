@@ -53,11 +53,11 @@ fn velocity_and_depth_are_those_of_what_lies_behind_unless_a_material_says_other
     for (pane, is_written) in cases {
         let frame = render_frame(&pane_scene(pane));
         let velocity = frame.velocity.at(16, 9)[0];
-        let found = (*frame.depth.at(16, 9), *frame.object_id.at(16, 9));
+        let actual = (*frame.depth.at(16, 9), *frame.object_id.at(16, 9));
         let due = [((20.0, 1), 0.0), ((9.0, 2), 4.0)];
         let (expected, speed) = due[usize::from(is_written)];
         assert!((velocity - speed).abs() < 1e-4, "{velocity}");
-        assert_eq!(found, expected);
+        assert_eq!(actual, expected);
     }
     // Nothing opaque is behind.
     let mut scene = pane_scene(half());

@@ -42,9 +42,9 @@ fn hang(scene: &mut Scene, material: Material, z: f64) -> usize {
 }
 
 /// Fails unless all three components agree.
-fn assert_near(found: [f32; 3], expected: Vec3, tolerance: f32, what: &str) {
-    let error = (Vec3::from(found) - expected).abs().max_element();
-    assert!(error <= tolerance, "{what}: {found:?}, not {expected}");
+fn assert_near(actual: [f32; 3], expected: Vec3, tolerance: f32, what: &str) {
+    let error = (Vec3::from(actual) - expected).abs().max_element();
+    assert!(error <= tolerance, "{what}: {actual:?}, not {expected}");
 }
 
 /// Makes a floor of albedo 0.6, with a spot around the origin that the camera sees from below any
@@ -79,8 +79,8 @@ fn the_shadow_of_a_film_has_its_colour() {
             0.75 * 0.4 * Vec3::new(0.8, 0.5, 0.08),
         ][count];
         let expected = 0.6 * 2.0 * 0.8 / std::f32::consts::PI * passed;
-        let found = mean(&scene, 16);
-        assert_near(found.to_array(), expected, 1e-5, "shadow");
+        let actual = mean(&scene, 16);
+        assert_near(actual.to_array(), expected, 1e-5, "shadow");
     }
 }
 
@@ -92,10 +92,10 @@ fn the_shadow_of_glass_is_what_fresnel_lets_pass() {
     // floor and pane, so the floor is black for the reflection: only direct light counts here.
     scene.materials[0] = diffuse(0.01);
     let direct = 0.01 * 2.0 / std::f32::consts::PI * (0.96 / 1.04);
-    let found = mean(&scene, 256);
+    let actual = mean(&scene, 256);
     // The pane sends back less than a quarter of what 1 % of the floor scatters.
     let range = direct - 1e-7..1.0025 * direct;
-    assert!(range.contains(&found.x), "{found} {direct}");
+    assert!(range.contains(&actual.x), "{actual} {direct}");
 }
 
 /// A sky bright above is sampled as a light, and so is one bright below. Their sum is even, so it

@@ -32,16 +32,16 @@ fn render_frame(scene: &Scene, size: [u32; 2], sampling: ColorSampling) -> Frame
 fn films_mix_their_own_light_with_what_they_let_pass() {
     let blue = Vec3::new(0.9, 0.5, 0.1);
     let grey = |level: f32| Vec3::splat(level);
-    let own = Vec3::new(2.0, 0.1, 0.5);
+    let bright = Vec3::new(2.0, 0.1, 0.5);
     // Opacity, radiance and filter, from the farthest to the nearest.
     let stacks = [
-        vec![(0.0, own, blue)],
-        vec![(0.3, own, blue)],
-        vec![(0.8, own, blue)],
+        vec![(0.0, bright, blue)],
+        vec![(0.3, bright, blue)],
+        vec![(0.8, bright, blue)],
         vec![
             (0.25, grey(0.0), grey(0.9)),
             (0.5, grey(1.0), grey(0.8)),
-            (0.1, own, grey(0.5)),
+            (0.1, bright, grey(0.5)),
             (0.6, grey(3.0), grey(1.0)),
             (0.0, grey(4.0), blue),
         ],
@@ -51,9 +51,13 @@ fn films_mix_their_own_light_with_what_they_let_pass() {
         let mut expected = SKY;
         // A film covers by its opacity, whatever its colour.
         let mut shares = vec![1.0];
-        for (index, (opacity, own, filter)) in films.into_iter().enumerate() {
-            hang(&mut scene, film(own, opacity, filter), -10.0 + index as f64);
-            expected = opacity * own + (1.0 - opacity) * filter * expected;
+        for (index, (opacity, radiance, filter)) in films.into_iter().enumerate() {
+            hang(
+                &mut scene,
+                film(radiance, opacity, filter),
+                -10.0 + index as f64,
+            );
+            expected = opacity * radiance + (1.0 - opacity) * filter * expected;
             shares.iter_mut().for_each(|share| *share *= 1.0 - opacity);
             shares.push(opacity);
         }
@@ -65,8 +69,8 @@ fn films_mix_their_own_light_with_what_they_let_pass() {
                 assert_near(*pixel, expected, 5e-6, "films");
             }
             for (coverage, share) in picture.coverage.iter().zip(&shares) {
-                let mut found = coverage.pixels.iter();
-                assert!(found.all(|own| (own - share).abs() < 1e-6));
+                let mut pixels = coverage.pixels.iter();
+                assert!(pixels.all(|value| (value - share).abs() < 1e-6));
             }
         }
     }
@@ -95,13 +99,13 @@ fn films_at_random_look_as_a_painter_puts_them_on() {
             let at = DVec3::new(z * (2.0 * unit() - 1.0), z * (unit() - 0.5), z);
             let size = [1.0 + 4.0 * unit(), 1.0 + 3.0 * unit()];
             let mut color = || Vec3::new(unit() as f32, unit() as f32, unit() as f32);
-            let (own, filter) = (color(), color());
-            (at, size, own, unit() as f32, filter)
+            let (radiance, filter) = (color(), color());
+            (at, size, radiance, unit() as f32, filter)
         })
         .collect();
-    for (at, [width, height], own, opacity, filter) in &sheets {
+    for (at, [width, height], radiance, opacity, filter) in &sheets {
         let mesh = rectangle(*width as f32, *height as f32);
-        let material = film(*own, *opacity, *filter);
+        let material = film(*radiance, *opacity, *filter);
         add(&mut scene, mesh, material, placed(*at));
     }
     sheets.sort_by(|a, b| a.0.z.total_cmp(&b.0.z));
@@ -112,10 +116,10 @@ fn films_at_random_look_as_a_painter_puts_them_on() {
             let scale = 2.0 / 27.0;
             let [right, up] = [f64::from(x) + 0.5 - 24.0, 13.5 - (f64::from(y) + 0.5)];
             let mut expected = SKY;
-            for (at, [width, height], own, opacity, filter) in &sheets {
+            for (at, [width, height], radiance, opacity, filter) in &sheets {
                 let [u, v] = [right, up].map(|place| place * scale * -at.z);
                 if (u - at.x).abs() < 0.5 * width && (v - at.y).abs() < 0.5 * height {
-                    expected = *opacity * *own + (1.0 - opacity) * *filter * expected;
+                    expected = *opacity * *radiance + (1.0 - opacity) * *filter * expected;
                 }
             }
             let what = format!("pixel {x}, {y}");
@@ -126,13 +130,13 @@ fn films_at_random_look_as_a_painter_puts_them_on() {
 
 #[test]
 fn a_film_that_moves_counts_for_the_time_that_it_covers() {
-    let (own, opacity, filter) = (Vec3::splat(3.0), 0.4, Vec3::splat(0.5));
+    let (radiance, opacity, filter) = (Vec3::splat(3.0), 0.4, Vec3::splat(0.5));
     let normal = DVec2::from_angle(0.3);
     let mut scene = half_plane_scene(normal, &[-1.0, 1.0], |time| 2.3 + SPEED * time);
     scene.background = Background::Constant(SKY);
-    scene.materials[0] = film(own, opacity, filter);
+    scene.materials[0] = film(radiance, opacity, filter);
     let truth = render_truth(&scene, &truth_settings(), Alignment::Trailing);
-    let mixed = opacity * own + (1.0 - opacity) * filter * SKY;
+    let mixed = opacity * radiance + (1.0 - opacity) * filter * SKY;
     let [sky, through] = [SKY, mixed].map(|color| f64::from(color.x));
     let mut estimates = estimate_pixels(&truth, |x, y| {
         let share = half_plane(pixel_corner(x, y), normal, 2.3, SPEED, truth.shutter);

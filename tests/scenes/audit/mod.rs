@@ -95,8 +95,8 @@ fn audit_depth(scene: &Scene, change: impl Fn(usize, f32) -> f32) -> (Capture, C
             *depth = change(at, *depth);
         }
     }
-    let found = audit(scene, &capture);
-    (capture, found)
+    let verdict = audit(scene, &capture);
+    (capture, verdict)
 }
 
 fn without_ids(capture: &Capture) -> Capture {
@@ -110,7 +110,7 @@ fn without_ids(capture: &Capture) -> Capture {
 /// Number of an object.
 fn id_of(scene: &Scene, name: &str) -> u32 {
     let names = scene.object_names();
-    names.iter().position(|own| own == name).unwrap() as u32
+    names.iter().position(|known| known == name).unwrap() as u32
 }
 
 fn names(defect: &Defect, is_cause: impl Fn(&Cause) -> bool) -> bool {
@@ -139,11 +139,11 @@ fn expect<'a>(
 
 #[track_caller]
 fn assert_passes(scene: &Scene, capture: &Capture) {
-    let found = audit(scene, capture);
-    let passes = found.findings.is_empty() && found.shows_scene;
-    assert!(passes, "{}: {:#?}", scene.id, found.findings);
-    assert!(found.velocity.iter().all(|object| object.is_right));
-    assert!(found.alike > 0.999, "{}: {}", scene.id, found.alike);
+    let verdict = audit(scene, capture);
+    let passes = verdict.findings.is_empty() && verdict.shows_scene;
+    assert!(passes, "{}: {:#?}", scene.id, verdict.findings);
+    assert!(verdict.velocity.iter().all(|object| object.is_right));
+    assert!(verdict.alike > 0.999, "{}: {}", scene.id, verdict.alike);
 }
 
 #[test]
@@ -161,7 +161,7 @@ fn right_vectors_pass_as_half_floats() {
     let scene = load_moving();
     let mut drawn = draw(&scene, 0.0);
     let round = |part: f32| half::f16::from_f32(part).to_f32();
-    drawn.velocity = drawn.velocity.map(|it| it.map(round));
+    drawn.velocity = drawn.velocity.map(|velocity| velocity.map(round));
     assert_passes(&scene, &drawn);
 }
 
@@ -203,15 +203,17 @@ fn assert_motions_named(scenes: &[Scene]) {
     for (cause, motion) in motions {
         let mut seen = 0;
         for scene in scenes {
-            let found = audit_velocity(scene, trace_velocity(scene, &motion));
-            seen += usize::from(!found.findings.is_empty());
+            let verdict = audit_velocity(scene, trace_velocity(scene, &motion));
+            seen += usize::from(!verdict.findings.is_empty());
             let is_clock = matches!(cause, Cause::MotionOver(_));
-            let is_silent = found.findings.is_empty();
+            let is_silent = verdict.findings.is_empty();
             assert!(!is_clock || !is_silent, "{}: {cause:?}", scene.id);
-            for finding in &found.findings {
+            for finding in &verdict.findings {
                 // Without parents, an object's own motion is all of its motion.
-                let own = finding.object.is_some() && cause == Cause::ObjectMotionMissing;
-                let is_same = |it: &Cause| *it == cause || own && *it == Cause::OwnMotionMissing;
+                let is_of_object = finding.object.is_some() && cause == Cause::ObjectMotionMissing;
+                let is_same = |named: &Cause| {
+                    *named == cause || is_of_object && *named == Cause::OwnMotionMissing
+                };
                 let is_named = if is_clock {
                     finding.explanation.cause == cause
                 } else {
@@ -252,10 +254,16 @@ fn a_wrong_sign_is_named_together_with_another_cause() {
             (Cause::WrongSign, [-1.0, -1.0]),
             (Cause::FlippedY, [1.0, -1.0]),
         ] {
-            let found = audit_velocity(&scene, velocity.map(|it| [x * it[0], y * it[1]]));
-            assert!(!found.findings.is_empty(), "{cause:?}");
-            for finding in &found.findings {
-                assert!(names(finding, |it| *it == cause), "{turn:?}: {finding:#?}");
+            let verdict = audit_velocity(
+                &scene,
+                velocity.map(|vector| [x * vector[0], y * vector[1]]),
+            );
+            assert!(!verdict.findings.is_empty(), "{cause:?}");
+            for finding in &verdict.findings {
+                assert!(
+                    names(finding, |named| *named == cause),
+                    "{turn:?}: {finding:#?}"
+                );
                 assert_eq!(finding.explanation.turned, Some(turn), "{finding:#?}");
             }
         }

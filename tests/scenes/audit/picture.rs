@@ -10,7 +10,7 @@ use super::*;
 type Change = fn(&mut Capture);
 
 fn is(cause: Cause) -> impl Fn(&Cause) -> bool {
-    move |it| *it == cause
+    move |named| *named == cause
 }
 
 /// Reverses the order of the rows.
@@ -21,16 +21,16 @@ fn flip<T: Clone>(raster: &mut Raster<T>) {
 
 #[test]
 fn a_picture_of_another_scene_is_said_before_its_vectors() {
-    let found = audit(&load_moving(), &draw(&load_shipped("fan"), 0.0));
-    expect(&found, Buffer::Picture, None, is(Cause::OtherView));
+    let verdict = audit(&load_moving(), &draw(&load_shipped("fan"), 0.0));
+    expect(&verdict, Buffer::Picture, None, is(Cause::OtherView));
 }
 
 fn assert_time_named(scene: &Scene, time: f64, cause: Cause) {
     let drawn = draw(scene, time);
     for capture in [without_ids(&drawn), drawn] {
-        let found = audit(scene, &capture);
-        assert!(!found.shows_scene, "{}", scene.id);
-        expect(&found, Buffer::Picture, None, is(cause));
+        let verdict = audit(scene, &capture);
+        assert!(!verdict.shows_scene, "{}", scene.id);
+        expect(&verdict, Buffer::Picture, None, is(cause));
     }
 }
 
@@ -62,13 +62,13 @@ fn colour_tells_the_time_where_nothing_else_does() {
     assert!(late.velocity.iter().all(|object| object.is_right));
     assert!(!late.shows_scene);
     expect(&late, Buffer::Picture, None, is(Cause::DrawnLate(1)));
-    // Only the colour, if all else shows another time.
+    // Only the colour is late if all else is of the instant.
     let scene = load_moving();
     let mut mixed = draw(&scene, 0.0);
     mixed.color = draw(&scene, -1.0).color;
-    let found = audit(&scene, &mixed);
-    assert!(found.shows_scene);
-    expect(&found, Buffer::Color, None, is(Cause::DrawnLate(1)));
+    let verdict = audit(&scene, &mixed);
+    assert!(verdict.shows_scene);
+    expect(&verdict, Buffer::Color, None, is(Cause::DrawnLate(1)));
 }
 
 #[test]
@@ -80,20 +80,24 @@ fn rows_upside_down_are_named() {
         changes.iter().for_each(|change| change(&mut capture));
         capture
     };
-    let ids: Change = |it| flip(it.object_id.as_mut().unwrap());
+    let ids: Change = |capture| flip(capture.object_id.as_mut().unwrap());
     let rows: [(Change, Buffer, bool); 4] = [
-        (|it| flip(&mut it.color), Buffer::Color, true),
-        (|it| flip(&mut it.depth), Buffer::Depth, true),
-        (|it| flip(&mut it.velocity), Buffer::Velocity, true),
+        (|capture| flip(&mut capture.color), Buffer::Color, true),
+        (|capture| flip(&mut capture.depth), Buffer::Depth, true),
+        (
+            |capture| flip(&mut capture.velocity),
+            Buffer::Velocity,
+            true,
+        ),
         (ids, Buffer::ObjectId, false),
     ];
     let all = changed(&rows.map(|(change, ..)| change));
     let alone = rows.map(|(change, buffer, shows)| (changed(&[change]), buffer, shows));
     let all = [without_ids(&all), all].map(|capture| (capture, Buffer::Picture, false));
     for (capture, buffer, shows) in all.into_iter().chain(alone) {
-        let found = audit(&scene, &capture);
-        assert_eq!(found.shows_scene, shows, "{:#?}", found.findings);
-        expect(&found, buffer, None, is(Cause::UpsideDown));
+        let verdict = audit(&scene, &capture);
+        assert_eq!(verdict.shows_scene, shows, "{:#?}", verdict.findings);
+        expect(&verdict, buffer, None, is(Cause::UpsideDown));
     }
 }
 
@@ -107,12 +111,17 @@ fn an_object_that_is_not_drawn_is_no_pass() {
         key.translation.z += 50.0;
     }
     let drawn = draw(&still, 0.0);
-    let found = audit(&scene, &drawn);
-    assert!(!found.shows_scene);
-    let finding = expect(&found, Buffer::Picture, Some("disc"), is(Cause::OtherView));
+    let verdict = audit(&scene, &drawn);
+    assert!(!verdict.shows_scene);
+    let finding = expect(
+        &verdict,
+        Buffer::Picture,
+        Some("disc"),
+        is(Cause::OtherView),
+    );
     assert!(finding.text.contains("0.0 % of its "), "{}", finding.text);
     // The rest of the picture agrees.
-    assert!(found.alike > 0.8, "{}", found.alike);
+    assert!(verdict.alike > 0.8, "{}", verdict.alike);
     let without = audit(&scene, &without_ids(&drawn)).findings;
     let text = &without[0].text;
     assert!(text.contains("object.exr would show"), "{text}");
@@ -126,8 +135,8 @@ fn the_colours_of_unlit_scenes_are_compared() {
         let id = object.map(|name| id_of(&scene, name));
         let mut capture = drawn.clone();
         let ids = drawn.object_id.iter().flat_map(|ids| &ids.pixels);
-        for (color, own) in capture.color.pixels.iter_mut().zip(ids) {
-            if id.is_none_or(|id| id == *own) {
+        for (color, pixel_id) in capture.color.pixels.iter_mut().zip(ids) {
+            if id.is_none_or(|id| id == *pixel_id) {
                 *color = change(*color);
             }
         }
@@ -139,10 +148,11 @@ fn the_colours_of_unlit_scenes_are_compared() {
     let words = "colour of `car` is (0.000, 0.000, 0.000) in the mean, not (";
     assert!(finding.text.starts_with(words), "{}", finding.text);
     let swapped = recolored(Some("car"), |[red, green, blue]| [green, red, blue]);
-    let is_other = |it: &Cause| matches!(it, Cause::OtherColor(..));
+    let is_other = |cause: &Cause| matches!(cause, Cause::OtherColor(..));
     assert!(names(&swapped.findings[0], is_other), "{swapped:#?}");
     let bright = recolored(None, |color| color.map(|value| 2.0 * value));
-    let is_twice = |it: &Cause| matches!(it, Cause::Brightness(by) if (by - 2.0).abs() < 0.05);
+    let is_twice =
+        |cause: &Cause| matches!(cause, Cause::Brightness(by) if (by - 2.0).abs() < 0.05);
     let finding = expect(&bright, Buffer::Color, None, is_twice);
     assert!(finding.text.contains("`color_scale` 2.0"), "{finding:#?}");
     // Light is the engine's own choice.

@@ -35,7 +35,7 @@ fn audit_changed(
 fn expect_each(audit: &CaptureAudit, objects: &[&str], is_cause: impl Fn(&Cause) -> bool) {
     assert_eq!(audit.findings.len(), objects.len(), "{:#?}", audit.findings);
     for object in objects {
-        let is_own = |own: &&Defect| own.object.as_deref() == Some(object);
+        let is_own = |defect: &&Defect| defect.object.as_deref() == Some(object);
         let finding = audit.findings.iter().find(is_own);
         let finding = finding.unwrap_or_else(|| panic!("{object}: {:#?}", audit.findings));
         assert_eq!(finding.buffer, Buffer::Velocity);
@@ -87,9 +87,9 @@ fn an_instance_without_its_own_motion_is_named() {
     let scene = load_moving();
     let without = PointMotion::WITHOUT_OBJECTS;
     let missing = |cause: &Cause| *cause == Cause::OwnMotionMissing;
-    let found = audit_mixed(&scene, &["car"], &without);
-    expect_each(&found, &["car"], missing);
-    let text = &found.findings[0].text;
+    let verdict = audit_mixed(&scene, &["car"], &without);
+    expect_each(&verdict, &["car"], missing);
+    let text = &verdict.findings[0].text;
     let words = "velocity of `car` lacks its own motion; keep the matrix of each object, and of each instance";
     assert!(text.starts_with(words), "{text}");
 }
@@ -97,12 +97,12 @@ fn an_instance_without_its_own_motion_is_named() {
 #[test]
 fn a_child_that_moves_as_its_parent_alone_is_told_from_one_that_does_not_move() {
     let scene = with_child();
-    let [own, all] = [PointMotion::WITHOUT_OWN, PointMotion::WITHOUT_OBJECTS];
+    let [child, all] = [PointMotion::WITHOUT_OWN, PointMotion::WITHOUT_OBJECTS];
     let missing = |due: Cause| move |cause: &Cause| *cause == due;
-    let found = audit_mixed(&scene, &["disc"], &own);
-    expect_each(&found, &["disc"], missing(Cause::OwnMotionMissing));
-    let found = audit_mixed(&scene, &["disc"], &all);
-    expect_each(&found, &["disc"], missing(Cause::ObjectMotionMissing));
+    let verdict = audit_mixed(&scene, &["disc"], &child);
+    expect_each(&verdict, &["disc"], missing(Cause::OwnMotionMissing));
+    let verdict = audit_mixed(&scene, &["disc"], &all);
+    expect_each(&verdict, &["disc"], missing(Cause::ObjectMotionMissing));
 }
 
 #[test]
@@ -111,9 +111,9 @@ fn bones_and_morphs_that_are_not_kept_are_named() {
     assert_passes(&scene, &draw(&scene, 0.0));
     let without = PointMotion::WITHOUT_SHAPES;
     let missing = |cause: &Cause| *cause == Cause::DeformationMissing;
-    let found = audit_mixed(&scene, &["disc"], &without);
-    expect_each(&found, &["disc"], missing);
-    let text = &found.findings[0].text;
+    let verdict = audit_mixed(&scene, &["disc"], &without);
+    expect_each(&verdict, &["disc"], missing);
+    let text = &verdict.findings[0].text;
     assert!(
         text.contains("keep bones, morph weights or vertices"),
         "{text}"
@@ -124,7 +124,7 @@ fn bones_and_morphs_that_are_not_kept_are_named() {
 fn jitter_in_one_pass_is_an_offset_on_its_objects_and_no_scale() {
     let scene = load_moving();
     for offset in [[-0.3, 0.2], [0.45, -0.1], [0.0, 0.4]] {
-        let found = audit_changed(&scene, &["car", "disc"], |_, [x, y]| {
+        let verdict = audit_changed(&scene, &["car", "disc"], |_, [x, y]| {
             [x + offset[0], y + offset[1]]
         });
         let is_offset = |cause: &Cause| match cause {
@@ -134,8 +134,8 @@ fn jitter_in_one_pass_is_an_offset_on_its_objects_and_no_scale() {
             }
             _ => false,
         };
-        expect_each(&found, &["car", "disc"], is_offset);
-        let text = &found.findings[0].text;
+        expect_each(&verdict, &["car", "disc"], is_offset);
+        let text = &verdict.findings[0].text;
         assert!(
             text.contains("as of jitter in the pass that draws it"),
             "{text}"
@@ -148,11 +148,11 @@ fn an_object_of_another_sign_or_length_is_named_without_advice_on_the_convention
     let scene = load_moving();
     let turned = audit_changed(&scene, &["car"], |_, [x, y]| [-x, -y]);
     let twice = audit_changed(&scene, &["car"], |_, [x, y]| [2.0 * x, 2.0 * y]);
-    for (found, words) in [
+    for (verdict, words) in [
         (turned, "velocity of `car` has the wrong sign"),
         (twice, "velocity of `car` is twice too long"),
     ] {
-        let text = &found.findings[0].text;
+        let text = &verdict.findings[0].text;
         assert!(text.starts_with(words), "{text}");
         assert!(
             text.ends_with("; the convention fits other objects"),

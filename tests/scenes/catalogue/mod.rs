@@ -59,7 +59,7 @@ impl<'a> Proof<'a> {
             let rendered = (scenes.entry(scene)).or_insert_with_key(|name| render(name));
             rendered.score(filter, self.score)
         };
-        let found = score(self.scene.to_owned(), self.filter);
+        let value = score(self.scene.to_owned(), self.filter);
         let unit = match self.than {
             "-" => 1.0,
             variant if variant.starts_with('@') => {
@@ -67,8 +67,8 @@ impl<'a> Proof<'a> {
             }
             filter => score(self.scene.to_owned(), filter),
         };
-        let (row, times) = (self.row, found / unit);
-        println!("{row}: {found:.4}, {times:.2}");
+        let (row, times) = (self.row, value / unit);
+        println!("{row}: {value:.4}, {times:.2}");
         assert!((times > self.number) == self.is_more, "{row}: {times}");
     }
 }

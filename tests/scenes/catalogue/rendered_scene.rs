@@ -104,12 +104,12 @@ impl RenderedScene {
         let Some((object, metric)) = score.split_once('.') else {
             return value(&scores, score);
         };
-        let found = scores.objects.iter().find(|scores| scores.object == object);
-        let found = found.unwrap_or_else(|| panic!("there is no object {object}"));
+        let object_scores = scores.objects.iter().find(|scores| scores.object == object);
+        let object_scores = object_scores.unwrap_or_else(|| panic!("there is no object {object}"));
         let score = match metric {
-            "label_tv" => &found.label_total_variation,
-            "deficit" => &found.deficit,
-            "row_gain" => &found.row_gain,
+            "label_tv" => &object_scores.label_total_variation,
+            "deficit" => &object_scores.deficit,
+            "row_gain" => &object_scores.row_gain,
             other => panic!("{other} is asked of no object here"),
         };
         let number = score.value();
@@ -136,9 +136,9 @@ impl RenderedScene {
 /// Returns a metric's value; fails the test if it does not apply.
 pub fn value(scores: &Scores, metric: &str) -> f64 {
     let parsed: Metric = metric.parse().unwrap();
-    let found = scores.get(parsed);
-    let value = found.value();
-    value.unwrap_or_else(|| panic!("{metric} does not apply: {found:?}"))
+    let measured = scores.get(parsed);
+    let value = measured.value();
+    value.unwrap_or_else(|| panic!("{metric} does not apply: {measured:?}"))
 }
 
 /// Finds a built-in filter, and returns it with the preset's name.

@@ -124,7 +124,7 @@ fn a_zoom_is_refused_since_gltf_cannot_say_it() {
 #[test]
 fn a_texture_of_holes_is_joined_with_that_of_the_color() {
     let mut scene = load_shipped("railing");
-    let material = (scene.materials.iter_mut()).find(|own| own.diffuse_texture.is_some());
+    let material = (scene.materials.iter_mut()).find(|material| material.diffuse_texture.is_some());
     let material = material.expect("a textured material");
     let texture = material.diffuse_texture.unwrap();
     material.opacity_texture = Some(texture);
@@ -136,8 +136,8 @@ fn a_texture_of_holes_is_joined_with_that_of_the_color() {
     let joined = format!("textures/{texture}_with_opacity_{texture}.png");
     let joined = image::open(folder.path().join(joined)).unwrap().to_rgba8();
     assert_eq!(joined.dimensions(), original.dimensions());
-    for (own, given) in joined.pixels().zip(original.pixels()) {
-        assert_eq!(own.0[..3], given.0[..]);
+    for (pixel, given) in joined.pixels().zip(original.pixels()) {
+        assert_eq!(pixel.0[..3], given.0[..]);
     }
     let opacity = |x| joined.get_pixel(x, 0).0[3];
     assert_eq!([opacity(0), opacity(1)], [64, 255]);
@@ -149,7 +149,12 @@ fn films_blend_glass_transmits_and_what_gltf_cannot_say_is_refused() {
     let mut scene = load_shipped("glasshouse");
     let document = read_document(&export(&scene).unwrap());
     let materials = document["materials"].as_array().unwrap();
-    let named = |name: &str| materials.iter().find(|own| own["name"] == name).unwrap();
+    let named = |name: &str| {
+        materials
+            .iter()
+            .find(|material| material["name"] == name)
+            .unwrap()
+    };
     let (frost, glass) = (named("frost"), named("glass"));
     assert_eq!(frost["alphaMode"], "BLEND");
     assert_eq!(glass["alphaMode"], "OPAQUE");
@@ -161,7 +166,10 @@ fn films_blend_glass_transmits_and_what_gltf_cannot_say_is_refused() {
     let used = document["extensionsUsed"].as_array().unwrap();
     assert!(used.contains(&"KHR_materials_transmission".into()));
 
-    let glass = scene.materials.iter_mut().find(|own| own.name == "glass");
+    let glass = scene
+        .materials
+        .iter_mut()
+        .find(|material| material.name == "glass");
     glass.unwrap().opacity = 0.5;
     let error = export(&scene).unwrap_err();
     let words = "material glass: opacity 0.5 beside glass";
@@ -188,19 +196,24 @@ fn a_colored_emissive_texture_is_one_texture_without_a_factor() {
     let scene = load_shipped("fence@unlit");
     let folder = export(&scene).unwrap();
     let document = read_document(&folder);
-    let own = scene.materials.iter().find(|own| own.name == "red");
-    let own = own.unwrap();
+    let traced = scene
+        .materials
+        .iter()
+        .find(|material| material.name == "red");
+    let traced = traced.unwrap();
     let mut materials = document["materials"].as_array().unwrap().iter();
-    let red = materials.find(|own| own["name"] == "red").unwrap();
+    let red = materials
+        .find(|material| material["name"] == "red")
+        .unwrap();
     assert_eq!(red["emissiveFactor"], serde_json::json!([1.0, 1.0, 1.0]));
     let texture = red["emissiveTexture"]["index"].as_u64().unwrap() as usize;
     let name = document["images"][texture]["uri"].as_str().unwrap();
     let tinted = frame::read_png(&folder.path().join(name)).unwrap();
-    let original = &scene.textures[own.emission_texture.unwrap()];
+    let original = &scene.textures[traced.emission_texture.unwrap()];
     let tinted = frame::scene_linear(&tinted, 0.0);
     for (tinted, texel) in tinted.pixels.iter().zip(&original.texels) {
         for channel in 0..3 {
-            let error = tinted[channel] - texel[channel] * own.emission[channel];
+            let error = tinted[channel] - texel[channel] * traced.emission[channel];
             // Half of the widest of 255 steps.
             assert!(error.abs() < 0.005, "{tinted:?} {texel:?}");
         }
@@ -235,11 +248,11 @@ fn assert_plays(scene: &Scene) {
         let camera = scene.camera.motion.at(time);
         assert_close(scene, "camera", time, camera, played.to_world(0, seconds));
         for (index, object) in scene.objects.iter().enumerate() {
-            let own = scene.object_to_world(index, time);
-            let found = played.to_world(index + 1, seconds);
-            assert_close(scene, &object.name, time, own, found);
-            let found = by_components.to_world(index + 1, seconds);
-            assert_close(scene, &object.name, time, own, found);
+            let traced = scene.object_to_world(index, time);
+            let pose = played.to_world(index + 1, seconds);
+            assert_close(scene, &object.name, time, traced, pose);
+            let pose = by_components.to_world(index + 1, seconds);
+            assert_close(scene, &object.name, time, traced, pose);
         }
     }
     for (index, object) in scene.objects.iter().enumerate() {
@@ -249,12 +262,15 @@ fn assert_plays(scene: &Scene) {
 }
 
 /// Compares two poses' positions of the origin and of a point on each axis.
-fn assert_close(scene: &Scene, what: &str, time: f64, own: DAffine3, played: DAffine3) {
+fn assert_close(scene: &Scene, what: &str, time: f64, traced: DAffine3, played: DAffine3) {
     for point in [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z] {
-        let [own, played] = [own, played].map(|pose| pose.transform_point3(point));
-        let error = (own - played).length() / own.length().max(1.0);
+        let [traced, played] = [traced, played].map(|pose| pose.transform_point3(point));
+        let error = (traced - played).length() / traced.length().max(1.0);
         let place = format!("{}: {what} at frame {time}", scene.id);
-        assert!(error < TOLERANCE, "{place}: {own} traced, {played} in glTF");
+        assert!(
+            error < TOLERANCE,
+            "{place}: {traced} traced, {played} in glTF"
+        );
     }
 }
 
@@ -264,22 +280,37 @@ fn assert_vertices(scene: &Scene, index: usize, played: &Played, timeline: &Time
     for time in [-1.3, 0.0, 0.4] {
         let sorted = |mut corners: Vec<DVec3>| {
             corners.sort_by(|a, b| {
-                let [a, b] = [a, b].map(|own| own.to_array());
+                let [a, b] = [a, b].map(|corner| corner.to_array());
                 a.partial_cmp(&b).expect("finite")
             });
             corners
         };
-        let own = (mesh.triangles.iter().flatten()).map(|corner| vertex(mesh, *corner, time));
-        let found = played.corners(index + 1, timeline.seconds(time));
-        assert_eq!(found.len(), 3 * mesh.triangles.len(), "{}", scene.id);
+        let traced = (mesh.triangles.iter().flatten()).map(|corner| vertex(mesh, *corner, time));
+        let played_corners = played.corners(index + 1, timeline.seconds(time));
+        assert_eq!(
+            played_corners.len(),
+            3 * mesh.triangles.len(),
+            "{}",
+            scene.id
+        );
         if mesh.shapes.is_empty() {
-            assert_eq!(sorted(found), sorted(own.collect()), "{}", scene.id);
+            assert_eq!(
+                sorted(played_corners),
+                sorted(traced.collect()),
+                "{}",
+                scene.id
+            );
             continue;
         }
         // Rounding may change the order of moved vertices, so sums over all of them are compared.
-        let sum = |corners: &[DVec3]| corners.iter().map(|own| *own * own.length()).sum::<DVec3>();
-        let own: Vec<DVec3> = own.collect();
-        let error = (sum(&own) - sum(&found)).length() / own.len() as f64;
+        let sum = |corners: &[DVec3]| {
+            corners
+                .iter()
+                .map(|corner| *corner * corner.length())
+                .sum::<DVec3>()
+        };
+        let traced: Vec<DVec3> = traced.collect();
+        let error = (sum(&traced) - sum(&played_corners)).length() / traced.len() as f64;
         assert!(error < TOLERANCE, "{} at frame {time}: {error}", scene.id);
     }
 }

@@ -52,17 +52,17 @@ impl Played {
 
     /// Returns whether a material cuts its texture's transparent parts out.
     pub fn has_holes(&self, material: &str) -> bool {
-        let own = (self.document.materials()).find(|own| own.name() == Some(material));
-        own.expect("a material of this name").alpha_mode() == gltf::material::AlphaMode::Mask
+        let entry = (self.document.materials()).find(|entry| entry.name() == Some(material));
+        entry.expect("a material of this name").alpha_mode() == gltf::material::AlphaMode::Mask
     }
 
     /// Returns the transform from a node's space to the world at a time in seconds.
     pub fn to_world(&self, node: usize, seconds: f64) -> DAffine3 {
-        let own = self.pose(node, seconds);
+        let local = self.pose(node, seconds);
         let is_parent = |other: &Node| other.children().any(|child| child.index() == node);
         match self.document.nodes().find(is_parent) {
-            Some(parent) => self.to_world(parent.index(), seconds) * own,
-            None => own,
+            Some(parent) => self.to_world(parent.index(), seconds) * local,
+            None => local,
         }
     }
 
@@ -116,7 +116,7 @@ impl Played {
     }
 
     fn keys(&self, node: usize, property: Property) -> Option<Keys> {
-        let mut channels = (self.document.animations()).flat_map(|own| own.channels());
+        let mut channels = (self.document.animations()).flat_map(|animation| animation.channels());
         let channel = channels.find(|channel| {
             channel.target().node().index() == node && channel.target().property() == property
         })?;

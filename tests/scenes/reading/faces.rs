@@ -194,7 +194,7 @@ fn a_convex_face_is_a_fan_from_its_first_corner_and_so_is_a_twisted_one() {
         load_mesh(&[flat]).triangles,
         [[0, 1, 2], [0, 2, 3], [0, 3, 4]]
     );
-    // Seen from +Z its sides cross, but one passes far above the other.
+    // The quad's sides cross if seen from +Z, but one passes far above the other.
     let twisted = corners(&[
         [0.0, 0.0, 0.0],
         [1.0, 1.0, 1.0],
@@ -204,7 +204,7 @@ fn a_convex_face_is_a_fan_from_its_first_corner_and_so_is_a_twisted_one() {
     assert_eq!(load_mesh(&[twisted]).triangles, [[0, 1, 2], [0, 2, 3]]);
 }
 
-/// What the sides surround is covered, in any plane.
+/// The triangles cover the area that the sides surround, in any plane.
 #[test]
 fn a_quad_that_crosses_itself_is_two_triangles_that_meet_there() {
     let mut numbers = Numbers(5 << 32);

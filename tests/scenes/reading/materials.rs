@@ -100,8 +100,8 @@ fn load_blended(statements: &str, keys: &str) -> [Material; 2] {
     let materials = scene.objects[1].materials.iter();
     let materials: Vec<&Material> = materials.map(|index| &scene.materials[*index]).collect();
     ["paint", "glow"].map(|name| {
-        let found = materials.iter().find(|material| material.name == name);
-        (*found.expect("it is there")).clone()
+        let material = materials.iter().find(|material| material.name == name);
+        (*material.expect("it is there")).clone()
     })
 }
 

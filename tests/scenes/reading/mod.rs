@@ -20,7 +20,7 @@ fn the_documented_example_loads() {
     let (_, example) = readme.split_once("```toml\n").unwrap();
     let (example, _) = example.split_once("```").unwrap();
     folder.write("scene.toml", example);
-    // The same mesh with the example's names.
+    // The mesh has the names of the example.
     folder.write("car.obj", OBJ.replace("g left", "g wheel"));
     for shape in 0..3 {
         let bent = OBJ.replace("v 1 1 0", &format!("v 1 1 {shape}"));
@@ -42,7 +42,9 @@ fn the_documented_example_loads() {
     assert_eq!(scene.shutter_profile.efficiency, trapezoid);
     assert_eq!(scene.shutter_profile.rolling, 0.05);
     let objects = scene.objects.iter();
-    let parents: Vec<_> = objects.map(|own| (own.name.as_str(), own.parent)).collect();
+    let parents: Vec<_> = objects
+        .map(|object| (object.name.as_str(), object.parent))
+        .collect();
     let expected = [
         ("car", Parent::World),
         ("wheel", Parent::Object(0)),

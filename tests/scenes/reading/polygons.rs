@@ -142,18 +142,18 @@ fn is_clear(polygon: &Polygon, corner: usize) -> bool {
     let mut sides = (0..count).map(|other| (other, side(other)));
     let [before, after] = [corner + count - 1, corner].map(|index| index % count);
     sides.all(|(other, ends)| {
-        [before, after].into_iter().all(|own| {
-            let [near, far] = [(own + 1) % count, (own + count - 1) % count];
-            if other == own {
+        [before, after].into_iter().all(|edge| {
+            let [near, far] = [(edge + 1) % count, (edge + count - 1) % count];
+            if other == edge {
                 ends[0].distance(ends[1]) > 0.02
             } else if other == near || other == far {
                 // Neighbours meet in a corner; they must not fold back.
-                let [a, b] = side(own);
+                let [a, b] = side(edge);
                 let [c, d] = ends;
                 let turn = (b - a).normalize().perp_dot((d - c).normalize());
                 turn.abs() > 0.02
             } else {
-                gap(side(own), ends) > 0.01
+                gap(side(edge), ends) > 0.01
             }
         })
     })

@@ -44,7 +44,7 @@ pub fn decoys(scene: &Scene, frame: &Frame) -> Vec<(&'static str, Picture)> {
 /// Thins the dilated picture until every object has its true mass; the instant fills the gaps.
 fn rescale(right: &Picture, wide: &Picture, instant: &Picture) -> Picture {
     let mass = |picture: &Picture| -> f64 {
-        let pixels = picture.coverage[1..].iter().flat_map(|it| &it.pixels);
+        let pixels = picture.coverage[1..].iter().flat_map(|matte| &matte.pixels);
         pixels.map(|a| f64::from(*a)).sum()
     };
     let part = (mass(right) / mass(wide)) as f32;
@@ -82,8 +82,8 @@ pub fn map_planes(picture: &Picture, change: impl Fn(&Plane) -> Plane) -> Pictur
     }
 }
 
-/// Averages for each pixel what is ahead along its own velocity, in 64 steps. Nothing is carried
-/// beyond an outline.
+/// Averages for each pixel the colours ahead of it along its own velocity, in 64 steps. Nothing is
+/// carried beyond an outline.
 fn gather(frame: &Frame) -> Picture {
     let (width, height) = frame.size();
     let taps = |x: u32, y: u32| {

@@ -37,7 +37,7 @@ pub fn touch(right: &Picture, still: &Raster<bool>) -> Vec<(&'static str, Pictur
 
 /// Takes the pixels of `inside` from another image.
 fn swap(right: &Picture, other: &Image, inside: &Raster<bool>) -> Picture {
-    let chosen = right.color.zip(other, |own, other| [*own, *other]);
+    let chosen = right.color.zip(other, |color, other| [*color, *other]);
     Picture {
         color: chosen.zip(inside, |pair, inside| pair[usize::from(*inside)]),
         ..right.clone()
@@ -50,7 +50,7 @@ fn scale(right: &Picture, inside: &Raster<bool>, factor: impl FnMut(u32, u32) ->
     let factors = Raster::from_fn(width, height, factor);
     let changed = right
         .color
-        .zip(&factors, |color, factor| color.map(|own| own * factor));
+        .zip(&factors, |color, factor| color.map(|part| part * factor));
     swap(right, &changed, inside)
 }
 

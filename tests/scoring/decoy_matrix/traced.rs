@@ -13,7 +13,7 @@ use super::touches::touch;
 
 /// Standard deviation of the blur of a good guess, in pixels.
 const GUESS: f64 = 1.0;
-/// The same for the surroundings that replace an erased object.
+/// Standard deviation of the blur of the surroundings that replace an erased object, in pixels.
 const FILLED: f64 = 8.0;
 
 /// A scene with the objects that mistakes are made of; none if it has no such object.
@@ -115,19 +115,23 @@ fn sharpen(right: &Picture, frame: &Frame, names: &str) -> Picture {
 
 /// Erases an object: what surrounds its smear replaces it.
 fn erase(right: &Picture, frame: &Frame, name: &str) -> Picture {
-    let object = frame.objects.iter().position(|own| own == name).unwrap();
+    let object = frame
+        .objects
+        .iter()
+        .position(|object_name| object_name == name)
+        .unwrap();
     let matte = &right.coverage[object];
     let shown = matte.map(|matte| f32::from(*matte > 0.0));
     // A matte of known pixels is blurred with their colours, which are divided by it.
     let known = Picture {
-        color: right
-            .color
-            .zip(&shown, |color, shown| color.map(|own| own * (1.0 - shown))),
+        color: right.color.zip(&shown, |color, shown| {
+            color.map(|part| part * (1.0 - shown))
+        }),
         coverage: vec![shown.map(|shown| 1.0 - shown)],
     };
     let spread = blur_isotropically(&known, FILLED);
     let filled = (spread.color).zip(&spread.coverage[0], |color, known| {
-        color.map(|own| own / known.max(f32::MIN_POSITIVE))
+        color.map(|part| part / known.max(f32::MIN_POSITIVE))
     });
     Picture {
         color: mix_by(&right.color, &filled, &shown),
@@ -144,7 +148,7 @@ fn guess_badly(right: &Picture, truth: &Truth) -> Picture {
     }
 }
 
-/// Fills it with its own colours, without their detail.
+/// Fills the unknowable part with its own colours, without their detail.
 fn guess_well(right: &Picture, truth: &Truth) -> Picture {
     let blurred = blur_isotropically(right, GUESS).color;
     Picture {

@@ -61,8 +61,8 @@ fn the_floor_of_growth_is_the_difference_between_the_instant_s_rows() {
 fn a_blur_of_the_wrong_length_is_misplaced_by_half_the_difference() {
     for (degrees, disc) in discs() {
         let lengths = [0.0, 0.5, 1.5];
-        let found = disc.score_blurs(lengths.map(|length| smear(-length, 0.0)));
-        for (scores, length) in found.iter().zip(lengths) {
+        let all_scores = disc.score_blurs(lengths.map(|length| smear(-length, 0.0)));
+        for (scores, length) in all_scores.iter().zip(lengths) {
             let ahead = TRAVEL * (1.0 - length) / 2.0;
             let extent = spread_of_disc(TRAVEL * length) / spread_of_disc(TRAVEL);
             // Mattes have 512 samples, and rows are one pixel wide at an angle: hundredths of a
@@ -76,9 +76,9 @@ fn a_blur_of_the_wrong_length_is_misplaced_by_half_the_difference() {
             assert_scores(&what, scores, &expected);
         }
         let what = format!("length 1.5 at {degrees} degrees");
-        assert_large(&what, &found[2], "bleed_trailing");
-        assert_scores(&what, &found[2], &[("bleed_leading", 0.0, NOTHING)]);
-        assert_scores(&what, &found[2], &[("lateral_growth", 0.0, ROWS)]);
+        assert_large(&what, &all_scores[2], "bleed_trailing");
+        assert_scores(&what, &all_scores[2], &[("bleed_leading", 0.0, NOTHING)]);
+        assert_scores(&what, &all_scores[2], &[("lateral_growth", 0.0, ROWS)]);
     }
 }
 

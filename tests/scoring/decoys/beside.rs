@@ -12,8 +12,8 @@ fn lateral_growth_equals_the_dilation_in_pixels() {
         let bar = bar([18.0, 6.0], degrees.to_radians());
         for (case, name) in [(disc, "disc"), (&Case::new(slide(bar, degrees)), "bar")] {
             let dilations = [0.5, 1.0, 2.0, 6.0];
-            let found = case.score_blurs(dilations.map(dilated));
-            for (scores, dilation) in found.iter().zip(dilations) {
+            let all_scores = case.score_blurs(dilations.map(dilated));
+            for (scores, dilation) in all_scores.iter().zip(dilations) {
                 // The silhouette's length is known to 2 % for a disc at any angle, and to 4 % for a
                 // bar: its gradients span two pixels. A hundredth of a pixel is gained inside.
                 let tolerance = match name {
@@ -36,8 +36,8 @@ fn a_dilated_slanted_outline_grows_beside_its_rows_and_gains_inside() {
     for degrees in ANGLES {
         let case = Case::new(slide(bar([18.0, 6.0], degrees.to_radians() + 0.4), degrees));
         let dilations = [2.0, 6.0];
-        let found = case.score_blurs(dilations.map(dilated));
-        for (scores, dilation) in found.iter().zip(dilations) {
+        let all_scores = case.score_blurs(dilations.map(dilated));
+        for (scores, dilation) in all_scores.iter().zip(dilations) {
             let [growth, gain, loss] = ROW_MASS.map(|name| find_value(scores, name));
             let what = format!("dilation of a slanted bar at {degrees} degrees");
             assert_near(&what, growth + gain, dilation, 0.1);

@@ -74,8 +74,8 @@ fn discs() -> impl Iterator<Item = (f64, &'static Case)> {
 #[track_caller]
 fn assert_large(what: &str, scores: &Scores, names: &str) {
     for name in names.split(' ') {
-        let found = find_value(scores, name);
-        assert!(found > 1.0, "{name} of {what}: {found}");
+        let score = find_value(scores, name);
+        assert!(score > 1.0, "{name} of {what}: {score}");
     }
 }
 
@@ -89,8 +89,8 @@ fn a_constant_picture_keeps_the_energy_and_fails_everything_else() {
     assert_large("a constant", scores, pixels);
     let others = "misplacement extent label_tv flip_moving".split(' ');
     for (name, least) in others.zip([10.0, 2.0, 0.1, 0.1]) {
-        let found = find_value(scores, name);
-        assert!(found > least, "{name}: {found}");
+        let score = find_value(scores, name);
+        assert!(score > least, "{name}: {score}");
     }
 }
 

@@ -51,7 +51,8 @@ fn errors_of_colour_use_the_viewing_exposure() {
     assert!((find_value(&scores, "mse_full") - 0.25).abs() < 1e-5);
     assert!((find_value(&scores, "psnr_full") - 6.0206).abs() < 1e-3);
     let values = truth.mean().color.pixels;
-    let terms = (values.iter().flatten()).map(|it| 0.25 / ((4.0 * f64::from(*it)).powi(2) + 0.01));
+    let terms =
+        (values.iter().flatten()).map(|value| 0.25 / ((4.0 * f64::from(*value)).powi(2) + 0.01));
     let expected = terms.sum::<f64>() / (3.0 * 4800.0);
     assert!((find_value(&scores, "relmse_full") / expected - 1.0).abs() < 1e-4);
 }

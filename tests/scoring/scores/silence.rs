@@ -33,7 +33,7 @@ fn turning_arm(turn: f64, travel: f64) -> Scene {
 
 #[test]
 fn a_rotation_has_no_row_scores_but_bleeds() {
-    // In place, and while it travels: the mean velocity is zero, and not zero.
+    // The arm turns in place, with a mean velocity of zero, and while it travels, with another.
     for travel in [0.0, 4.0] {
         let scores = measure_blur(&turning_arm(0.8, travel), Blur::IDENTITY).scores;
         for metric in ROW_SCORES.split(' ') {
@@ -101,7 +101,7 @@ fn a_scene_without_motion_has_nothing_to_score_but_stillness() {
         ("flip_moving", "nothing moves on screen"),
         ("label_tv", "nothing moves on screen"),
         ("lateral_growth", "no object moves on screen"),
-        // Nor is there a ladder to count by.
+        // The scores have no ladder to count sub-frames by.
         ("n_eq", "no ladder of accumulations was given"),
     ] {
         assert_eq!(find_reason(&scores, metric), reason);

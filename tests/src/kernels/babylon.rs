@@ -1,6 +1,6 @@
 //! Both modes of Babylon.js's motion blur.
 
-use super::{Steady, Tap, nearest, own, tap};
+use super::{Steady, Tap, nearest, tap, tap_here};
 use crate::vector::{direction, length, scaled};
 
 /// Most taps.
@@ -56,7 +56,7 @@ fn with_nearest(offsets: impl Iterator<Item = [f64; 2]>) -> Vec<Tap> {
         columns.map(|x| rows.map(|y| [x, y])).concat()
     });
     let taps = taps.map(|offset| tap(offset, 0.25));
-    [own(1.0)].into_iter().chain(taps).collect()
+    [tap_here(1.0)].into_iter().chain(taps).collect()
 }
 
 fn nearest_two(offset: f64) -> [f64; 2] {

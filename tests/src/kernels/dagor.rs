@@ -1,7 +1,7 @@
 //! Dagor Engine, 2026.
 
 use super::tiles::{cone, cylinder};
-use super::{Steady, Tap, bilinear, own};
+use super::{Steady, Tap, bilinear, tap_here};
 use crate::vector::{Vec2, direction, length, scaled};
 
 /// Side of a tile, in pixels.
@@ -55,7 +55,7 @@ fn gather(motion: Vec2, longest: Vec2, count: u32, noise: f64) -> Vec<Tap> {
     // A slow pixel's own direction is mixed with the one across.
     let trust = ((reach - 0.5) / 1.5).clamp(0.0, 1.0);
     let aligned = trust / length([trust, 1.0 - trust]);
-    let mut taps = vec![own(f64::from(count) / (40.0 * reach))];
+    let mut taps = vec![tap_here(f64::from(count) / (40.0 * reach))];
     for i in 0..count {
         let (pair, is_ahead) = (i / 2, i % 2 == 0);
         let path = if pair % 2 == 0 { motion } else { longest };

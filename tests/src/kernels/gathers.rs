@@ -1,6 +1,6 @@
 //! Filters that average along a pixel's own motion, or along motion from a nearby pixel.
 
-use super::{Steady, Tap, at_pixels, bilinear, on_trail, own};
+use super::{Steady, Tap, at_pixels, bilinear, on_trail, tap_here};
 use crate::vector::{length, scaled};
 
 /// Places the taps at i/N of the trail: Ctrl-Alt-Test 2011, and the blur by the camera's motion.
@@ -30,7 +30,7 @@ pub fn centred(preset: &str, steady: &Steady) -> Vec<Tap> {
     let taps = (0..64).map(|i| first + f64::from(i));
     let taps = taps.take_while(|tap| *tap <= last);
     let mut taps = on_trail(steady.trail(), taps.map(|tap| tap / count - 0.5));
-    taps.extend(has_own.then(|| own(1.0)));
+    taps.extend(has_own.then(|| tap_here(1.0)));
     taps
 }
 
@@ -43,7 +43,7 @@ pub fn jump_flood(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
         // The pixel itself, and an even trail of seven taps.
         "july_2024" => {
             let mut taps = on_trail(trail, (1..8).map(|i| (f64::from(i) + noise - 1.0) / 7.0));
-            taps.push(own(1.0));
+            taps.push(tap_here(1.0));
             taps
         }
         "corrected" | "tuned" => on_trail(trail, (0..8).map(|i| (f64::from(i) + noise) / 8.0)),
@@ -78,7 +78,7 @@ pub fn bevy(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
         _ => panic!("say here how many samples {preset} has"),
     };
     if length(steady.velocity) < 1.0 {
-        return vec![own(1.0)];
+        return vec![tap_here(1.0)];
     }
     let parts = (-samples..samples).map(|i| 0.5 * (f64::from(i) + noise) / f64::from(samples));
     match preset {
@@ -92,7 +92,7 @@ pub fn bevy(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
 pub fn blender(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     let half = scaled(steady.trail(), 0.5);
     if length(half) < 0.5 {
-        return vec![own(1.0)];
+        return vec![tap_here(1.0)];
     }
     let samples = match preset {
         "compositor" => 32,
@@ -113,7 +113,7 @@ pub fn blender(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
 pub fn three(preset: &str, steady: &Steady) -> Vec<Tap> {
     let parts = (1..=16).map(|i| f64::from(i) / 15.0 - 0.5);
     let mut taps = on_trail(three_trail(preset, steady), parts);
-    taps.push(own(1.0));
+    taps.push(tap_here(1.0));
     taps
 }
 
@@ -138,7 +138,7 @@ pub fn realism_effects(steady: &Steady, noise: f64) -> Vec<Tap> {
         let offset = [0, 1].map(|axis| (part + noises[axis]) * trail[axis]);
         bilinear(offset, 1.0)
     });
-    taps.chain([own(1.0)]).collect()
+    taps.chain([tap_here(1.0)]).collect()
 }
 
 /// Places the taps of Unity's URP, at the nearest pixels: even steps, all shifted back by noise.
@@ -166,7 +166,7 @@ pub fn vort(steady: &Steady, noise: f64) -> Vec<Tap> {
     let center = (0.05 * count / reach).min(1.0);
     let front = count / (2.0 * count + 1.0);
     let back = (1.0 - front) / (count + center);
-    let mut taps = vec![own(back * center)];
+    let mut taps = vec![tap_here(back * center)];
     taps.extend((0..count as u32).flat_map(|i| {
         let parts = [f64::from(i) + noise, noise - f64::from(i + 1)];
         let weight = 0.5 * back + 0.5 * front / count;

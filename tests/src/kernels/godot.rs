@@ -12,19 +12,19 @@ pub fn place_taps(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
         "mended" => 128.0,
         _ => panic!("say here how long the trails of {preset} are"),
     };
-    let own = scaled(
+    let trail = scaled(
         steady.trail(),
         (cut / length(steady.trail())).min(1.0) / 2.0,
     );
     let near = match preset {
         // As 16 bits hold them, 11.999 are 12.
         "addon" | "mended" => scaled(
-            scaled(own, 2.0).map(|part| f64::from((part as f32).trunc())),
+            scaled(trail, 2.0).map(|part| f64::from((part as f32).trunc())),
             0.5,
         ),
-        _ => own,
+        _ => trail,
     };
-    let covered = (length(near) / length(own)).sqrt();
+    let covered = (length(near) / length(trail)).sqrt();
     let parts = (0..8).flat_map(|i| {
         let [ahead, behind] = match preset {
             "engine" => [8.0 - f64::from(i) - noise; 2],
@@ -34,7 +34,7 @@ pub fn place_taps(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     });
     let tap = |offset, weight| Tap { offset, weight };
     let taps = |part| {
-        [(own, 1.0 - covered), (near, covered)]
+        [(trail, 1.0 - covered), (near, covered)]
             .map(|(path, weight)| tap(scaled(path, part).map(nearest), weight))
     };
     parts.flat_map(taps).collect()

@@ -3,7 +3,7 @@
 //! If everything moves alike at one depth, weights are 1, except those of kajiya, which compare in
 //! pixels.
 
-use super::{Steady, Tap, at_pixels, bilinear, nearest_tap, on_trail, own, tap};
+use super::{Steady, Tap, at_pixels, bilinear, nearest_tap, on_trail, tap, tap_here};
 use crate::vector::{length, scaled};
 
 /// Returns the taps of a preset.
@@ -41,7 +41,7 @@ fn hdrp(steady: &Steady, noise: f64) -> Vec<Tap> {
     // Lengths are in parts of the picture, times its diagonal.
     let pixels = length([motion[0] / width, motion[1] / height]) * width.hypot(height);
     if pixels <= 2.0 {
-        return vec![own(1.0)];
+        return vec![tap_here(1.0)];
     }
     let motion = scaled(motion, (200.0 / pixels).min(1.0));
     let whole = pixels.min(200.0).floor() as u32;
@@ -58,7 +58,7 @@ fn hdrp(steady: &Steady, noise: f64) -> Vec<Tap> {
 fn o3de(steady: &Steady, strength: f64, noise: f64) -> Vec<Tap> {
     let motion = scaled(steady.trail(), strength);
     if length(motion) < 1.0 {
-        return vec![own(1.0)];
+        return vec![tap_here(1.0)];
     }
     let dither = if noise < 0.5 { -0.25 } else { 0.25 };
     let step = scaled(motion, 1.0 / 24.0);
@@ -77,7 +77,7 @@ fn wicked(half: [f64; 2], noise: f64) -> Vec<Tap> {
 /// Places the taps of motion_blur.rs of kajiya: the pixel and three steps on each side, of an
 /// eighth of half the motion, shifted together.
 fn kajiya(steady: &Steady, scale: f64, noise: f64) -> Vec<Tap> {
-    // Its map of motion points back.
+    // The map of motion of kajiya points back.
     let half = scaled(steady.trail(), -0.5 * scale);
     let shift = 0.5 * ((noise * 32.0).floor() - 15.0) / 15.0;
     let along = |steps: f64| scaled(half, steps / 4.0 * 0.5);

@@ -1,6 +1,6 @@
 //! KinoMotion, 2016.
 
-use super::{Steady, Tap, bilinear, own};
+use super::{Steady, Tap, bilinear, tap_here};
 use crate::vector::{length, scaled};
 
 /// Returns the taps of its presets.
@@ -8,7 +8,7 @@ pub fn place_taps(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     let motion = packed(steady);
     let reach = length(motion);
     if reach < 2.0 {
-        return vec![own(1.0)];
+        return vec![tap_here(1.0)];
     }
     let most: f64 = match preset {
         "default" => 4.0,
@@ -19,7 +19,7 @@ pub fn place_taps(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     let step = 1.0 / pairs;
     let shift = (noise - 0.5) * step;
     let window = |along: f64| if preset == "mended" { 1.0 } else { 1.2 - along };
-    let mut taps = vec![own(window(0.0) * step / (2.0 * reach))];
+    let mut taps = vec![tap_here(window(0.0) * step / (2.0 * reach))];
     for pair in 0..pairs as u32 {
         let along = 1.0 - (f64::from(pair) + 0.5) * step;
         for place in [along + shift, -along + shift] {

@@ -3,7 +3,7 @@
 //! If everything moves alike at one depth, every tap is both in front and behind: two cones and two
 //! cylinders.
 
-use super::{Steady, Tap, bilinear, nearest, own, tap};
+use super::{Steady, Tap, bilinear, nearest, tap, tap_here};
 use crate::vector::{length, scaled};
 
 /// Places the taps of McGuire et al. 2012, and of two implementations.
@@ -17,7 +17,7 @@ pub fn mcguire(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
             let (count, spread) = if is_paper { (15, 1.0) } else { (13, 1.2) };
             let half = half_velocity(half, 20.0);
             let radius = length(half);
-            let mut taps = vec![own(1.0 / radius)];
+            let mut taps = vec![tap_here(1.0 / radius)];
             taps.extend((0..count).filter(|i| *i != count / 2).map(|i| {
                 let place: f64 = spread * along(i, noise - 0.5, count);
                 let offset = scaled(half, place.clamp(-1.0, 1.0)).map(nearest);
@@ -32,7 +32,7 @@ pub fn mcguire(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
         "motion_blur_demo" => {
             let half = scaled(half, (10.0 / length(half)).min(1.0));
             let jitter = 2.0 * (noise * std::f64::consts::TAU).sin().rem_euclid(1.0) - 1.0;
-            let mut taps = vec![own(1.0 / length(half))];
+            let mut taps = vec![tap_here(1.0 / length(half))];
             taps.extend((0..15).flat_map(|i| bilinear(scaled(half, along(i, jitter, 15)), 4.0)));
             taps
         }
@@ -41,7 +41,7 @@ pub fn mcguire(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
         "g3d" => {
             let half = half_velocity(half, 64.0);
             let radius = length(half);
-            let mut taps = vec![own(27.0 / 40.0 / radius)];
+            let mut taps = vec![tap_here(27.0 / 40.0 / radius)];
             taps.extend((0..27).filter(|i| *i != 13).map(|i| {
                 let place = (1.2 * along(i, noise - 0.5, 27)).clamp(-1.0, 1.0);
                 let weight = 2.0 * cone(place.abs() * radius, radius) + 2.0;
@@ -66,7 +66,7 @@ pub fn guertin(steady: &Steady, noise: f64) -> Vec<Tap> {
     // A slow pixel's own direction is mixed with the one across.
     let trust = ((radius - 0.5) / 1.5).clamp(0.0, 1.0);
     let aligned = trust / length([trust, 1.0 - trust]);
-    let mut taps = vec![own(35.0 / 40.0 / radius)];
+    let mut taps = vec![tap_here(35.0 / 40.0 / radius)];
     taps.extend((0..35).map(|i| {
         let place = along(i, jitter, 35);
         let distance = place.abs() * radius;
