@@ -60,7 +60,7 @@ fn fuzz(target: &Target, program: &Program, cases: u32, seed: u64) -> Result<(),
         cases,
         rng_seed: RngSeed::Fixed(seed),
         failure_persistence: None,
-        max_shrink_iters: 200,
+        max_shrink_iters: 50,
         ..Config::default()
     };
     let mut runner = TestRunner::new(config);

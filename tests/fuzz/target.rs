@@ -73,8 +73,7 @@ impl Target {
             let (code, printed) = program.run(&words, &folder, self.time_limit.unwrap_or(60));
             let is_slow_line = code == KILLED && self.commands.is_empty();
             if !CODES.contains(&code) && !is_slow_line {
-                let end: Vec<&str> = printed.lines().rev().take(3).collect();
-                return Err(format!("exit code {code}: {}", end.join(" ")));
+                return Err(format!("exit code {code}: {}", printed.trim()));
             }
             if printed.contains(CANARY) {
                 return Err(format!("a file outside was read: {printed}"));
@@ -130,7 +129,8 @@ impl Program {
         let script = format!("ulimit -v 4194304; exec timeout -s KILL {time_limit} \"$0\" \"$@\"");
         let mut command = Command::new("sh");
         command.args(["-c", &script]).arg(&self.path).args(words);
-        let output = command.current_dir(folder).output().unwrap();
+        command.current_dir(folder).env("RUST_BACKTRACE", "0");
+        let output = command.output().unwrap();
         let signal = || KILLED - 9 + output.status.signal().unwrap_or_default();
         let code = output.status.code().unwrap_or_else(signal);
         let printed = [output.stdout, output.stderr].concat();
