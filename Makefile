@@ -49,7 +49,7 @@ PARTS ?= breadth guides pictures fuzz mutants growth
 # Pictures that `make prove` compares; the others take an hour.
 PROVED = report,first_ten_minutes,fan,camera_only
 
-# Minutes of the fuzzer, and of the mutants in `make prove`.
+# Minutes of the fuzzer.
 MINUTES ?= 10
 
 prove:
@@ -69,19 +69,15 @@ breadth: software_vulkan python chromium node glslang blender site
 guides: software_vulkan python glslang
 	$(TEST) --test command_line -- --ignored --nocapture --test-threads 1 guides
 
-# How long to fuzz, what, and from which numbers on: `make fuzz MINUTES=1 TARGETS=scene,obj SEED=7`. See docs/fuzzing.md.
+# How long to fuzz, what, and from which seed on: `make fuzz MINUTES=1 TARGETS=scene,obj SEED=7`. See docs/fuzzing.md.
 SEED ?= $(shell date +%s)
 
 fuzz: software_vulkan
-	$(TEST) --test fuzz -- --cases 2000 --minutes $(MINUTES) --seed $(SEED) \
-	    $(if $(TARGETS),--targets $(TARGETS))
+	MINUTES=$(MINUTES) SEED=$(SEED) TARGETS=$(TARGETS) $(TEST) --test fuzz
 
-# Changes shipped kernels in small ways and counts the changes that the limits notice: `make mutants SIZE=128x72 FILTERS=kino:default`.
-# See results/studies/mutation.md.
+# Changes shipped kernels in small ways and counts the changes that the limits notice: results/studies/mutation.md.
 mutants: software_vulkan
-	$(TEST) --test mutants -- $(call given,FILTERS,--filters) $(call given,SCENES,--scenes) \
-	    $(call given,SIZE,--size) $(call given,SAMPLES,--samples-per-pixel) $(call given,COUNT,--count) \
-	    $(call given,MINUTES,--minutes) $(call given,OUT,--out)
+	$(SOFTWARE) cargo run --locked -p cli --example mutants
 
 # Joins, judges and reports a run of 10,000 cases, copies of a small one: docs/many-machines.md.
 GROWTH = $(TARGET_DIR)/tmp/growth
@@ -92,9 +88,6 @@ growth: software_vulkan python
 	$(TEST) --no-run
 	"$(PROGRAM)" check --scenes sliding_panel --filter mcguire:paper --size 160x90 --samples-per-pixel 64 --out "$(GROWTH)/small"
 	"$(PYTHON)" examples/growth.py "$(GROWTH)/small" --scenes 100 --filters 94 --out "$(GROWTH)/large" --program "$(PROGRAM)"
-
-# `$(call given,NAME,--option)`: the option with the value of NAME, if whoever called make gave it one.
-given = $(if $(filter-out file undefined,$(origin $(1))),$(2) '$($(1))')
 
 archive:
 	release/archive.sh $(TARGET)

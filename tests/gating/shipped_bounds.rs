@@ -29,11 +29,11 @@ const REQUIRED: [&str; 2] = ["flip_moving", "bleed_lateral"];
 /// Size of the required bounds.
 const SIZE: (u32, u32) = (160, 90);
 
-/// Locks and returns the folder of truths, which are kept between runs of the tests: two tests that
-/// need the same truths render them once. `make mutants` keeps the same ones there.
+/// Locks and returns the folder of truths, which are kept between runs of the tests: two tests that need the same truths render
+/// them once.
 fn lock_truths() -> (PathBuf, MutexGuard<'static, ()>) {
     static IN_USE: Mutex<()> = Mutex::new(());
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("mutants/160x90_256/seed_1");
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("truths/160x90_256/seed_1");
     let lock = IN_USE.lock().unwrap_or_else(PoisonError::into_inner);
     (folder, lock)
 }

@@ -7,7 +7,6 @@ mod gpu;
 pub mod half_plane;
 pub mod kernels;
 pub mod limits;
-pub mod mutants;
 pub mod near;
 pub mod panel;
 pub mod picture;
