@@ -55,8 +55,10 @@ const USUAL: [u32; 2] = [61, 43];
 const NARROW: [u32; 2] = [3, 70];
 
 /// Name, reference, test, display white or scale, exposures, size.
+type Pair = (&'static str, Formula, Formula, f32, Exposures, [u32; 2]);
+
 #[rustfmt::skip]
-const PAIRS: [(&str, Formula, Formula, f32, Exposures, [u32; 2]); 9] = [
+const PAIRS: [Pair; 9] = [
     ("ldr_checks", CHECKS, SMEARED_CHECKS, 1.0, None, USUAL),
     ("ldr_dot", FLAT, FLAT_WITH_DOT, 1.0, None, USUAL),
     ("ldr_ramp", RAMP, SHIFTED_RAMP, 1.0, None, USUAL),

@@ -104,6 +104,7 @@ pub enum EngineCommand {
 }
 
 /// The commands of `truths`.
+#[expect(clippy::large_enum_variant, reason = "a process has one")]
 #[derive(Debug, Subcommand)]
 pub enum TruthsCommand {
     /// Render frames and truths only, or some replicates of them

@@ -103,7 +103,6 @@ fn exr(sandbox: &Sandbox, side: u32) -> Vec<u8> {
     bytes
 }
 
-/// Makes a sandbox with the filter `mine`, which copies.
 fn with_mine() -> Sandbox {
     let sandbox = Sandbox::measured();
     let body = "textureStore(output, pixel, textureLoad(color, pixel, 0));";
@@ -166,7 +165,8 @@ fn folders_devices_fifos_and_sockets_are_refused_unopened() {
     use std::os::unix::{fs::symlink, net::UnixListener};
 
     let bind = |path: &Path| drop(UnixListener::bind(path).unwrap());
-    let kinds: [(fn(&Path), &str); 4] = [
+    type Make = fn(&Path);
+    let kinds: [(Make, &str); 4] = [
         (make_fifo, "is a FIFO"),
         (|path| symlink("/dev/zero", path).unwrap(), "is a device"),
         (bind, "is a socket"),

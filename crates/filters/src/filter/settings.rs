@@ -10,7 +10,6 @@ use super::parameter::{Kind, Parameter, Unit, Value};
 use super::pass::Count;
 use super::reach::Growth;
 use crate::FilterError;
-use crate::printable::escape_controls;
 
 /// A value for every parameter of one filter.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -191,7 +190,7 @@ fn find_parameter<'f>(filter: &'f Filter, name: &str) -> Result<&'f Parameter, F
             };
             FilterError::Parameter {
                 filter: filter.name.clone(),
-                parameter: escape_controls(name),
+                parameter: name.to_owned(),
                 reason: format!("the filter has no such parameter; {has}"),
             }
         })
@@ -201,10 +200,6 @@ fn refuse(filter: &Filter, parameter: &Parameter, found: &str) -> FilterError {
     FilterError::Parameter {
         filter: filter.name.clone(),
         parameter: parameter.name.clone(),
-        reason: format!(
-            "found {}; allowed: {}",
-            escape_controls(found),
-            parameter.kind.allowed()
-        ),
+        reason: format!("found {found}; allowed: {}", parameter.kind.allowed()),
     }
 }
