@@ -4,7 +4,7 @@
 
 use std::collections::BTreeMap;
 
-use frame::{Image, Raster};
+use frame::{FLIP_REACH, Image, Raster};
 use metrics::{Viewing, flip_hdr, flip_ldr};
 use serde::Deserialize;
 
@@ -18,8 +18,8 @@ struct Expected {
     max: f64,
 }
 
-fn picture(formula: Formula, scale: f32) -> Image {
-    Raster::from_fn(61, 43, |x, y| {
+fn picture(formula: Formula, scale: f32, [width, height]: [u32; 2]) -> Image {
+    Raster::from_fn(width, height, |x, y| {
         [0, 1, 2].map(|channel| formula(x, y, channel) as f32 / 256.0 * scale)
     })
 }
@@ -50,17 +50,24 @@ const BLACK: Formula = |_, _, _| 0;
 /// First and last exposure in stops, and their number; none for a picture of a display.
 type Exposures = Option<(f32, f32, u32)>;
 
-/// Name, reference, test, display white or scale, exposures.
+const USUAL: [u32; 2] = [61, 43];
+/// Fewer columns than the filters reach over.
+const NARROW: [u32; 2] = [3, 70];
+
+/// Name, reference, test, display white or scale, exposures, size.
+type Pair = (&'static str, Formula, Formula, f32, Exposures, [u32; 2]);
+
 #[rustfmt::skip]
-const PAIRS: [(&str, Formula, Formula, f32, Exposures); 8] = [
-    ("ldr_checks", CHECKS, SMEARED_CHECKS, 1.0, None),
-    ("ldr_dot", FLAT, FLAT_WITH_DOT, 1.0, None),
-    ("ldr_ramp", RAMP, SHIFTED_RAMP, 1.0, None),
-    ("ldr_scatter_bright", SCATTER, RAMP, 4.0, None),
-    ("hdr_black_reference", BLACK, DISC, 1.0, Some((-2.0, 2.0, 3))),
-    ("hdr_checks_bright", CHECKS, SMEARED_CHECKS, 16.0, Some((-6.0, 2.0, 5))),
-    ("hdr_disc_on_black", DISC, MOVED_DISC, 4.0, Some((-4.0, 4.0, 9))),
-    ("hdr_near_black", SCATTER, CHECKS, 1.0 / 1024.0, Some((-1.0, 10.0, 12))),
+const PAIRS: [Pair; 9] = [
+    ("ldr_checks", CHECKS, SMEARED_CHECKS, 1.0, None, USUAL),
+    ("ldr_dot", FLAT, FLAT_WITH_DOT, 1.0, None, USUAL),
+    ("ldr_ramp", RAMP, SHIFTED_RAMP, 1.0, None, USUAL),
+    ("ldr_scatter_bright", SCATTER, RAMP, 4.0, None, USUAL),
+    ("hdr_black_reference", BLACK, DISC, 1.0, Some((-2.0, 2.0, 3)), USUAL),
+    ("hdr_checks_bright", CHECKS, SMEARED_CHECKS, 16.0, Some((-6.0, 2.0, 5)), USUAL),
+    ("hdr_disc_on_black", DISC, MOVED_DISC, 4.0, Some((-4.0, 4.0, 9)), USUAL),
+    ("hdr_near_black", SCATTER, CHECKS, 1.0 / 1024.0, Some((-1.0, 10.0, 12)), USUAL),
+    ("ldr_narrow", SCATTER, RAMP, 1.0, None, NARROW),
 ];
 
 #[test]
@@ -68,7 +75,7 @@ fn flip_equals_the_reference_tool() {
     let expected: BTreeMap<String, Expected> =
         serde_json::from_str(include_str!("../fixtures/flip/flip.json")).expect("it holds numbers");
     assert_eq!(expected.len(), PAIRS.len());
-    for (name, reference, test, scale, exposures) in PAIRS {
+    for (name, reference, test, scale, exposures, size) in PAIRS {
         let (flip_start, flip_stop, flip_count) = exposures.unwrap_or((0.0, 0.0, 2));
         let (flip, stops): (fn(&Image, &Image, &Viewing) -> _, f32) = match exposures {
             Some(_) => (flip_hdr, 0.0),
@@ -80,7 +87,8 @@ fn flip_equals_the_reference_tool() {
             flip_stop,
             flip_count,
         };
-        let map = flip(&picture(reference, scale), &picture(test, scale), &viewing);
+        let [reference, test] = [reference, test].map(|formula| picture(formula, scale, size));
+        let map = flip(&reference, &test, &viewing);
         let sum: f64 = map.pixels.iter().map(|error| f64::from(*error)).sum();
         let mean = sum / map.pixels.len() as f64;
         let max = f64::from(map.pixels.iter().copied().fold(0.0, f32::max));
@@ -94,5 +102,35 @@ fn flip_equals_the_reference_tool() {
         assert!(off <= 1e-6, "{name}: mean {mean}, the tool says {due}");
         let off = (max - due_max).abs();
         assert!(off <= 1e-5, "{name}: max {max}, not {due_max}");
+    }
+}
+
+/// Pictures are filtered in blocks of 64 columns and bands of 64 rows, whose places a part changes.
+#[test]
+fn a_part_of_a_picture_has_the_errors_of_the_whole_bit_for_bit() {
+    const LEFT: u32 = 37;
+    const TOP: u32 = 29;
+    let viewing = Viewing {
+        stops: 0.5,
+        flip_start: -2.0,
+        flip_stop: 2.0,
+        flip_count: 5,
+    };
+    let pictures = [RAMP, SHIFTED_RAMP].map(|formula| picture(formula, 2.0, [150, 210]));
+    let parts = pictures.each_ref().map(|whole| {
+        Raster::from_fn(100, 170, |x, y| {
+            whole.pixels[((y + TOP) * whole.width + x + LEFT) as usize]
+        })
+    });
+    for flip in [flip_ldr, flip_hdr] {
+        let whole = flip(&pictures[0], &pictures[1], &viewing);
+        let part = flip(&parts[0], &parts[1], &viewing);
+        for y in FLIP_REACH..part.height - FLIP_REACH {
+            for x in FLIP_REACH..part.width - FLIP_REACH {
+                let of_part = part.pixels[(y * part.width + x) as usize];
+                let of_whole = whole.pixels[((y + TOP) * whole.width + x + LEFT) as usize];
+                assert_eq!(of_part, of_whole, "at ({x}, {y})");
+            }
+        }
     }
 }

@@ -24,7 +24,7 @@ mod input;
 mod live;
 mod load;
 mod manifest;
-mod printable;
+mod one_line;
 mod shader;
 mod translate;
 

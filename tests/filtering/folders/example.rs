@@ -1,9 +1,10 @@
 //! Folders that load: the documented example, and the built-in ones.
 
-use filters::{Filter, Value};
+use filters::{Filter, Limits, Value, try_out};
 use tests::filter_folder::shipped_filter;
 use tests::near::assert_near;
 use tests::picture::{Picture, white};
+use tests::shared_gpu;
 
 use super::documented;
 use crate::filter_files::ready;
@@ -83,5 +84,15 @@ fn built_in_filters_load_from_disk_unchanged() {
         ];
         let says_all = says.iter().all(|text| !text.is_empty());
         assert!(says_all, "{name} says what it is and what it cannot do");
+    }
+}
+
+#[test]
+fn built_in_filters_work_at_the_ends_of_their_ranges_and_on_the_least_adapter() {
+    for name in Filter::builtin_names() {
+        let filter = Filter::builtin(&name).unwrap();
+        try_out(shared_gpu(), &filter).unwrap_or_else(|error| panic!("{error}"));
+        let checked = Limits::lowest().check(&filter);
+        checked.unwrap_or_else(|error| panic!("{error}"));
     }
 }

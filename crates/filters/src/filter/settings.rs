@@ -10,7 +10,6 @@ use super::parameter::{Kind, Parameter, Unit, Value};
 use super::pass::Count;
 use super::reach::Growth;
 use crate::FilterError;
-use crate::printable::escape_controls;
 
 /// A value for every parameter of one filter.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -195,7 +194,7 @@ fn find_parameter<'f>(filter: &'f Filter, name: &str) -> Result<&'f Parameter, F
             };
             FilterError::Parameter {
                 filter: filter.name.clone(),
-                parameter: escape_controls(name),
+                parameter: name.to_owned(),
                 reason: format!("the filter has no such parameter; {has}"),
             }
         })
@@ -205,10 +204,6 @@ fn refuse(filter: &Filter, parameter: &Parameter, value: &str) -> FilterError {
     FilterError::Parameter {
         filter: filter.name.clone(),
         parameter: parameter.name.clone(),
-        reason: format!(
-            "found {}; allowed: {}",
-            escape_controls(value),
-            parameter.kind.allowed()
-        ),
+        reason: format!("found {value}; allowed: {}", parameter.kind.allowed()),
     }
 }

@@ -11,7 +11,6 @@ use super::binding::{CompiledStage, Pipeline, create_pipeline};
 use super::device::Gpu;
 use super::limits::Limits;
 use super::targets::list_target_formats;
-use crate::printable::escape_controls;
 use crate::shader::{
     Shader, Varying, count_loop_iterations, falls_through_wrongly, follow_interpolation,
     run_on_large_stack,
@@ -238,11 +237,8 @@ fn refuse(gpu: &Gpu, filter: &Filter, pass: &str, reason: &str) -> FilterError {
     let line = line.map_or(String::new(), |line| format!(":{line}"));
     let shader = known.map_or(&filter.shaders[0], |known| filter.shader(known));
     let path = shader.path.display();
-    let lines = reason
-        .lines()
-        .map(str::trim)
-        .filter(|line| !line.is_empty());
-    let lines: Vec<String> = lines.map(escape_controls).collect();
+    let lines = reason.lines().map(str::trim);
+    let lines: Vec<&str> = lines.filter(|line| !line.is_empty()).collect();
     filter.place(pass).refuse(format!(
         "{path}{line} is refused by adapter \"{}\": {}",
         gpu.adapter.name,

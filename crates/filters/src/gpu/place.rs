@@ -1,7 +1,6 @@
 //! Place of an error on the GPU: the filter and the pass.
 
 use super::device::Gpu;
-use crate::printable::escape_controls;
 use crate::{Filter, FilterError};
 
 /// Filter and pass that an error belongs to.
@@ -53,7 +52,7 @@ impl Gpu {
                 filter: place.filter.to_owned(),
                 pass: place.pass.to_owned(),
                 adapter: self.adapter.name.clone(),
-                reason: escape_controls(&reason),
+                reason,
             }),
         }
     }

@@ -6,7 +6,7 @@ use serde::de::DeserializeOwned;
 use toml::Spanned;
 
 use crate::FilterError;
-use crate::printable::{check_line, escape_controls};
+use crate::one_line::check_line;
 
 /// Upper limit on parameters, presets, textures and passes of a filter, each.
 pub const MAX_ENTRIES: usize = 256;
@@ -29,11 +29,7 @@ impl File<'_> {
     /// Makes an error that names the line of an offset.
     pub fn refuse(&self, offset: Option<usize>, reason: String) -> FilterError {
         let line = offset.map(|offset| self.line(offset));
-        FilterError::in_file(
-            self.path,
-            line,
-            escape_controls(&reason.replace('\n', "; ")),
-        )
+        FilterError::in_file(self.path, line, reason.replace('\n', "; "))
     }
 
     /// Refuses a text that would disturb the terminal, log or page that shows it.

@@ -5,7 +5,7 @@ use toml::Spanned;
 
 use super::file::File;
 use super::number::{IDENTIFIER, is_identifier};
-use crate::printable::check_line;
+use crate::one_line::check_line;
 use crate::{FilterError, Kind, Parameter, Scale, Unit, Value};
 
 /// Upper limit on the choices of a parameter.

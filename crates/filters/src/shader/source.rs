@@ -5,7 +5,6 @@ use std::path::Path;
 use wgpu::naga::{GlobalVariable, Handle, Module, SourceLocation};
 
 use crate::FilterError;
-use crate::printable::escape_controls;
 
 /// Kernels of a filter with common.wgsl appended.
 pub(super) struct Source<'a> {
@@ -99,6 +98,5 @@ impl<'a> Source<'a> {
 pub(crate) fn tidy(message: &str) -> String {
     let message = message.strip_prefix("error: ").unwrap_or(message);
     let lines = message.trim_end().lines().map(str::trim_end);
-    let lines: Vec<String> = lines.map(escape_controls).collect();
-    lines.join("\n")
+    lines.collect::<Vec<_>>().join("\n").replace('\t', " ")
 }

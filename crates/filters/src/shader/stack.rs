@@ -6,7 +6,6 @@ use std::sync::Once;
 use std::{panic, thread};
 
 use crate::FilterError;
-use crate::printable::escape_controls;
 
 /// Bytes of stack for reading and compiling kernels. Naga takes less than 2 KB per level of
 /// [`MAX_NESTING`](super::MAX_NESTING), and less than 1 KB per declaration that refers to another
@@ -37,7 +36,6 @@ pub(crate) fn guard<T: Send>(
     work: impl FnOnce() -> Result<T, FilterError> + Send,
 ) -> Result<T, FilterError> {
     run_on_large_stack(work).unwrap_or_else(|panic| {
-        let panic = escape_controls(&panic);
         let reason = format!(
             "naga, which {task}, fails on it: {panic}; write it otherwise, or make it smaller"
         );

@@ -17,7 +17,6 @@ use super::sources::{MAX_MODULE_BYTES, Sources};
 use crate::FilterError;
 use crate::command::collect_environment;
 use crate::filter::PassShader;
-use crate::printable::escape_controls;
 
 /// Longest time that a compiler may take.
 const TIME_LIMIT: Duration = Duration::from_secs(60);
@@ -249,8 +248,8 @@ fn find_error(said: &str, input: &Path, copies: &Path, folder: &Path) -> (Option
     let lines = (said.lines().map(str::trim_end))
         .filter(|line| !line.is_empty() && *line != name)
         .map(|line| line.replace(&copies.display().to_string(), &folder.display().to_string()));
-    let lines: Vec<String> = lines.map(|line| escape_controls(&line)).collect();
-    (line, shorten(lines))
+    let lines = lines.map(|line| line.replace('\t', " "));
+    (line, shorten(lines.collect()))
 }
 
 /// Joins a compiler's messages. If they are too long, lines with errors come first, and the number

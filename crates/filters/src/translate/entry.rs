@@ -12,7 +12,7 @@ use super::language::Language;
 use super::module::find_language;
 use crate::FilterError;
 use crate::filter::{PassShader, Stage};
-use crate::printable::explain;
+use crate::one_line::explain;
 use crate::shader::engine_validator;
 
 /// Validates a module.

@@ -20,7 +20,7 @@ use super::sources::Sources;
 use super::storage::StorageImages;
 use super::words::{Place, Words};
 use crate::filter::{BindingPlace, PassShader, Stage};
-use crate::printable::explain;
+use crate::one_line::explain;
 use crate::shader::{parse_wgsl, settle_fall_through, tidy, written_texture};
 use crate::{Filter, FilterError, Format};
 

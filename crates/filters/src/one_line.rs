@@ -1,4 +1,4 @@
-//! Text from others, made safe for terminals, logs and pages.
+//! Texts of one line. The command line escapes what it prints.
 
 use frame::is_hidden;
 
@@ -24,19 +24,6 @@ pub(crate) fn check_line(text: &str) -> Result<(), String> {
     }
 }
 
-/// Writes every control character of a text as its number.
-pub(crate) fn escape_controls(text: &str) -> String {
-    let mut shown = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '\t' => shown.push(' '),
-            c if is_invisible(c) => shown += &format!("\\u{{{:x}}}", u32::from(c)),
-            c => shown.push(c),
-        }
-    }
-    shown
-}
-
 /// Joins the messages of an error and of its causes.
 pub(crate) fn explain(error: &dyn std::error::Error) -> String {
     let mut said = error.to_string();
@@ -45,7 +32,7 @@ pub(crate) fn explain(error: &dyn std::error::Error) -> String {
         said += &format!(": {inner}");
         cause = inner.source();
     }
-    escape_controls(&said.replace('\n', " "))
+    said.replace('\n', " ")
 }
 
 /// Returns true for hidden characters and for those of no width.
@@ -75,10 +62,5 @@ mod tests {
         ] {
             assert_eq!(check_line(text), Ok(()));
         }
-    }
-
-    #[test]
-    fn a_control_character_is_shown_as_its_number() {
-        assert_eq!(escape_controls("a\u{1b}[0m\nb\tc"), "a\\u{1b}[0m\\u{a}b c");
     }
 }
