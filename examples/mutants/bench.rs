@@ -30,7 +30,8 @@ const UNCHANGED: &str = "unchanged";
 pub struct Verdict {
     pub operator: &'static str,
     pub description: String,
-    /// False if the kernel does not end or leaves pixels unwritten: `check` fails without any limit.
+    /// False if the kernel does not end or leaves pixels unwritten: `check` fails without any
+    /// limit.
     pub has_picture: bool,
     /// Largest change of a picture, in noise floors of the truth; 0 if all are equal.
     pub change: f64,
@@ -99,7 +100,8 @@ impl Bench {
         Ok(verdicts)
     }
 
-    /// Measures filters on a scene as `check` does. A kernel without an end stops all; then each half of the filters runs alone.
+    /// Measures filters on a scene as `check` does. A kernel without an end stops all; then each
+    /// half of the filters runs alone.
     fn measure(&mut self, scene: &Scene, filters: &[FilterChoice]) -> Result<Vec<Case>, Error> {
         let plan = RunPlan {
             scenes: vec![scene.clone()],
@@ -187,7 +189,8 @@ fn squared_error(case: &Case) -> f64 {
     }
 }
 
-/// Measures the difference of two pictures: root mean square over what moves or over all, in noise floors of the truth there.
+/// Measures the difference of two pictures: root mean square over what moves or over all, in noise
+/// floors of the truth there.
 fn measure_change(a: &Image, b: &Image, truth: &Truth) -> f64 {
     let squares = a.zip(b, |a, b| {
         let square = |c: usize| (f64::from(a[c]) - f64::from(b[c])).powi(2);

@@ -1,5 +1,5 @@
-//! Changes shipped kernels in small ways, and counts the changes that the limits notice: `make mutants` prints
-//! `results/studies/mutation.txt`.
+//! Changes shipped kernels in small ways, and counts the changes that the limits notice: `make
+//! mutants` prints `results/studies/mutation.txt`.
 
 mod bench;
 mod mutant;

@@ -93,7 +93,8 @@ type Scores = BTreeMap<String, f64>;
 /// Half of a picture's last digit, and of the last digit of the results.
 const ROUNDING: f64 = 0.000_506;
 
-/// Lists the scores of a picture that are not those of the results, or, for cases without results, on no page of the picture.
+/// Lists the scores of a picture that are not those of the results, or, for cases without results,
+/// on no page of the picture.
 fn find_stale(lines: &[String], pages: &str, results: &Scores) -> Vec<String> {
     let is_said = |line: &&String| {
         let Some((case, score)) = line.rsplit_once(' ') else {

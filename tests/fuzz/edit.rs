@@ -4,7 +4,8 @@ use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
 
-/// A change of an input, which is cut into pieces: words and signs of a text, four bytes of other inputs.
+/// A change of an input, which is cut into pieces: words and signs of a text, four bytes of other
+/// inputs.
 #[derive(Clone, Debug)]
 pub struct Edit {
     /// First piece.

@@ -1,4 +1,5 @@
-//! Hostile and broken input for everything that the program reads: `docs/fuzzing.md`. Limits of time and memory need Linux.
+//! Hostile and broken input for everything that the program reads: `docs/fuzzing.md`. Limits of
+//! time and memory need Linux.
 
 #![cfg(target_os = "linux")]
 
@@ -86,7 +87,8 @@ fn keep(target: &Target, input: &[u8], failure: &str) -> String {
     format!("{}: {failure}\n  input: {}\n", target.name, path.display())
 }
 
-/// Runs the inputs of a target without a change. The fixture's must be accepted: otherwise an outdated layout would go unnoticed.
+/// Runs the inputs of a target without a change. The fixture's must be accepted: otherwise an
+/// outdated layout would go unnoticed.
 fn try_corpus(target: &Target, program: &Program) -> Result<(), String> {
     let has_original = program.fixture.join(&target.file).exists();
     for (at, input) in target.inputs(&program.fixture).iter().enumerate() {

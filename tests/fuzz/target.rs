@@ -56,7 +56,8 @@ impl Target {
         inputs
     }
 
-    /// Runs the commands on an input in a folder of their own. Returns whether they accept it, or an error that describes a failure.
+    /// Runs the commands on an input in a folder of their own. Returns whether they accept it, or
+    /// an error that describes a failure.
     pub fn run(&self, input: &[u8], program: &Program) -> Result<bool, String> {
         let outer = tempfile::tempdir().unwrap();
         // Deep enough for inputs that contain `../../`.
@@ -102,7 +103,8 @@ impl Target {
             .collect()
     }
 
-    /// Writes an input in place of the file. In a text, `@canary@` stands for the canary, and a line `//// NAME` begins another file.
+    /// Writes an input in place of the file. In a text, `@canary@` stands for the canary, and a
+    /// line `//// NAME` begins another file.
     fn write(&self, input: &[u8], folder: &Path, canary: &Path) {
         let path = folder.join(&self.file);
         let Ok(text) = std::str::from_utf8(input) else {
@@ -124,7 +126,8 @@ impl Target {
 }
 
 impl Program {
-    /// Runs a command with limits on its time, in seconds, and on its address space. Returns its exit code and what it prints.
+    /// Runs a command with limits on its time, in seconds, and on its address space. Returns its
+    /// exit code and what it prints.
     fn run(&self, words: &[String], folder: &Path, time_limit: u32) -> (i32, String) {
         let script = format!("ulimit -v 4194304; exec timeout -s KILL {time_limit} \"$0\" \"$@\"");
         let mut command = Command::new("sh");

@@ -29,8 +29,8 @@ const REQUIRED: [&str; 2] = ["flip_moving", "bleed_lateral"];
 /// Size of the required bounds.
 const SIZE: (u32, u32) = (160, 90);
 
-/// Locks and returns the folder of truths, which are kept between runs of the tests: two tests that need the same truths render
-/// them once.
+/// Locks and returns the folder of truths, which are kept between runs of the tests: two tests that
+/// need the same truths render them once.
 fn lock_truths() -> (PathBuf, MutexGuard<'static, ()>) {
     static IN_USE: Mutex<()> = Mutex::new(());
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("truths/160x90_256/seed_1");

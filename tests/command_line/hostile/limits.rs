@@ -17,7 +17,8 @@ const RUN: &str = "run --quiet --filter mine --out new";
 fn the_page_of_limits_agrees_with_the_constants() {
     let page = fs::read_to_string(root().join("docs/limits.md")).unwrap();
     let mut listed = Vec::new();
-    // Each row has one number for all of its constants, or a range with one constant for either end.
+    // Each row has one number for all of its constants, or a range with one constant for either
+    // end.
     for row in page.lines().filter(|line| line.ends_with("` |")) {
         let cells: Vec<&str> = row.split('|').map(str::trim).collect();
         let limits: Vec<f64> = cells[2].split(" to ").map(number).collect();

@@ -6,9 +6,10 @@
 //! rounded from 64 bits. Every pixel has its own sums, so that the bytes are the same on any number
 //! of threads.
 //!
-//! `flip-rs` 0.1.2 computes the same and would save these files. It is not used: it changes the last digits of every FLIP in
-//! run.json, so that each baseline would differ; it refuses pictures above 28.5 million pixels, such as 8K; it filters the
-//! truth again for every picture; and its three releases are of one hour in October 2026.
+//! `flip-rs` 0.1.2 computes the same and would save these files. It is not used: it changes the
+//! last digits of every FLIP in run.json, so that each baseline would differ; it refuses pictures
+//! above 28.5 million pixels, such as 8K; it filters the truth again for every picture; and its
+//! three releases are of one hour in October 2026.
 //!
 //! | file | holds |
 //! |---|---|
