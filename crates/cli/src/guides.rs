@@ -11,8 +11,8 @@ use crate::arguments::{
     AdapterArgs, CandidateArgs, MeasureArgs, ProgramArgs, RootArgs, RunOptions, SceneArgs,
     SequenceArgs,
 };
-use crate::output::OutputArgs;
 use crate::program::Cli;
+use terminal::output::OutputArgs;
 
 /// Columns of help on the page of all commands.
 const WIDTH: usize = 100;

@@ -1,43 +1,34 @@
 //! The program `shuttertruth`: its arguments, its commands, and what they print.
 
-/// Returns a usage error from a function.
-macro_rules! refuse {
-    ($($text:tt)*) => {
-        return Err(suite::Error::Usage(format!($($text)*)))
-    };
-}
-
 mod arguments;
 mod commands;
 mod environment;
 #[cfg(test)]
 mod guides;
-mod output;
 mod program;
-mod selection;
 mod tables;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-use commands::result::Ending;
 use environment::set_environment;
 use filters::FilterError;
 use frame::TruthError;
-use output::{
-    INTERRUPTED_TEXT, catch_interrupts, interrupted_code, print_error, print_failure, set_output,
-};
 use program::{Cli, execute, find_new_place};
 use store::printable;
 use suite::Error;
+use terminal::output::{
+    INTERRUPTED_TEXT, catch_interrupts, interrupted_code, print_error, print_failure, set_output,
+};
+use terminal::result::Ending;
 use tracer::TraceError;
 
-pub use output::terminal_text;
-pub use selection::{Programs, SceneChoice, select_filters, select_scenes};
 pub use tables::{
     annotations, check_text, compare_table, junit, list_once, markdown_table, paired_table,
     range_text, ranking_text, run_table, score_table, summary,
 };
+pub use terminal::output::terminal_text;
+pub use terminal::selection::{Programs, SceneChoice, select_filters, select_scenes};
 
 /// Runs the command of the command line and returns its exit code.
 pub fn run_program() -> ExitCode {

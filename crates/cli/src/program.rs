@@ -6,9 +6,9 @@ use clap::error::{ContextKind, ContextValue};
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 use suite::Error;
 
-use crate::commands::result::Ending;
 use crate::commands::*;
-use crate::output::OutputArgs;
+use terminal::output::OutputArgs;
+use terminal::result::Ending;
 
 /// Version, commit and target of the program.
 const VERSION: &str = env!("SHUTTERTRUTH_VERSION");

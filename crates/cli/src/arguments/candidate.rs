@@ -1,9 +1,8 @@
 //! Arguments that choose a candidate: a filter, its preset, and the scenes that it is scored on.
 
 use clap::Args;
+use terminal::arguments::{AdapterArgs, ProgramArgs, SceneArgs, parse_size};
 use tune::Objective;
-
-use super::{AdapterArgs, ProgramArgs, SceneArgs, parse_objective, parse_size};
 
 /// Choice of a filter, and of the scenes that it is scored on.
 #[derive(Debug, Args)]
@@ -31,4 +30,11 @@ pub struct CandidateArgs {
     pub programs: ProgramArgs,
     #[command(flatten)]
     pub adapter: AdapterArgs,
+}
+
+/// Parses an objective of a search.
+fn parse_objective(text: &str) -> Result<Objective, String> {
+    let mut all = Objective::ALL.iter().copied();
+    let named = all.find(|objective| objective.name() == text);
+    named.ok_or_else(|| "allowed: flip, bleed, cost".to_owned())
 }

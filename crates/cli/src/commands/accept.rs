@@ -1,6 +1,7 @@
 //! The command `limits accept`.
 
 use std::path::PathBuf;
+use terminal::refuse;
 
 use clap::Args;
 use judge::{Acceptance, Baseline, accept_scores};
@@ -8,7 +9,7 @@ use store::printable_path;
 use suite::{Error, Run, find_newer_sizes, refuse_failures};
 
 use crate::arguments::parse_glob;
-use crate::output::{count_text, print, print_note};
+use terminal::output::{count_text, print, print_note};
 
 #[derive(Debug, Args)]
 pub struct AcceptArgs {

@@ -1,6 +1,7 @@
 //! The command `engine audit`.
 
 use std::path::PathBuf;
+use terminal::refuse;
 
 use clap::Args;
 use engine::{Capture, audit_capture, write_audit_picture};
@@ -9,10 +10,10 @@ use suite::Error;
 use tracer::SceneId;
 
 use super::capture::{load_drawn_scene, name_folder};
-use super::result::{Ending, write_json};
 use crate::arguments::RootArgs;
-use crate::output::{print, print_note};
 use crate::tables::audit_table;
+use terminal::output::{print, print_note};
+use terminal::result::{Ending, write_json};
 
 #[derive(Debug, Args)]
 pub struct AuditArgs {

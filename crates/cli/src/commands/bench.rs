@@ -1,17 +1,18 @@
 //! The command `bench`.
 
 use std::path::PathBuf;
+use terminal::refuse;
 
 use clap::Args;
 use filters::Gpu;
 use suite::{BenchPlan, Error, bench, open_adapter};
 
-use super::expected::print_expected_time;
-use super::result::write_result;
 use crate::arguments::{AdapterArgs, parse_size, within};
-use crate::output::make_monitor;
-use crate::selection::{Programs, select_filters};
 use crate::tables::bench_table;
+use terminal::expected::print_expected_time;
+use terminal::output::make_monitor;
+use terminal::result::write_result;
+use terminal::selection::{Programs, select_filters};
 
 #[derive(Debug, Args)]
 pub struct BenchArgs {

@@ -1,6 +1,7 @@
 //! The command `engine blur`.
 
 use std::path::{Path, PathBuf};
+use terminal::refuse;
 
 use clap::Args;
 use filters::{Convention, EXCLUSION, FilterError, Gpu, Input};
@@ -14,8 +15,8 @@ use suite::{Error, FilterChoice, Runner, file_at_frame, numbered_file, open_gpu}
 use super::capture::read_convention;
 use super::show_texture::{check_shown, show_texture};
 use crate::arguments::{AdapterArgs, ProgramArgs, frame_count, parse_exposure};
-use crate::output::{make_monitor, print};
-use crate::selection::select_filters;
+use terminal::output::{make_monitor, print};
+use terminal::selection::select_filters;
 
 #[derive(Debug, Args)]
 pub struct BlurArgs {

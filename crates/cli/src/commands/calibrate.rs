@@ -1,6 +1,7 @@
 //! The command `limits calibrate`.
 
 use std::ops::Range;
+use terminal::refuse;
 
 use clap::Args;
 use judge::{BOUNDS_FILE, bound_subframes, calibrate, check_names};
@@ -9,11 +10,11 @@ use store::printable_path;
 use suite::{Error, Run, RunPlan, estimate_run, measure_scenes, open_gpu, refuse_failures};
 use tracer::{Progress, Watch};
 
-use super::expected::print_expected_time;
 use super::pages::write_run;
 use super::run_plan::{lock_out, make_plan};
 use crate::arguments::{MeasureArgs, SequenceArgs, within};
-use crate::output::print;
+use terminal::expected::print_expected_time;
+use terminal::output::print;
 
 #[derive(Debug, Args)]
 pub struct CalibrateArgs {

@@ -7,11 +7,11 @@ use suite::{Error, FilterChoice, estimate_case_seconds, estimate_render_seconds,
 use tracer::{RenderSettings, Scene};
 use tune::{Evaluator, render_scenes};
 
-use super::expected::print_expected_time;
 use super::run_plan::load_scenes;
 use crate::arguments::{CandidateArgs, SceneArgs};
-use crate::output::{count_text, make_monitor};
-use crate::selection::select_filters;
+use terminal::expected::print_expected_time;
+use terminal::output::{count_text, make_monitor};
+use terminal::selection::select_filters;
 
 impl CandidateArgs {
     /// Selects the filter with its start preset, for the requested picture size.

@@ -1,13 +1,14 @@
 //! Captures of an engine: folder, scene, and convention of the files.
 
 use std::path::{Path, PathBuf};
+use terminal::refuse;
 
 use filters::Convention;
 use store::read_text;
 use suite::Error;
 use tracer::{Location, Scene};
 
-use crate::selection::select_scenes;
+use terminal::selection::select_scenes;
 
 /// Names the folder to write: the given one, or one below a default with the capture's name.
 pub fn name_folder(capture: &Path, out: Option<&PathBuf>, below: &str) -> Result<PathBuf, Error> {

@@ -2,6 +2,7 @@
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use terminal::refuse;
 
 use clap::{Args, Command, Id};
 use frame::FileError;
@@ -19,13 +20,13 @@ use super::measured_run::{MeasuredRun, measure};
 use super::pages::{
     WrittenFile, page_lines, refuse_folder, write_judgement, write_run, write_run_page,
 };
-use super::result::Ending;
 use super::run_plan::{Margins, add_bounds, make_plan, read_margins};
 use crate::arguments::{AdapterArgs, MeasureArgs, SequenceArgs};
-use crate::output::{is_verbose, print, print_json, print_note};
 use crate::tables::{
     adapter_text, annotations, check_text, junit, page_verdict, summary, verdict_text,
 };
+use terminal::output::{is_verbose, print, print_json, print_note};
+use terminal::result::Ending;
 
 /// Lists the arguments that only a measuring check may have.
 fn list_measuring() -> Vec<Id> {

@@ -10,8 +10,8 @@ use suite::{Error, StoredRun};
 use super::pages::write_page;
 use super::run_plan::read_margins;
 use crate::arguments::RootArgs;
-use crate::output::{make_monitor, print, print_json};
 use crate::tables::compare_table;
+use terminal::output::{make_monitor, print, print_json};
 
 #[derive(Debug, Args)]
 pub struct CompareArgs {

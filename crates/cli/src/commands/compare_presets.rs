@@ -4,9 +4,9 @@ use clap::Args;
 use suite::Error;
 use tune::{Objective, compare_candidates};
 
-use super::result::write_result;
 use crate::arguments::CandidateArgs;
 use crate::tables::paired_table;
+use terminal::result::write_result;
 
 #[derive(Debug, Args)]
 pub struct ComparePresetsArgs {

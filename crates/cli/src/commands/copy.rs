@@ -1,14 +1,15 @@
 //! Copies of the built-in scenes, for `list --copy-to`.
 
 use std::path::Path;
+use terminal::refuse;
 
 use frame::{FileError, write_atomically};
 use store::printable_path;
 use suite::Error;
 use tracer::{Location, list_scenes};
 
-use crate::output::{count_text, print};
-use crate::selection::choose_names;
+use terminal::output::{count_text, print};
+use terminal::selection::choose_names;
 
 /// Writes the named built-in scenes, or all, and their bounds below `out`. Overwrites nothing.
 pub fn copy_scenes(names: &[String], out: &Path) -> Result<(), Error> {

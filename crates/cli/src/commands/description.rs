@@ -8,7 +8,7 @@ use frame::FileError;
 use store::printable_path;
 use suite::Error;
 
-use crate::output::{print, write_out};
+use terminal::output::{print, write_out};
 
 #[derive(Debug, Args)]
 pub struct CompletionsArgs {

@@ -10,7 +10,7 @@ use suite::{Error, FilterChoice};
 use tune::{Objective, evaluate_candidate};
 
 use crate::arguments::CandidateArgs;
-use crate::output::print_json;
+use terminal::output::print_json;
 
 #[derive(Debug, Args)]
 pub struct EvaluateArgs {

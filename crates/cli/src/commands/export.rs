@@ -1,6 +1,7 @@
 //! The command `engine export`.
 
 use std::path::PathBuf;
+use terminal::refuse;
 
 use clap::Args;
 use engine::{Manifest, check_subframe_count, export_gltf};
@@ -8,8 +9,8 @@ use store::printable_path;
 use suite::{Error, PROGRAM};
 
 use crate::arguments::RootArgs;
-use crate::output::print;
-use crate::selection::select_scenes;
+use terminal::output::print;
+use terminal::selection::select_scenes;
 
 #[derive(Debug, Args)]
 pub struct ExportArgs {

@@ -8,7 +8,7 @@ use store::printable_path;
 use suite::Error;
 
 use crate::arguments::{parse_exposure, parse_named, parse_speed};
-use crate::output::{print, print_note};
+use terminal::output::{print, print_note};
 
 #[derive(Debug, Args)]
 pub struct ImportArgs {

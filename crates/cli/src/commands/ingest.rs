@@ -1,6 +1,7 @@
 //! The command `engine ingest`.
 
 use std::path::{Path, PathBuf};
+use terminal::refuse;
 
 use clap::Args;
 use engine::{Capture, Ingested, ingest};
@@ -11,7 +12,7 @@ use tracer::{Location, Scene};
 
 use super::capture::{load_drawn_scene, name_folder};
 use crate::arguments::RootArgs;
-use crate::output::{make_monitor, print, print_note};
+use terminal::output::{make_monitor, print, print_note};
 
 #[derive(Debug, Args)]
 pub struct IngestArgs {

@@ -1,10 +1,11 @@
 //! Truths of `--truths`.
 
 use std::path::Path;
+use terminal::refuse;
 
 use suite::Error;
 
-use crate::output::print_note;
+use terminal::output::print_note;
 
 /// Refuses a path that is no folder, before anything is rendered. Prints that the truths there
 /// decide the verdict.

@@ -1,6 +1,7 @@
 //! The command `list`.
 
 use std::path::PathBuf;
+use terminal::refuse;
 
 use clap::Args;
 use filters::{AdapterDescription, Filter, FilterError, Limits, list_adapters, try_out};
@@ -9,9 +10,9 @@ use tracer::{SceneListing, find_coincident_surfaces, list_scenes, load_scene};
 
 use super::copy::copy_scenes;
 use crate::arguments::{AdapterArgs, RootArgs};
-use crate::output::{make_monitor, print, print_json, print_note, print_scene_notes};
-use crate::selection::{is_pattern, load_filters, match_names, suggest_names};
 use crate::tables::{details_text, filter_json, filters_text, inputs_text, scenes_text};
+use terminal::output::{make_monitor, print, print_json, print_note, print_scene_notes};
+use terminal::selection::{is_pattern, load_filters, match_names, suggest_names};
 
 #[derive(Debug, Args)]
 pub struct ListArgs {

@@ -4,9 +4,9 @@ use filters::Gpu;
 use store::FolderLock;
 use suite::{EarlierCases, Error, Run, RunPlan, estimate_run, folder_for_size, measure_scenes};
 
-use super::expected::print_expected;
 use super::run_plan::lock_out;
-use crate::output::{count_text, is_quiet, print_note};
+use terminal::expected::print_expected;
+use terminal::output::{count_text, is_quiet, print_note};
 
 /// A finished run.
 pub struct MeasuredRun {

@@ -8,8 +8,8 @@ use store::printable_path;
 use suite::{Error, holds_run, merge, merge_runs, refuse_failures};
 
 use super::pages::write_run;
-use crate::output::{count_text, print};
 use crate::tables::failures_text;
+use terminal::output::{count_text, print};
 
 #[derive(Debug, Args)]
 pub struct MergeArgs {

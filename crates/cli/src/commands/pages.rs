@@ -1,6 +1,7 @@
 //! Files that a command writes: run.json, pages, and the lines that name them.
 
 use std::path::{Path, PathBuf};
+use terminal::refuse;
 
 use judge::{Finding, Judgement, Verdict};
 use report::{LARGEST_PAGE, SEQUENCES_PAGE, sequences_page, write_report};

@@ -1,6 +1,7 @@
 //! The command `truths render`.
 
 use std::ops::Range;
+use terminal::refuse;
 
 use clap::Args;
 use frame::{Alignment, Truth};
@@ -8,12 +9,12 @@ use store::{LADDER, MAX_REPLICATES, Sharing, lock_folder, printable_path, scene_
 use suite::{Error, Rendering, deciding_floor, estimate_render_seconds};
 use tracer::{RenderSettings, Scene, check_next_frame};
 
-use super::expected::print_expected_time;
 use crate::arguments::{
     Replicates, SceneArgs, above_zero, frame_count, parse_replicates, parse_size, within,
 };
-use crate::output::{count_text, make_monitor, print, print_scene_notes};
-use crate::selection::select_scenes;
+use terminal::expected::print_expected_time;
+use terminal::output::{count_text, make_monitor, print, print_scene_notes};
+use terminal::selection::select_scenes;
 
 #[derive(Debug, Args)]
 pub struct RenderArgs {

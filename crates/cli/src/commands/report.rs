@@ -1,6 +1,7 @@
 //! The command `report`.
 
 use std::path::{Path, PathBuf};
+use terminal::refuse;
 
 use clap::Args;
 use judge::Judgement;
@@ -9,7 +10,7 @@ use store::printable_path;
 use suite::{Error, StoredRun, write_layers};
 
 use super::pages::{WrittenFile, page_lines, page_path, write_page, write_run_page};
-use crate::output::{make_monitor, print, print_json};
+use terminal::output::{make_monitor, print, print_json};
 
 #[derive(Debug, Args)]
 pub struct ReportArgs {

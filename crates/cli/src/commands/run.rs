@@ -12,10 +12,10 @@ use super::measured_run::{MeasuredRun, measure};
 use super::pages::{WrittenFile, page_lines, refuse_folder, write_judgement, write_run};
 use super::run_plan::{add_bounds, apply_options, make_plan};
 use crate::arguments::{AdapterArgs, MeasureArgs, RunOptions, parse_named};
-use crate::output::{clock_text, print};
 use crate::tables::{
     adapter_text, failures_text, legend_text, ranking_text, run_table, sequences_text,
 };
+use terminal::output::{clock_text, print};
 
 #[derive(Debug, Args)]
 pub struct RunArgs {

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use terminal::refuse;
 
 use frame::FrameOptions;
 use judge::{
@@ -15,8 +16,8 @@ use tracer::{Location, RenderSettings, Scene, SceneId};
 
 use super::kept_truths::check_truths;
 use crate::arguments::{MeasureArgs, RunOptions, SceneArgs};
-use crate::output::{count_text, make_monitor, print_note, print_scene_notes};
-use crate::selection::{select_engine_scenes, select_filters, select_scenes};
+use terminal::output::{count_text, make_monitor, print_note, print_scene_notes};
+use terminal::selection::{select_engine_scenes, select_filters, select_scenes};
 
 /// Loads scenes with their bounds, and filters; renders nothing, and does not check the plan yet.
 /// The plan asks for no intervals.

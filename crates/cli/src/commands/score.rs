@@ -1,6 +1,7 @@
 //! The command `score`.
 
 use std::path::{Path, PathBuf};
+use terminal::refuse;
 
 use clap::Args;
 use frame::{Frame, Ladder, Provenance, Truth};
@@ -10,8 +11,8 @@ use suite::{Error, Frames, Scored, engine_name, missing_scores, read_finished_pi
 
 use super::capture::read_convention;
 use crate::arguments::{RootArgs, above_zero, frame_count};
-use crate::output::{print, print_json};
 use crate::tables::score_table;
+use terminal::output::{print, print_json};
 
 #[derive(Debug, Args)]
 pub struct ScoreArgs {

@@ -7,13 +7,14 @@ use suite::{
     Error, Frames, SequenceTruth, file_at_frame, find_numbered, read_finished_picture,
     score_sequence, worst_frames,
 };
+use terminal::refuse;
 use tracer::Scene;
 
 use super::capture::read_convention;
 use super::score::{ScoreArgs, check_scene, scored_json, truth_text};
-use crate::output::{print, print_json};
-use crate::selection::select_scenes;
 use crate::tables::score_sequence_table;
+use terminal::output::{print, print_json};
+use terminal::selection::select_scenes;
 
 /// Scores the numbered pictures of a folder, and prints their scores over time.
 pub fn execute(args: &ScoreArgs) -> Result<(), Error> {

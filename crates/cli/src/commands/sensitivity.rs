@@ -4,10 +4,10 @@ use clap::Args;
 use suite::Error;
 use tune::{Space, analyze_sensitivity, count_candidates};
 
-use super::result::write_result;
 use crate::arguments::{CandidateArgs, within};
-use crate::output::make_monitor;
 use crate::tables::sensitivity_table;
+use terminal::output::make_monitor;
+use terminal::result::write_result;
 
 #[derive(Debug, Args)]
 pub struct SensitivityArgs {

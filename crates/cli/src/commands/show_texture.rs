@@ -1,13 +1,14 @@
 //! A texture of a filter as a person can look at it: `engine blur --show`.
 
 use std::path::Path;
+use terminal::refuse;
 
 use filters::{EXCLUSION, Filter, Format};
 use frame::{ExrFile, Raster, write_exr, write_png};
 use store::printable_path;
 use suite::{Error, Runner};
 
-use crate::output::print;
+use terminal::output::print;
 
 /// Inputs and the output, which every filter has, as its shaders see them.
 const BUILT_IN: [&str; 4] = ["color", "velocity", "depth", "output"];

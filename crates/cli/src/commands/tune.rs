@@ -10,11 +10,11 @@ use tracer::{Progress, RenderSettings};
 use tune::{Advice, Space, TuneOptions, Tuning, interleave_families, tune, tuned_preset_toml};
 
 use super::candidate::print_expected_scoring;
-use super::result::{write_json, write_result};
 use super::run_plan::load_scenes;
 use crate::arguments::{CandidateArgs, above_zero, parse_ratio, parse_samples, parse_size, within};
-use crate::output::{is_quiet, make_monitor, print_error};
 use crate::tables::{advice_text, tuning_table};
+use terminal::output::{is_quiet, make_monitor, print_error};
+use terminal::result::{write_json, write_result};
 
 #[derive(Debug, Args)]
 pub struct TuneArgs {

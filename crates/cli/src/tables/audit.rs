@@ -5,7 +5,7 @@ use store::printable;
 use suite::engine_name;
 
 use super::{Table, cell};
-use crate::output::push_wrapped;
+use terminal::output::push_wrapped;
 
 /// Lists, per object, its visibility in the engine's picture and its velocity error; then the depth
 /// error, then what is wrong.

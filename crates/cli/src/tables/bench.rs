@@ -3,7 +3,7 @@
 use suite::{BASELINE, Bench, CaseCost, GROWTH_FROM, REACHES, Spread};
 
 use super::{Table, cell};
-use crate::output::push_wrapped;
+use terminal::output::push_wrapped;
 
 /// Makes the tables: cost per filter and pass, then cost against blur length.
 pub fn bench_table(bench: &Bench) -> String {

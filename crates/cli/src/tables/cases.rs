@@ -6,7 +6,7 @@ use store::printable_lines;
 use suite::{Case, Failure, Run};
 
 use super::{Column, Missing, Table, bracket_name, legend_text, list_once, means_table};
-use crate::output::{bad, heading, wrap_lines};
+use terminal::output::{bad, heading, wrap_lines};
 
 const CASE_COLUMNS: [Column; 9] = [
     ("FLIP", Metric::FLIP),

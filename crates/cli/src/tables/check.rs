@@ -9,7 +9,7 @@ use judge::{
 use report::{finding_score, finding_status, length_text, way_out, worst_frame_text};
 
 use super::{failures_text, list_once};
-use crate::output::{bad, count_text, doubtful, good, heading, push_wrapped};
+use terminal::output::{bad, count_text, doubtful, good, heading, push_wrapped};
 
 /// Lists scores that are broken, undecided or limited within the noise, by scene and filter; then
 /// comparisons, then counts. Lists targets, which fail nothing, only if `targets` is set. `out` is

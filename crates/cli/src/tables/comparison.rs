@@ -5,7 +5,7 @@ use metrics::Metric;
 use report::ChangeCells;
 
 use super::{Table, list_once};
-use crate::output::{bad, count_text, doubtful, faint, good, push_wrapped};
+use terminal::output::{bad, count_text, doubtful, faint, good, push_wrapped};
 
 /// Upper limit on changed cases in the table; `--json` and the page show all.
 const CASES: usize = 12;

@@ -4,7 +4,7 @@ use filters::{AdapterDescription, Filter, Parameter, Preset, Unit};
 use suite::InputKind;
 use tracer::SceneListing;
 
-use crate::output::{heading, push_wrapped};
+use terminal::output::{heading, push_wrapped};
 
 /// Lists scenes, one short paragraph each.
 pub fn scenes_text(scenes: &[SceneListing]) -> String {

@@ -9,7 +9,7 @@ use metrics::Metric;
 use suite::Case;
 use tracer::FrameRate;
 
-use crate::output::push_wrapped;
+use terminal::output::push_wrapped;
 
 use super::{
     Table, frame_rates_text, input_forms_text, legend_text, list_once, mean_text, range_text,

@@ -5,7 +5,7 @@ use metrics::{Metric, SkillMetric};
 use suite::{Overall, rank_filters};
 
 use super::{Column, Table, bracket_name, cell, legend_text, list_once, range_text, shutter_text};
-use crate::output::heading;
+use terminal::output::heading;
 
 /// FLIP, which ranks filters of one alignment, and the columns after it.
 const BY_FLIP: [Column; 8] = [

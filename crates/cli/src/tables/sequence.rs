@@ -9,7 +9,7 @@ use tracer::SceneId;
 use super::{
     Table, bracket_name, cell, legend_text, list_once, ranked_name, ranking_cells, shutter_text,
 };
-use crate::output::heading;
+use terminal::output::heading;
 
 /// Columns, each with its title.
 const COLUMNS: [(&str, SequenceMetric); 8] = [

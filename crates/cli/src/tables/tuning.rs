@@ -7,7 +7,7 @@ use tune::{
 };
 
 use super::{Table, cell};
-use crate::output::{count_text, heading, push_wrapped};
+use terminal::output::{count_text, heading, push_wrapped};
 
 /// Upper limit on rows of the front; `tune.json` has all.
 const ROWS: usize = 12;

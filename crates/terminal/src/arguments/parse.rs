@@ -8,7 +8,6 @@ use frame::Alignment;
 use store::MAX_REPLICATES;
 use suite::{MAX_FRAMES, SIDES};
 use tracer::{MAX_SAMPLES, RenderSettings};
-use tune::Objective;
 
 /// Number of replicates, or a range of them.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -178,13 +177,6 @@ pub fn parse_speed(
             },
         )
     }
-}
-
-/// Parses an objective of a search.
-pub fn parse_objective(text: &str) -> Result<Objective, String> {
-    let mut all = Objective::ALL.iter().copied();
-    let named = all.find(|objective| objective.name() == text);
-    named.ok_or_else(|| "allowed: flip, bleed, cost".to_owned())
 }
 
 #[cfg(test)]
