@@ -54,7 +54,7 @@ pub enum Command {
     /// Exchange scenes and frames with engines
     #[command(subcommand, disable_help_subcommand = true)]
     Engine(EngineCommand),
-    /// Render and join truths; split a run into jobs
+    /// Render truths; join truths and runs
     #[command(subcommand, disable_help_subcommand = true)]
     Truths(TruthsCommand),
     /// Accept scores as a baseline, or propose bounds

@@ -117,23 +117,11 @@ impl Document {
         check_visible(text).map_err(|reason| self.error(place, format!("the text {reason}")))
     }
 
-    /// Turns a parser's error into one about the file: keys, words and numbers instead of fields,
-    /// variants and Rust types.
+    /// Turns a parser's error into one about the file.
     fn syntax_error(&self, error: &toml::de::Error) -> SceneError {
-        let reason = error
-            .message()
-            .replace("recursion limit", TOO_DEEP)
-            .replace("cannot recurse further; max recursion depth met", TOO_DEEP)
-            .replace("unknown field", "unknown key")
-            .replace("missing field", "missing key")
-            .replace("duplicate field", "duplicate key")
-            .replace("unknown variant", "unknown word")
-            .replace("expected f64", "expected a number")
-            .replace("expected f32", "expected a number")
-            .replace("expected u32", "expected a whole number from 0")
-            .replace(", expected one of", "; allowed:")
-            .replace(", expected", "; allowed:")
-            .replace("expected", "allowed:");
+        let reason = error.message();
+        let is_too_deep = reason.contains("recursion limit") || reason.contains("recurse further");
+        let reason = if is_too_deep { TOO_DEEP } else { reason };
         match error.span() {
             Some(place) => self.error(place, reason),
             None => SceneError::in_file(&self.path, reason),
