@@ -15,9 +15,10 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use bench::Bench;
 use judge::Results;
 use report::{write_case_strip, write_report};
-use suite::{ACCUMULATE, Bench, Case, Error, Run};
+use suite::{ACCUMULATE, Case, Error, Run};
 
 use crate::engines::list_engines;
 use crate::lengths::{Lengths, Panels};

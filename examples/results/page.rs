@@ -1,6 +1,7 @@
 //! The page of kept results, in Markdown: engines' shipped presets, and the ranking of all presets.
 //! On the site each engine has a page.
 
+use bench::Bench;
 use cli::{markdown_table, range_text};
 use frame::Alignment;
 use judge::{
@@ -9,7 +10,7 @@ use judge::{
 };
 use metrics::Metric;
 use store::{escape_markdown, markdown_code};
-use suite::{Bench, Error, IDENTITY};
+use suite::{Error, IDENTITY};
 use tracer::SceneId;
 
 use super::change::Change;

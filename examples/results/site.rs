@@ -6,10 +6,11 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
+use bench::Bench;
 use frame::FileError;
 use judge::Results;
 use maud::html;
-use suite::{Bench, Error};
+use suite::Error;
 
 use super::page::site_pages;
 

@@ -16,11 +16,12 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use bench::Bench;
 use filters::Filter;
 use frame::Alignment;
 use judge::{Agreement, Results, compare_sizes};
 use metrics::Metric;
-use suite::{Bench, IDENTITY, Run};
+use suite::{IDENTITY, Run};
 use tests::filter_folder::copy_changed_filter;
 use tests::root;
 use tests::text::assert_contains;

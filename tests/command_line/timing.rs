@@ -26,7 +26,7 @@ fn a_bench_prints_and_writes_the_same_times() {
 
     assert_contains(&squeeze(&table), &["of 20 rounds by"]);
 
-    let done: suite::Bench = sandbox.read_json("out/bench.json");
+    let done: bench::Bench = sandbox.read_json("out/bench.json");
     assert_eq!((done.width, done.height, done.rounds), (32, 16, 20));
     let names: Vec<&str> = done.cases.iter().map(|case| &case.filter[..]).collect();
     assert_eq!(names, ["jump_flood", "jump_flood_packed", "identity"]);

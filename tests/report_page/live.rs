@@ -5,10 +5,11 @@ use std::io::{BufRead, BufReader, Write};
 use std::net::{TcpListener, TcpStream};
 use std::path::{Path, PathBuf};
 
+use bench::Bench;
 use frame::{Image, Raster};
 use metrics::Metric;
 use serde_json::{Value, json};
-use suite::{Bench, Case};
+use suite::Case;
 use tests::filter_folder::copy_folder;
 use tests::text::assert_contains;
 

@@ -2,7 +2,8 @@
 
 use std::collections::HashMap;
 
-use suite::{Bench, Case, FilterId, Run};
+use bench::Bench;
+use suite::{Case, FilterId, Run};
 use tracer::SceneId;
 
 /// A run's cases with a row per filter and a column per scene.

@@ -1,7 +1,6 @@
 //! Rendering and measuring of filters over scenes, with inputs as in engines. Nothing here prints:
 //! results are data, and progress goes to a [`Monitor`].
 
-mod bench;
 mod colors;
 mod engine_scene;
 mod error;
@@ -19,10 +18,6 @@ mod runner;
 mod score;
 mod stats;
 
-pub use bench::{
-    BASELINE, Bench, BenchPlan, CaseCost, GROWTH_FROM, REACHES, ReachCost, ReachPoint, Spread,
-    bench,
-};
 pub use colors::{magma, velocity_wheel};
 pub use engine_scene::{
     BLURRED, EngineScene, INGESTED_FILE, INGESTED_FORMAT, engine_name, name_in_one_word,

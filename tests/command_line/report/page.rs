@@ -180,7 +180,7 @@ fn costs_come_from_the_bench_beside_the_run() {
     let bench = "bench --quiet --size 64x32 --out out --filters";
     sandbox.done(&format!("{bench} {filters}"));
     let page = make_page(&sandbox);
-    let mut timed: suite::Bench = sandbox.read_json("out/bench.json");
+    let mut timed: bench::Bench = sandbox.read_json("out/bench.json");
     let mut costs = timed.cases.iter();
     let timing = costs.find(|cost| cost.filter == "identity").unwrap();
     // Every table of scores has one cell for the filter both run and timed. Filters that were only

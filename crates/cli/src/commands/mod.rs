@@ -2,7 +2,6 @@
 
 pub mod accept;
 pub mod audit;
-pub mod bench;
 pub mod blur;
 pub mod calibrate;
 mod candidate;

@@ -3,7 +3,6 @@
 mod abreast;
 mod annotations;
 mod audit;
-mod bench;
 mod cases;
 mod check;
 mod comparison;
@@ -20,7 +19,6 @@ pub use terminal::table::*;
 pub use self::abreast::*;
 pub use self::annotations::*;
 pub use self::audit::*;
-pub use self::bench::*;
 pub use self::cases::*;
 pub use self::check::*;
 pub use self::comparison::*;

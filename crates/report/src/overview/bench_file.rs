@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
+use bench::{Bench, CaseCost, Spread};
 use filters::Value;
 use maud::{Markup, html};
-use suite::{Bench, CaseCost, Error, FilterId, Spread};
+use suite::{Error, FilterId};
 
 use crate::case_table::CaseTable;
 use crate::numbers::three_digits;

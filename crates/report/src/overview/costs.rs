@@ -1,8 +1,9 @@
 //! Section on the cost of filters, from the run's bench.json.
 
+use bench::{BASELINE, Bench, CaseCost, GROWTH_FROM, REACHES};
 use maud::{Markup, html};
 use metrics::Metric;
-use suite::{BASELINE, Bench, CaseCost, FilterId, GROWTH_FROM, REACHES};
+use suite::FilterId;
 
 use super::bench_file::{cost_of, milliseconds, spread};
 use super::pareto::{Point, pareto_section};

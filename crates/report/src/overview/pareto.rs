@@ -1,7 +1,7 @@
 //! Chart of error against time, and the filters that no other beats in both.
 
+use bench::Spread;
 use maud::{Markup, html};
-use suite::Spread;
 
 use super::bench_file::{milliseconds, spread};
 use crate::charts::is_undominated;

@@ -9,6 +9,7 @@ use super::{InputFormArgs, ProgramArgs, SceneArgs, parse_even, parse_size, withi
 /// Choice of scenes, filters and inputs to measure.
 #[derive(Clone, Debug, Args)]
 pub struct MeasureArgs {
+    /// Scenes and sizes.
     #[command(flatten)]
     pub scenes: SceneArgs,
     /// Filters: names, folders or patterns such as 'jump*', each with an optional :preset;
@@ -45,6 +46,7 @@ pub struct MeasureArgs {
         value_parser = parse_even
     )]
     pub replicates: u32,
+    /// Forms of the input.
     #[command(flatten)]
     pub forms: InputFormArgs,
     /// Frames of noise, to separate a noisy filter's noise from its other errors; 0 for none.
@@ -57,6 +59,7 @@ pub struct MeasureArgs {
     /// Remove the truths and cases of these scenes in --out first.
     #[arg(help_heading = "Scenes and files", long, conflicts_with = "truths")]
     pub no_cache: bool,
+    /// Whether filters that are programs may run.
     #[command(flatten)]
     pub programs: ProgramArgs,
 }

@@ -9,6 +9,7 @@ use super::{above_zero, frame_count};
 /// Frames, intervals and the common shutter of a run.
 #[derive(Debug, Args)]
 pub struct RunOptions {
+    /// Frames of a sequence.
     #[command(flatten)]
     pub sequence: SequenceArgs,
     /// Measure the 95 % CI of every score, as `check` does. Cases take twice the time.

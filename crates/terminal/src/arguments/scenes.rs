@@ -36,8 +36,10 @@ pub struct SceneArgs {
     /// times and colours.
     #[arg(long, value_name = "S")]
     pub seal: Option<u64>,
+    /// Frame rates and shutter times.
     #[command(flatten)]
     pub rates: FrameRateArgs,
+    /// Folder of scenes.
     #[command(flatten)]
     pub root: RootArgs,
     /// Mean samples per pixel of a truth with 8 replicates, 8 times a power of two. Noisy parts of

@@ -12,8 +12,8 @@ use super::{
     BASELINE, BENCH_FORMAT, Bench, CaseCost, CopyCost, EXPOSURE, GROWTH_FROM, REACHES, ReachCost,
     ReachPoint, SPEED, Spread,
 };
-use crate::filter_choice::FilterChoice;
-use crate::{Error, PROGRAM};
+use suite::FilterChoice;
+use suite::{Error, PROGRAM};
 
 /// All settings of a bench.
 pub struct BenchPlan {

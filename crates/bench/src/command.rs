@@ -5,15 +5,17 @@ use terminal::refuse;
 
 use clap::Args;
 use filters::Gpu;
-use suite::{BenchPlan, Error, bench, open_adapter};
+use suite::{Error, open_adapter};
 
-use crate::arguments::{AdapterArgs, parse_size, within};
-use crate::tables::bench_table;
+use terminal::arguments::{AdapterArgs, parse_size, within};
 use terminal::expected::print_expected_time;
 use terminal::output::make_monitor;
 use terminal::result::write_result;
 use terminal::selection::{Programs, select_filters};
 
+use crate::{BenchPlan, bench, bench_table};
+
+/// Arguments of `bench`.
 #[derive(Debug, Args)]
 pub struct BenchArgs {
     /// Filters: names, folders or patterns such as 'jump*', each with an optional :preset;
@@ -36,6 +38,7 @@ pub struct BenchArgs {
     /// preset was made for to the picture's].
     #[arg(long)]
     pub as_written: bool,
+    /// Adapter to time.
     #[command(flatten)]
     pub adapter: AdapterArgs,
     /// Folder for bench.json.

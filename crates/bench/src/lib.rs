@@ -1,9 +1,11 @@
 //! Bench of filters: the time of every pass, its memory traffic, and how both grow with the reach.
 
+mod command;
 mod costs;
 mod file;
 mod panels;
 mod spread;
+mod table;
 mod timing;
 
 use std::collections::BTreeMap;
@@ -11,7 +13,9 @@ use std::collections::BTreeMap;
 use filters::{AdapterDescription, Clock, Value};
 use serde::{Deserialize, Serialize};
 
+pub use self::command::{BenchArgs, execute};
 pub use self::spread::Spread;
+pub use self::table::bench_table;
 pub use self::timing::{BenchPlan, bench};
 
 /// Version of the layout of `bench.json`.

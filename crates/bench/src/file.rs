@@ -6,8 +6,7 @@ use filters::Clock;
 use store::read_text;
 
 use super::{BENCH_FORMAT, Bench, REACHES};
-use crate::Error;
-use crate::SIDES;
+use suite::{Error, SIDES};
 
 /// Longest duration in a bench, in seconds: a day.
 const LONGEST: f64 = 86_400.0;

@@ -1,9 +1,9 @@
 //! Tables of a bench.
 
-use suite::{BASELINE, Bench, CaseCost, GROWTH_FROM, REACHES, Spread};
-
-use super::{Table, cell};
 use terminal::output::push_wrapped;
+use terminal::table::{Table, cell};
+
+use crate::{BASELINE, Bench, CaseCost, GROWTH_FROM, REACHES, Spread};
 
 /// Makes the tables: cost per filter and pass, then cost against blur length.
 pub fn bench_table(bench: &Bench) -> String {
