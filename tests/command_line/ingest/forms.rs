@@ -200,7 +200,7 @@ fn files_of_two_captures_are_not_mixed() {
             ["mine", "other"].map(|scene| sandbox.path("out/engine").join(scene).join(name));
         let before = fs::read(&path).unwrap();
         fs::copy(other, &path).unwrap();
-        let parts = [name, "is of another capture", "ingest the capture again"];
+        let parts = [name, "comes from a different capture", "run `ingest` again"];
         sandbox.refuse(words, &parts);
         fs::write(&path, before).unwrap();
     }
