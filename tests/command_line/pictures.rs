@@ -185,7 +185,7 @@ fn find_other_ranking(lines: &[String], readme: &str) -> Vec<String> {
     let count = readme.split("--table shows all ").nth(1).unwrap();
     let count = format!(
         "5 scenes, {} filter presets.",
-        count.split('.').next().unwrap()
+        count.split_whitespace().next().unwrap()
     );
     if !lines.iter().any(|line| line.starts_with(&count)) {
         wrong.push(format!("no \"{count}\""));
