@@ -32,42 +32,11 @@ impl Space {
                 filter.name
             )));
         }
-        let mut axes: Vec<Parameter> = Vec::new();
-        for word in vary {
-            let refuse = |reason: String| Error::Usage(format!("parameter {word}: {reason}"));
-            let (name, range) = match word.split_once('=') {
-                Some((name, range)) => (name, Some(range)),
-                None => (word.as_str(), None),
-            };
-            let Some(parameter) = filter
-                .parameters
-                .iter()
-                .find(|parameter| parameter.name == name)
-            else {
-                return Err(refuse(format!(
-                    "filter {} has no parameter \"{name}\"; allowed: {}",
-                    filter.name,
-                    names.join(", ")
-                )));
-            };
-            if !parameter.tunable {
-                return Err(refuse(format!(
-                    "its filter.toml says tunable = false; allowed: {}",
-                    names.join(", ")
-                )));
-            }
-            if axes.iter().any(|axis| axis.name == name) {
-                return Err(refuse("it is named twice".to_owned()));
-            }
-            let mut axis = parameter.clone();
-            if let Some(range) = range {
-                axis.kind = narrow(&parameter.kind, range).map_err(refuse)?;
-            }
-            axes.push(axis);
-        }
-        if vary.is_empty() {
-            axes = tunable.into_iter().cloned().collect();
-        }
+        let axes = if vary.is_empty() {
+            tunable.into_iter().cloned().collect()
+        } else {
+            read_axes(filter, &names, vary)?
+        };
         match axes.iter().find(|axis| !can_vary(&axis.kind)) {
             Some(axis) => Err(Error::Usage(format!(
                 "{}.{}: its range is {}, one value alone; leave it out",
@@ -108,6 +77,44 @@ impl Space {
         let squares: f64 = a.iter().zip(&b).map(|(a, b)| (a - b).powi(2)).sum();
         (squares / a.len() as f64).sqrt()
     }
+}
+
+/// Reads the words of `vary`: an axis each. `names` are the tunable parameters, for messages.
+fn read_axes(filter: &Filter, names: &[&str], vary: &[String]) -> Result<Vec<Parameter>, Error> {
+    let mut axes: Vec<Parameter> = Vec::new();
+    for word in vary {
+        let refuse = |reason: String| Error::Usage(format!("parameter {word}: {reason}"));
+        let (name, range) = match word.split_once('=') {
+            Some((name, range)) => (name, Some(range)),
+            None => (word.as_str(), None),
+        };
+        let Some(parameter) = filter
+            .parameters
+            .iter()
+            .find(|parameter| parameter.name == name)
+        else {
+            return Err(refuse(format!(
+                "filter {} has no parameter \"{name}\"; allowed: {}",
+                filter.name,
+                names.join(", ")
+            )));
+        };
+        if !parameter.tunable {
+            return Err(refuse(format!(
+                "its filter.toml says tunable = false; allowed: {}",
+                names.join(", ")
+            )));
+        }
+        if axes.iter().any(|axis| axis.name == name) {
+            return Err(refuse("it is named twice".to_owned()));
+        }
+        let mut axis = parameter.clone();
+        if let Some(range) = range {
+            axis.kind = narrow(&parameter.kind, range).map_err(refuse)?;
+        }
+        axes.push(axis);
+    }
+    Ok(axes)
 }
 
 /// Narrows a range to `low..high`.

@@ -122,19 +122,14 @@ pub fn twins_text(cases: &[Case], ranked: &[Vec<RankedFilter>]) -> String {
         return String::new();
     }
     let mean = |row: &FilterId, column: &String| {
-        let is_in = |case: &Case| {
+        let is_in = |case: &&&Case| {
             if column == OURS {
                 case.drawn.is_none() && scenes.contains(&case.scene)
             } else {
                 twin(case).is_some() && case.scene.variant.as_ref() == Some(column)
             }
         };
-        let measured = full.iter().filter(|case| is_in(case));
-        let measured = measured.filter(|case| case.filter_id() == *row);
-        let flips: Vec<f64> = measured
-            .filter_map(|case| case.estimate(Metric::FLIP))
-            .collect();
-        (!flips.is_empty()).then(|| flips.iter().sum::<f64>() / flips.len() as f64)
+        mean_flip(full.iter().filter(is_in).copied(), row)
     };
     let best = |row: &FilterId| {
         let means = engines.iter().filter_map(|engine| mean(row, engine));
@@ -156,6 +151,15 @@ pub fn twins_text(cases: &[Case], ranked: &[Vec<RankedFilter>]) -> String {
         |row, column| cell(mean(row, column), |mean| Metric::FLIP.number(mean)),
         &legend,
     )
+}
+
+/// Means the FLIP of a filter over some cases; none if no case is of it.
+fn mean_flip<'a>(cases: impl Iterator<Item = &'a Case>, filter: &FilterId) -> Option<f64> {
+    let cases = cases.filter(|case| case.filter_id() == *filter);
+    let flips: Vec<f64> = cases
+        .filter_map(|case| case.estimate(Metric::FLIP))
+        .collect();
+    (!flips.is_empty()).then(|| flips.iter().sum::<f64>() / flips.len() as f64)
 }
 
 /// A row of the table.
