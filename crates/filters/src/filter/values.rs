@@ -2,6 +2,7 @@
 
 use super::convention::CONVENTION_VALUES;
 use super::definition::Filter;
+use super::parameter::Value;
 use super::settings::Settings;
 
 /// Numbers of the frame and of the pass.
@@ -92,14 +93,13 @@ impl Filter {
     /// Lists the parts of the camera that the shaders read with these settings.
     pub(crate) fn camera_use(&self, settings: &Settings) -> CameraUse {
         let mut blocks = self.shaders.iter().flat_map(|shader| &shader.blocks);
-        let mut switches = (self.parameters.iter())
+        let switches: Vec<(&String, &Value)> = (self.parameters.iter())
             .filter_map(|parameter| Some((&parameter.name, parameter.no_camera_at.as_ref()?)))
-            .map(|(name, off)| settings.values[name] != *off)
-            .peekable();
-        let switched_on = switches.peek().is_none() || switches.any(|on| on);
+            .collect();
+        let is_off = |(name, off): &(&String, &Value)| settings.values[*name] == **off;
+        let is_needed = switches.is_empty() || !switches.iter().all(is_off);
         CameraUse {
-            reprojection: switched_on
-                && self.shaders.iter().any(|shader| shader.reads_reprojection),
+            reprojection: is_needed && self.shaders.iter().any(|shader| shader.reads_reprojection),
             matrices: blocks.any(|block| block.reads_any(&is_of_matrix)),
         }
     }
