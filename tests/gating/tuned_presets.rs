@@ -2,13 +2,14 @@
 
 use std::path::Path;
 
-use cli::{Programs, paired_table, select_filters, select_scenes};
+use cli::{Programs, select_filters, select_scenes};
 use judge::{SceneBounds, read_bounds};
 use measure::Monitor;
 use tests::{open_gpu, settings};
 use tracer::Scene;
 use tune::{
-    Evaluator, LEAST_BLEED, PairedComparison, Preference, compare_candidates, render_scenes,
+    Evaluator, LEAST_BLEED, PairedComparison, Preference, compare_candidates, paired_table,
+    render_scenes,
 };
 
 const TUNED: [&str; 2] = ["jump_flood", "mcguire"];

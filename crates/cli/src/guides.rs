@@ -8,8 +8,7 @@ use std::path::{Path, PathBuf};
 use clap::{Arg, Args, Command, CommandFactory, Id, Parser};
 
 use crate::arguments::{
-    AdapterArgs, CandidateArgs, MeasureArgs, ProgramArgs, RootArgs, RunOptions, SceneArgs,
-    SequenceArgs,
+    AdapterArgs, MeasureArgs, ProgramArgs, RootArgs, RunOptions, SceneArgs, SequenceArgs,
 };
 use crate::program::Cli;
 use terminal::output::OutputArgs;
@@ -100,7 +99,7 @@ const SHARED: [(&str, Group); 9] = [
     ("Measurement", MeasureArgs::augment_args),
     ("Sequences", SequenceArgs::augment_args),
     ("Intervals", RunOptions::augment_args),
-    ("Candidate", CandidateArgs::augment_args),
+    ("Candidate", tune::CandidateArgs::augment_args),
 ];
 
 /// Makes the page of all commands: its own introduction, each command's help, and the shared

@@ -1,6 +1,5 @@
 //! The program `shuttertruth`: its arguments, its commands, and what they print.
 
-mod arguments;
 mod commands;
 mod environment;
 #[cfg(test)]
@@ -16,6 +15,7 @@ use filters::FilterError;
 use frame::TruthError;
 use measure::{Error, printable};
 use program::{Cli, execute, find_new_place};
+use terminal::arguments;
 use terminal::output::{
     INTERRUPTED_TEXT, catch_interrupts, interrupted_code, print_error, print_failure, set_output,
 };
@@ -23,8 +23,8 @@ use terminal::result::Ending;
 use tracer::TraceError;
 
 pub use tables::{
-    annotations, check_text, compare_table, junit, list_once, markdown_table, paired_table,
-    range_text, ranking_text, run_table, score_table, summary,
+    annotations, check_text, compare_table, junit, list_once, markdown_table, range_text,
+    ranking_text, run_table, score_table, summary,
 };
 pub use terminal::output::terminal_text;
 pub use terminal::selection::{Programs, SceneChoice, select_filters, select_scenes};

@@ -12,7 +12,6 @@ mod missing;
 mod ranking;
 mod scene_means;
 mod sequence;
-mod tuning;
 
 pub use terminal::table::*;
 
@@ -28,4 +27,3 @@ pub use self::missing::*;
 pub use self::ranking::*;
 pub use self::scene_means::*;
 pub use self::sequence::*;
-pub use self::tuning::*;

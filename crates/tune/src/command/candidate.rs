@@ -1,19 +1,52 @@
-//! Candidates of tunings: a filter, and the rendered scenes to score it on.
+//! Candidates on the command line: a filter, its preset, and the rendered scenes to score it on.
 
+use clap::Args;
 use filters::Gpu;
 use judge::SceneBounds;
 use measure::{
     Error, FilterChoice, Sharing, estimate_case_seconds, estimate_render_seconds, lock_folder,
     open_gpu,
 };
-use tracer::{RenderSettings, Scene};
-use tune::{Evaluator, render_scenes};
-
-use super::run_plan::load_scenes;
-use crate::arguments::{CandidateArgs, SceneArgs};
+use terminal::arguments::{AdapterArgs, ProgramArgs, SceneArgs, parse_size};
 use terminal::expected::print_expected_time;
 use terminal::output::{count_text, make_monitor};
-use terminal::selection::select_filters;
+use terminal::selection::{load_scenes, select_filters};
+use tracer::{RenderSettings, Scene};
+
+use crate::evaluator::Evaluator;
+use crate::target::render_scenes;
+use crate::trial::Objective;
+
+/// Choice of a filter, and of the scenes that it is scored on.
+#[derive(Debug, Args)]
+pub struct CandidateArgs {
+    /// Filter: a name or a folder.
+    #[arg(help_heading = "Filters", long, value_name = "FILTER")]
+    pub filter: String,
+    /// Preset to start from [default: the filter's first].
+    #[arg(help_heading = "Filters", long, value_name = "PRESET")]
+    pub from: Option<String>,
+    /// Keep lengths in pixels as the preset has them [default: scale them from the width that the
+    /// preset was made for to the picture's].
+    #[arg(help_heading = "Filters", long)]
+    pub as_written: bool,
+    /// Objectives, separated by commas: flip (always), bleed (`bleed_lateral`, neither ahead nor
+    /// behind), cost.
+    #[arg(help_heading = "Filters", long, value_delimiter = ',', default_value = "flip,bleed,cost", value_name = "OBJECTIVES", value_parser = parse_objective)]
+    pub objective: Vec<Objective>,
+    /// Picture size in pixels.
+    #[arg(help_heading = "Scenes and files", long, value_name = "WxH", default_value = "320x180", value_parser = parse_size)]
+    pub size: (u32, u32),
+    /// Scenes to score it on.
+    #[command(flatten)]
+    pub scenes: SceneArgs,
+    /// Whether the filter may be a program.
+    #[command(flatten)]
+    pub programs: ProgramArgs,
+    /// Adapter that the filter runs on.
+    #[command(flatten)]
+    pub adapter: AdapterArgs,
+}
 
 impl CandidateArgs {
     /// Selects the filter with its start preset, for the requested picture size.
@@ -91,4 +124,11 @@ pub fn print_expected_scoring(
         rendering + scoring.min(limit),
         &format!("{candidates} on {scenes}"),
     );
+}
+
+/// Parses an objective of a search.
+fn parse_objective(text: &str) -> Result<Objective, String> {
+    let mut all = Objective::ALL.iter().copied();
+    let named = all.find(|objective| objective.name() == text);
+    named.ok_or_else(|| "allowed: flip, bleed, cost".to_owned())
 }

@@ -2,20 +2,23 @@
 
 use clap::Args;
 use measure::Error;
-use tune::{Objective, compare_candidates};
-
-use crate::arguments::CandidateArgs;
-use crate::tables::paired_table;
 use terminal::result::write_result;
 
+use super::CandidateArgs;
+use crate::comparison::compare_candidates;
+use crate::table::paired_table;
+use crate::trial::Objective;
+
+/// Arguments of `tune compare`.
 #[derive(Debug, Args)]
-pub struct ComparePresetsArgs {
+pub struct CompareArgs {
     /// The first preset.
     #[arg(value_name = "PRESET")]
     pub first: String,
     /// The second preset.
     #[arg(value_name = "PRESET")]
     pub second: String,
+    /// Filter and scenes.
     #[command(flatten)]
     pub candidate: CandidateArgs,
     /// Print compare.json instead of the table.
@@ -24,7 +27,7 @@ pub struct ComparePresetsArgs {
 }
 
 /// Scores two presets on every scene, writes `compare.json`, prints the table.
-pub fn execute(args: &ComparePresetsArgs) -> Result<(), Error> {
+pub fn execute(args: &CompareArgs) -> Result<(), Error> {
     let candidate = &args.candidate;
     let choice = candidate.select()?;
     let presets = [&args.first, &args.second];

@@ -1,13 +1,17 @@
 //! Tables of a finished tuning, of two presets, and of a sensitivity study.
 
 use measure::MIN_SCENES;
-use tune::{
-    Advice, Difference, LEAST_BLEED, PairedComparison, ParameterSensitivity, Preference,
-    Sensitivity, SobolIndices, Trial, Tuning,
-};
-
-use super::{Table, cell};
+use report::numbers::percent;
 use terminal::output::{count_text, heading, push_wrapped};
+use terminal::table::{Table, cell};
+
+use crate::advice::Advice;
+use crate::comparison::{Difference, PairedComparison, Preference};
+use crate::loss::LEAST_BLEED;
+use crate::sensitivity::{ParameterSensitivity, Sensitivity};
+use crate::sobol::SobolIndices;
+use crate::trial::Trial;
+use crate::tuning::Tuning;
 
 /// Upper limit on rows of the front; `tune.json` has all.
 const ROWS: usize = 12;
@@ -209,9 +213,4 @@ pub fn sensitivity_table(sensitivity: &Sensitivity) -> String {
             "{} candidates, {} failed\n",
             sensitivity.candidates, sensitivity.failed
         )
-}
-
-/// Formats a mean of logs as a change of the error.
-fn percent(log: f64) -> String {
-    format!("{:+.1} %", 100.0 * log.exp_m1())
 }

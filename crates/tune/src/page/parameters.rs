@@ -4,14 +4,14 @@ use std::collections::BTreeSet;
 
 use filters::Value;
 use maud::{Markup, html};
-use tune::{ParameterSensitivity, Sensitivity};
+use report::charts::ends;
+use report::charts::plot::{Axis, Plot};
+use report::charts::strip::Strip;
+use report::table::Column::{Chart, Plain, Text};
+use report::table::scroll_table;
 
 use super::folder::TuneFolder;
-use crate::charts::ends;
-use crate::charts::plot::{Axis, Plot};
-use crate::charts::strip::Strip;
-use crate::table::Column::{Chart, Plain, Text};
-use crate::table::scroll_table;
+use crate::sensitivity::{ParameterSensitivity, Sensitivity};
 
 /// Ratio of a range's ends above which its axis is logarithmic.
 const LOG_FROM: f64 = 30.0;

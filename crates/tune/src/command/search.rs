@@ -5,18 +5,24 @@ use std::time::{Duration, Instant};
 use clap::Args;
 use frame::FileError;
 use measure::{Error, FilterChoice, Sharing, lock_folder};
-use tracer::{Progress, RenderSettings};
-use tune::{Advice, Space, TuneOptions, Tuning, interleave_families, tune, tuned_preset_toml};
-
-use super::candidate::print_expected_scoring;
-use super::run_plan::load_scenes;
-use crate::arguments::{CandidateArgs, above_zero, parse_ratio, parse_samples, parse_size, within};
-use crate::tables::{advice_text, tuning_table};
+use terminal::arguments::{above_zero, parse_ratio, parse_samples, parse_size, within};
 use terminal::output::{is_quiet, make_monitor, print_error};
 use terminal::result::{write_json, write_result};
+use terminal::selection::load_scenes;
+use tracer::{Progress, RenderSettings};
 
+use super::candidate::{CandidateArgs, print_expected_scoring};
+use crate::advice::Advice;
+use crate::options::{TuneOptions, interleave_families};
+use crate::preset::tuned_preset_toml;
+use crate::space::Space;
+use crate::table::{advice_text, tuning_table};
+use crate::tuning::{Tuning, tune};
+
+/// Arguments of `tune search`.
 #[derive(Debug, Args)]
-pub struct TuneArgs {
+pub struct SearchArgs {
+    /// Filter and scenes.
     #[command(flatten)]
     pub candidate: CandidateArgs,
     /// Parameters to change, separated by commas, each with an optional narrower range:
@@ -73,7 +79,7 @@ pub struct TuneArgs {
 }
 
 /// Tunes a filter, writes `journal.jsonl`, `tune.json` and the chosen values, and prints the table.
-pub fn execute(args: &TuneArgs) -> Result<(), Error> {
+pub fn execute(args: &SearchArgs) -> Result<(), Error> {
     let options = make_options(args, args.candidate.select()?)?;
     options.check()?;
     let gpu = args.candidate.open_gpu(&options.choice)?;
@@ -100,7 +106,7 @@ pub fn execute(args: &TuneArgs) -> Result<(), Error> {
     write_tuning(&tuning, &options, args.json)
 }
 
-fn make_options(args: &TuneArgs, choice: FilterChoice) -> Result<TuneOptions, Error> {
+fn make_options(args: &SearchArgs, choice: FilterChoice) -> Result<TuneOptions, Error> {
     let candidate = &args.candidate;
     let scene_args = &candidate.scenes;
     let space = Space::new(&choice.filter, choice.settings.clone(), &args.vary)?;

@@ -1,41 +1,36 @@
 //! Section on the cost of filters, from the run's bench.json.
 
-use bench::{BASELINE, Bench, CaseCost, GROWTH_FROM, REACHES};
 use maud::{Markup, html};
 use measure::FilterId;
 use metrics::Metric;
+use report::numbers::mean;
+use report::table::Column::{self, Plain};
+use report::table::{grouped_table, scroll_table};
+use report::{CaseTable, adapter_text};
 
-use super::bench_file::{cost_of, milliseconds, spread};
 use super::pareto::{Point, pareto_section};
-use crate::case_table::CaseTable;
-use crate::numbers::mean;
-use crate::run_facts::adapter_text;
-use crate::table::Column::{self, Plain};
-use crate::table::{grouped_table, scroll_table};
+use super::times::{milliseconds, spread};
+use crate::{BASELINE, Bench, CaseCost, GROWTH_FROM, REACHES};
 
-/// Formats `1.23`, in milliseconds; `-` if nothing was timed.
-pub fn cost_text(cost: Option<&CaseCost>) -> String {
-    cost.map_or("-".to_owned(), |cost| milliseconds(cost.seconds.median))
-}
+/// A filter of a run with its cost.
+pub type TimedFilter<'a> = (&'a FilterId, &'a CaseCost);
 
 /// Shows quality against time, passes, and cost against reach.
-pub fn costs(table: &CaseTable) -> Markup {
+pub fn costs(table: &CaseTable, bench: &Bench, timed: &[TimedFilter]) -> Markup {
     html! {
-        section.costs {
-            h2 { "Costs" }
-            @match &table.bench {
-                None => p {
-                    "This run has no bench.json. " code { "shuttertruth bench" }
-                    ", with the run's folder, times its filters; then report again."
-                },
-                Some(bench) => {
-                    @let timed = list_timed(table);
-                    p.note { (provenance(bench)) }
-                    (pareto_section(&points(table, &timed), &references(table)))
-                    (passes(&timed))
-                    (reaches(bench))
-                }
-            }
+        p.note { (provenance(bench)) }
+        (pareto_section(&points(table, timed), &references(table)))
+        (passes(timed))
+        (reaches(bench))
+    }
+}
+
+/// Explains how the page gets costs.
+pub fn no_costs() -> Markup {
+    html! {
+        p {
+            "This run has no bench.json. " code { "shuttertruth bench" }
+            ", with the run's folder, times its filters; then report again."
         }
     }
 }
@@ -52,18 +47,10 @@ fn provenance(bench: &Bench) -> String {
     )
 }
 
-/// Lists the run's timed filters.
-fn list_timed<'a>(table: &'a CaseTable) -> Vec<(&'a FilterId, &'a CaseCost)> {
-    let timed = table.filters.iter();
-    timed
-        .filter_map(|filter| Some((filter, cost_of(table, filter)?)))
-        .collect()
-}
-
 /// Measures FLIP and time of every timed filter. Filters of all shutters are in one chart, so FLIP
 /// is against one shutter for all.
-fn points(table: &CaseTable, timed: &[(&FilterId, &CaseCost)]) -> Vec<Point> {
-    let point = |(filter, cost): &(&FilterId, &CaseCost)| {
+fn points(table: &CaseTable, timed: &[TimedFilter]) -> Vec<Point> {
+    let point = |(filter, cost): &TimedFilter| {
         Some(Point {
             title: filter.to_string(),
             seconds: cost.seconds,
@@ -87,7 +74,7 @@ fn mean_error(table: &CaseTable, filter: &FilterId) -> Option<f64> {
     mean(cases.filter_map(|(_, case)| case.estimate(Metric::CommonFlip)))
 }
 
-fn passes(timed: &[(&FilterId, &CaseCost)]) -> Markup {
+fn passes(timed: &[TimedFilter]) -> Markup {
     let bodies = html! {
         @for (filter, cost) in timed {
             tbody {

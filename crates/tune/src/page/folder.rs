@@ -4,7 +4,11 @@ use std::path::{Path, PathBuf};
 
 use measure::{Error, read_text};
 use serde::de::DeserializeOwned;
-use tune::{JournalHeader, Sensitivity, TUNE_FORMAT, Trial, Tuning, read_journal};
+
+use crate::journal::read_journal;
+use crate::sensitivity::Sensitivity;
+use crate::trial::{JournalHeader, Trial};
+use crate::tuning::{TUNE_FORMAT, Tuning};
 
 /// Contents of tune.json, journal.jsonl and sensitivity.json; at least one exists.
 #[derive(Clone, Debug)]

@@ -3,12 +3,17 @@
 use std::collections::BTreeMap;
 
 use maud::{Markup, html};
-use tune::{Fold, HeldOutResult, SceneScore, Tuning, log_ratio, pair_scores};
+use report::charts::strip::Strip;
+use report::numbers::percent;
+use report::table::Column::{Chart, Plain};
+use report::table::scroll_table;
 
-use crate::charts::strip::Strip;
-use crate::numbers::percent;
-use crate::table::Column::{Chart, Plain};
-use crate::table::scroll_table;
+use crate::comparison::pair_scores;
+use crate::held_out::HeldOutResult;
+use crate::loss::log_ratio;
+use crate::selection::Fold;
+use crate::target::SceneScore;
+use crate::tuning::Tuning;
 
 /// Lists the scenes tuned on, those with the start's largest errors first.
 pub fn tuned_on(tuning: &Tuning) -> Markup {

@@ -6,13 +6,16 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use filters::{Settings, Value};
 use measure::{Error, FilterChoice, read_text};
-use tune::{Objective, evaluate_candidate};
-
-use crate::arguments::CandidateArgs;
 use terminal::output::print_json;
 
+use super::CandidateArgs;
+use crate::evaluator::evaluate_candidate;
+use crate::trial::Objective;
+
+/// Arguments of `tune evaluate`.
 #[derive(Debug, Args)]
 pub struct EvaluateArgs {
+    /// Filter and scenes.
     #[command(flatten)]
     pub candidate: CandidateArgs,
     /// JSON file with the parameters that differ from the preset: {"samples": 12}

@@ -6,17 +6,39 @@ mod parameters;
 mod scenes;
 mod trials;
 
-pub use folder::TuneFolder;
+use std::path::Path;
+
+use folder::TuneFolder;
 use maud::{Markup, html};
-use measure::Error;
-use tune::{JournalHeader, Tuning};
+use report::FolderPage;
+use report::document::{Document, Siblings};
+use report::table::Column::{Plain, Text};
+use report::table::scroll_table;
 
-use crate::document::{Document, Siblings};
-use crate::table::Column::{Plain, Text};
-use crate::table::scroll_table;
+use crate::trial::JournalHeader;
+use crate::tuning::Tuning;
 
-/// Writes the page of `tune`'s folder. The same folder makes the same bytes.
-pub fn tuning_page(folder: &TuneFolder) -> Result<String, Error> {
+/// The page of a folder that `tune` wrote.
+pub const TUNING_PAGE: FolderPage = FolderPage {
+    kind: "tuning",
+    find: find_folder,
+    make: |folder| Ok(write_page(&TuneFolder::read(folder)?)),
+};
+
+/// Finds the folder of a tuning by the names of the files that `run` and `tune search` write.
+fn find_folder(path: &Path) -> Option<&Path> {
+    let file = path.file_name().unwrap_or_default();
+    if path.is_dir() {
+        Some(path).filter(|folder| !folder.join("run.json").is_file())
+    } else if file == "tune.json" || file == "sensitivity.json" {
+        path.parent()
+    } else {
+        None
+    }
+}
+
+/// Writes the page. The same folder makes the same bytes.
+fn write_page(folder: &TuneFolder) -> String {
     let body = html! {
         @if let Some(tuning) = &folder.tuning { (choice::summary(tuning)) }
         @if let Some(tuning) = &folder.tuning { (choice::values(tuning)) }
@@ -57,7 +79,7 @@ pub fn tuning_page(folder: &TuneFolder) -> Result<String, Error> {
         scripts: &[],
         siblings: Siblings::None,
     };
-    Ok(document.render())
+    document.render()
 }
 
 fn failures(tuning: &Tuning) -> Markup {

@@ -1,14 +1,14 @@
 //! Chart of error against time, and the filters that no other beats in both.
 
-use bench::Spread;
 use maud::{Markup, html};
+use report::charts::is_undominated;
+use report::charts::plot::{Axis, Plot};
+use report::numbers::three_digits;
+use report::table::Column::Plain;
+use report::table::scroll_table;
 
-use super::bench_file::{milliseconds, spread};
-use crate::charts::is_undominated;
-use crate::charts::plot::{Axis, Plot};
-use crate::numbers::three_digits;
-use crate::table::Column::Plain;
-use crate::table::scroll_table;
+use super::times::{milliseconds, spread};
+use crate::Spread;
 
 /// Width of a label's letter, and height of its line, in the chart's units.
 const LETTER: f64 = 5.8;

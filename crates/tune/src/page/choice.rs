@@ -1,11 +1,13 @@
 //! Choice of a tuning.
 
 use maud::{Markup, html};
-use tune::{Advice, Preference, Tuning};
+use report::numbers::percent;
+use report::table::Column::{Plain, Text};
+use report::table::scroll_table;
 
-use crate::numbers::percent;
-use crate::table::Column::{Plain, Text};
-use crate::table::scroll_table;
+use crate::advice::Advice;
+use crate::comparison::Preference;
+use crate::tuning::Tuning;
 
 /// Writes the outcome in a few sentences.
 pub fn summary(tuning: &Tuning) -> Markup {

@@ -1,13 +1,15 @@
 //! Trials of a tuning: those that no other beats, and the convergence of the search.
 
 use maud::{Markup, html};
-use tune::{Advice, Trial, TrialOutcome, round_bleed};
+use report::charts::is_undominated;
+use report::charts::plot::{Axis, Plot};
+use report::numbers::percent;
+use report::table::{Column, scroll_table};
 
 use super::folder::TuneFolder;
-use crate::charts::is_undominated;
-use crate::charts::plot::{Axis, Plot};
-use crate::numbers::percent;
-use crate::table::{Column, scroll_table};
+use crate::advice::Advice;
+use crate::pareto::round_bleed;
+use crate::trial::{Trial, TrialOutcome};
 
 /// Returns a measure of a trial; none if it was not measured.
 type Measure = fn(&Trial) -> Option<f64>;

@@ -2,15 +2,19 @@
 
 use clap::Args;
 use measure::Error;
-use tune::{Space, analyze_sensitivity, count_candidates};
-
-use crate::arguments::{CandidateArgs, within};
-use crate::tables::sensitivity_table;
+use terminal::arguments::within;
 use terminal::output::make_monitor;
 use terminal::result::write_result;
 
+use super::CandidateArgs;
+use crate::sensitivity::{analyze_sensitivity, count_candidates};
+use crate::space::Space;
+use crate::table::sensitivity_table;
+
+/// Arguments of `tune sensitivity`.
 #[derive(Debug, Args)]
 pub struct SensitivityArgs {
+    /// Filter and scenes.
     #[command(flatten)]
     pub candidate: CandidateArgs,
     /// Parameters to study, separated by commas, each with an optional narrower range:
