@@ -37,7 +37,7 @@ fn a_broken_bound_gives_exit_code_1_and_its_evidence() {
     assert!(sandbox.path(picture).is_file());
     // JSON has the same verdict.
     let verdict = json(&sandbox, "--filters identity");
-    assert_eq!(verdict["format"], judge::CHECK_FORMAT);
+    assert_eq!(verdict["format"], gate::CHECK_FORMAT);
     assert_eq!(verdict["decision"], "broken");
     let finding = &verdict["findings"][0];
     for (key, value) in [

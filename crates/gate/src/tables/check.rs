@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
-use judge::{
-    BaselineComparison, Check, ComparisonKind, DecidedBy, Decision, Finding, Level, MAX_SAMPLES,
-    Outcome, Verdict, Worst, number,
-};
+use judge::{Decision, Finding, Level, MAX_SAMPLES, Outcome, Verdict, Worst, number};
 use report::{finding_score, finding_status, length_text, way_out, worst_frame_text};
 
-use super::{failures_text, list_once};
+use super::list_once;
+use crate::baseline::{BaselineComparison, ComparisonKind, DecidedBy};
+use crate::check::Check;
+use run::failures_text;
 use terminal::output::{bad, count_text, doubtful, good, heading, push_wrapped};
 
 /// Lists scores that are broken, undecided or limited within the noise, by scene and filter; then

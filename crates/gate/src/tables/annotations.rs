@@ -1,6 +1,7 @@
 //! Text for GitHub Actions: annotations, and the summary of a step.
 
-use judge::{Check, Decision, Finding, number};
+use crate::check::Check;
+use judge::{Decision, Finding, number};
 use measure::{escape_markdown, printable};
 use report::{finding_line, length_text, limit_text, way_out};
 

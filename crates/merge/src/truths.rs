@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use crate::{
-    Error, Files, RenderFile, RenderPath, Sharing, gather, list_renders, lock_folder, place_files,
-};
 use frame::{Replicate, Truth, TruthError};
+use measure::{Error, RenderFile, RenderPath, Sharing, list_renders, lock_folder};
+
+use crate::gather::{Files, gather, place_files};
 
 /// A merged truth.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,7 +19,7 @@ pub struct Merged {
 
 /// Copies frames and replicates of all `parts` into `out` and makes their truths. Several parts may
 /// contain the same file if its bytes are equal. Nothing is written unless every truth is complete.
-pub fn merge(parts: &[PathBuf], out: &Path) -> Result<Vec<Merged>, Error> {
+pub fn merge_truths(parts: &[PathBuf], out: &Path) -> Result<Vec<Merged>, Error> {
     let files = gather_renders(parts)?;
     let truths = replicates_by_truth(&files);
     // One truth at a time is in memory, first to check that all are complete.
@@ -62,7 +62,7 @@ fn gather_renders(parts: &[PathBuf]) -> Result<Files, Error> {
         }
         lists.push((&**part, renders.iter().map(RenderPath::path).collect()));
     }
-    Ok(gather(lists)?)
+    gather(lists)
 }
 
 /// The files of each truth's replicates, by index.

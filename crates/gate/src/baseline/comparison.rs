@@ -9,9 +9,9 @@ use serde::Serialize;
 
 use crate::baseline::Baseline;
 use crate::baseline::loss::{SceneLoss, check_truth, find_loss};
-use crate::bounds::Margin;
-use crate::finding::settling_samples;
-use crate::outcome::Decision;
+use judge::Decision;
+use judge::Margin;
+use judge::settling_samples;
 
 /// Change of one metric of one filter since the baseline, over all scenes that it applies to.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -4,27 +4,24 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use terminal::refuse;
 
+use crate::baseline::{Baseline, compare_with_baseline};
+use crate::check::{Check, check};
 use clap::{Args, Command, Id};
 use frame::FileError;
 use judge::{
-    BOUNDS_FILE, Baseline, Check, Finding, Judgement, RunBounds, add_evidence, bound_subframes,
-    check, check_lengths, check_names, compare_with_baseline, judge, require_bounds,
-    size_for_bounds,
+    BOUNDS_FILE, Finding, Judgement, RunBounds, add_evidence, bound_subframes, check_lengths,
+    check_names, judge, require_bounds, size_for_bounds,
 };
 use measure::{Case, Error, Run, StoredRun, open_gpu, printable_path, refuse_tracked};
 use metrics::Metric;
 use tracer::Location;
 
-use super::measured_run::{MeasuredRun, measure};
-use super::pages::{
-    WrittenFile, page_lines, refuse_folder, write_judgement, write_run, write_run_page,
-};
-use super::run_plan::{Margins, add_bounds, make_plan, read_margins};
-use crate::arguments::{AdapterArgs, MeasureArgs, SequenceArgs};
-use crate::tables::{
-    adapter_text, annotations, check_text, junit, page_verdict, summary, verdict_text,
-};
-use terminal::output::{is_verbose, print, print_json, print_note};
+use crate::tables::{annotations, check_text, junit, page_verdict, summary, verdict_text};
+use run::{Margins, add_bounds, make_plan, read_margins};
+use run::{MeasuredRun, measure};
+use run::{WrittenFile, page_lines, refuse_folder, write_judgement, write_run, write_run_page};
+use terminal::arguments::{AdapterArgs, MeasureArgs, SequenceArgs};
+use terminal::output::{adapter_text, is_verbose, print, print_json, print_note};
 use terminal::result::Ending;
 
 /// Lists the arguments that only a measuring check may have.
@@ -38,6 +35,7 @@ fn list_measuring() -> Vec<Id> {
         .collect()
 }
 
+/// Arguments of `check`.
 #[derive(Debug, Args)]
 pub struct CheckArgs {
     /// Finished run to judge: its run.json, or its folder. Renders nothing and opens no adapter
@@ -48,10 +46,13 @@ pub struct CheckArgs {
     /// resembles most. A check that measures always does.
     #[arg(help_heading = "Judging", long, requires = "run")]
     pub evidence: bool,
+    /// What to measure.
     #[command(flatten)]
     pub measure: MeasureArgs,
+    /// Frames of each scene.
     #[command(flatten)]
     pub sequence: SequenceArgs,
+    /// Adapter to run kernels on.
     #[command(flatten)]
     pub adapter: AdapterArgs,
     /// Also compare with the scores that `limits accept` wrote there, by the margins in
@@ -87,18 +88,35 @@ pub fn execute(args: &CheckArgs) -> Result<Ending, Error> {
         margins: read_margins(root)?,
     };
     let summary_file = args.github.then(find_summary_file).transpose()?;
+    let judged = match &args.run {
+        Some(path) => judge_finished(args, path, &judging)?,
+        None => run_and_judge(args, &judging)?,
+    };
+    report(args, &judging, &judged, summary_file.as_deref())?;
+    match judged.checked.verdict() {
+        Ok(()) => Ok(Ending::Done),
+        // JSON goes to standard output, so the exit code and standard error alone report the
+        // verdict.
+        Err(error) if args.json => Err(error),
+        Err(error) => Ok(Ending::Failed(error)),
+    }
+}
+
+/// Reports a check in every requested form.
+fn report(
+    args: &CheckArgs,
+    judging: &Judging,
+    judged: &Judged,
+    summary_file: Option<&Path>,
+) -> Result<(), Error> {
     let Judged {
         run,
         checked,
         pages,
         folder,
-    } = match &args.run {
-        Some(path) => judge_finished(args, path, &judging)?,
-        None => run_and_judge(args, &judging)?,
-    };
-
+    } = judged;
     if let Some(path) = &args.junit {
-        frame::write_atomically(path, junit(&checked).as_bytes())?;
+        frame::write_atomically(path, junit(checked).as_bytes())?;
     }
     let measured = args.run.as_ref().map(|path| {
         format!(
@@ -106,39 +124,33 @@ pub fn execute(args: &CheckArgs) -> Result<Ending, Error> {
             printable_path(path)
         )
     });
-    if let Some(path) = &summary_file {
+    if let Some(path) = summary_file {
         let measured = measured.iter().map(|text| format!("\n{text}\n"));
-        append(path, &(summary(&checked) + &measured.collect::<String>()))?;
+        append(path, &(summary(checked) + &measured.collect::<String>()))?;
     }
     if args.json {
-        print_json(&checked)?;
+        print_json(checked)?;
         measured.iter().for_each(|text| print_note(text));
     } else {
-        let text = check_text(&checked, &folder, is_verbose());
+        let text = check_text(checked, folder, is_verbose());
         let mut baselines = judging.compared.iter().map(|(baseline, _)| baseline);
         let other = baselines.find(|baseline| !baseline.is_of_class(&run.adapter));
         let note = other.map_or(String::new(), |baseline| {
             let theirs = adapter_text(&baseline.adapter);
             format!("the baseline is of another class of adapter: {theirs}\n")
         });
-        let pages = page_lines("report", &pages);
+        let pages = page_lines("report", pages);
         let adapter = adapter_text(&run.adapter);
         let measured = measured.map_or(String::new(), |text| text + "\n");
-        let verdict = verdict_text(&checked);
+        let verdict = verdict_text(checked);
         print(&format!(
             "{text}{note}{pages}adapter: {adapter}\n{measured}{verdict}"
         ))?;
     }
     if args.github {
-        print(&annotations(&checked))?;
+        print(&annotations(checked))?;
     }
-    match checked.verdict() {
-        Ok(()) => Ok(Ending::Done),
-        // JSON goes to standard output, so the exit code and standard error alone report the
-        // verdict.
-        Err(error) if args.json => Err(error),
-        Err(error) => Ok(Ending::Failed(error)),
-    }
+    Ok(())
 }
 
 /// What a run is judged by, other than bounds.

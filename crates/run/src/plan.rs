@@ -15,8 +15,8 @@ use measure::{
 use metrics::Metric;
 use tracer::{Location, RenderSettings, Scene, SceneId};
 
-use super::kept_truths::check_truths;
-use crate::arguments::{MeasureArgs, RunOptions, SceneArgs};
+use crate::kept_truths::check_truths;
+use terminal::arguments::{MeasureArgs, RunOptions, SceneArgs};
 use terminal::output::{count_text, make_monitor, print_note, print_scene_notes};
 use terminal::selection::{select_engine_scenes, select_filters, select_scenes};
 
@@ -195,7 +195,7 @@ pub fn add_bounds(bounds: &mut RunBounds, run: &Run, root: &Location) -> Result<
 
 /// Locks the folder of a run for this process alone.
 pub fn lock_out(plan: &RunPlan) -> Result<FolderLock, Error> {
-    Ok(lock_folder(&plan.out, &plan.scenes, Sharing::Alone)?)
+    lock_folder(&plan.out, &plan.scenes, Sharing::Alone)
 }
 
 /// Loads the named scenes of the folder `root`, or all, with their bounds, including those for

@@ -4,12 +4,14 @@ use std::path::PathBuf;
 
 use clap::Args;
 use judge::JUDGEMENT_FILE;
-use measure::{Error, holds_run, merge, merge_runs, printable_path, refuse_failures};
-
-use super::pages::write_run;
-use crate::tables::failures_text;
+use measure::{Error, printable_path, refuse_failures};
+use run::{failures_text, write_run};
 use terminal::output::{count_text, print};
 
+use crate::runs::{holds_run, merge_runs};
+use crate::truths::merge_truths;
+
+/// Arguments of `truths merge`.
 #[derive(Debug, Args)]
 pub struct MergeArgs {
     /// Folders that `render --replicates A..B` wrote, or folders of finished runs, each with other
@@ -34,7 +36,7 @@ pub fn execute(args: &MergeArgs) -> Result<(), Error> {
 }
 
 fn join_replicates(args: &MergeArgs) -> Result<(), Error> {
-    for merged in merge(&args.parts, &args.out)? {
+    for merged in merge_truths(&args.parts, &args.out)? {
         print(&format!(
             "{} ({} replicates)\n",
             printable_path(&merged.truth),

@@ -1,11 +1,13 @@
 //! Fold of runs: each case, sequence and failure once, in the order of a single process.
 
+mod order;
+
 use std::collections::HashMap;
 
 use serde::Serialize;
 use tracer::SceneId;
 
-use super::order::Order;
+use self::order::Order;
 use crate::Error;
 use crate::identity::FilterId;
 use crate::run::Run;
@@ -19,7 +21,7 @@ use crate::stats::overall::overall;
 ///
 /// # Errors
 /// Two runs differ in their settings or adapters, or have different scores for one case.
-pub(super) fn fold_runs(parts: &[StoredRun]) -> Result<Run, Error> {
+pub fn fold_runs(parts: &[StoredRun]) -> Result<Run, Error> {
     let first = &parts[0];
     let mut with_adapter = parts.iter().filter(|part| part.run.adapter.is_some());
     let adapted = with_adapter.next().unwrap_or(first);

@@ -1,22 +1,14 @@
-//! Runs folded into one: partial runs, or an earlier run and a narrower one that keeps its cases.
-
-pub mod earlier;
-mod files;
-mod fold;
-mod order;
+//! Runs of several machines folded into one.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use crate::{Error, FolderLock, Sharing, lock_folder, place_files};
 use frame::Alignment;
+use measure::{Error, FilterId, FolderLock, Run, Sharing, StoredRun, fold_runs, lock_folder};
 use tracer::SceneId;
 
-use self::files::gather_files;
-use self::fold::fold_runs;
-use crate::identity::FilterId;
-use crate::run::Run;
-use crate::run::stored::StoredRun;
+use crate::files::gather_files;
+use crate::gather::place_files;
 
 /// Returns whether a path names a finished run: its `run.json`, or its folder.
 pub fn holds_run(path: &Path) -> bool {

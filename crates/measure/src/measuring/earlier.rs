@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use filters::AdapterDescription;
 use tracer::SceneId;
 
-use super::fold::fold_runs;
 use crate::Error;
+use crate::fold::fold_runs;
 use crate::identity::FilterId;
 use crate::measuring::plan::RunPlan;
 use crate::measuring::planned_case::PlannedCase;

@@ -1,67 +1,18 @@
-//! Files that one folder gets from others.
+//! A file that one folder gets from another.
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::io::ErrorKind;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use frame::{FileError, read_bounded, write_atomically};
 use same_file::is_same_file;
 
-use crate::Error;
-
 /// Upper limit on the bytes of a file that is taken from another folder.
 pub const MAX_TAKEN_BYTES: u64 = 1 << 32;
 
-/// The source of each file, by its path below the parts.
-pub type Files = BTreeMap<PathBuf, PathBuf>;
-
-/// Gathers the files of several folders by their paths below each. Several may have the same file,
-/// if its bytes are equal.
-///
-/// # Errors
-/// Two files of one path differ, or a file cannot be read.
-pub fn gather<'a>(
-    parts: impl IntoIterator<Item = (&'a Path, Vec<PathBuf>)>,
-) -> Result<Files, Error> {
-    let mut files = Files::new();
-    for (part, paths) in parts {
-        for below in paths {
-            let file = part.join(&below);
-            match files.get(&below) {
-                Some(other) => check_same(other, &file)?,
-                None => drop(files.insert(below, file)),
-            }
-        }
-    }
-    Ok(files)
-}
-
-/// Refuses two files of one name with different bytes.
-fn check_same(one: &Path, other: &Path) -> Result<(), Error> {
-    let read = |path: &Path| read_bounded(path, MAX_TAKEN_BYTES);
-    if is_one_file(one, other) || read(one)? == read(other)? {
-        return Ok(());
-    }
-    Err(Error::Refused(format!(
-        "{} and {} differ; all parts come from one build of the program, one version of the scenes, the same settings, and one kind of \
-         processor",
-        one.display(),
-        other.display()
-    )))
-}
-
 /// Returns whether two paths lead to one regular file. Others are not opened: a FIFO would block.
-fn is_one_file(one: &Path, other: &Path) -> bool {
+pub fn is_one_file(one: &Path, other: &Path) -> bool {
     one.is_file() && other.is_file() && is_same_file(one, other).is_ok_and(|same| same)
-}
-
-/// Places gathered files below a folder.
-///
-/// # Errors
-/// A file is not a regular one, or cannot be read or written.
-pub fn place_files(files: &Files, out: &Path) -> Result<(), FileError> {
-    (files.iter()).try_for_each(|(below, file)| place_file(file, &out.join(below)))
 }
 
 /// Links the file `from` at `to`, replacing any file there, or copies it if the file system has no

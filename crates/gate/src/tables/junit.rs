@@ -1,6 +1,7 @@
 //! JUnit XML of a check: one suite per scene, one case per filter and bound.
 
-use judge::{Check, Decision, Finding, Level, Outcome};
+use crate::check::Check;
+use judge::{Decision, Finding, Level, Outcome};
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 use report::{finding_line, way_out, worst_frame_text};
 

@@ -5,7 +5,7 @@ use measure::{Case, Error, Run};
 use metrics::Metric;
 
 use crate::baseline::{BASELINE_FORMAT, Baseline};
-use crate::numbers::round_to_digits;
+use judge::round_to_digits;
 
 /// Significant digits of a score: readable, and finer than any margin.
 const DIGITS: usize = 6;

@@ -4,12 +4,13 @@ use std::path::PathBuf;
 use terminal::refuse;
 
 use clap::Args;
-use judge::{Acceptance, Baseline, accept_scores};
 use measure::{Error, Run, find_newer_sizes, printable_path, refuse_failures};
 
-use crate::arguments::parse_glob;
+use crate::{Acceptance, Baseline, accept_scores};
+use terminal::arguments::parse_glob;
 use terminal::output::{count_text, print, print_note};
 
+/// Arguments of `limits accept`.
 #[derive(Debug, Args)]
 pub struct AcceptArgs {
     /// Folder of the finished run: --out of `run` or `check`.

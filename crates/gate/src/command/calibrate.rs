@@ -3,24 +3,28 @@
 use std::ops::Range;
 use terminal::refuse;
 
+use crate::calibrate::calibrate;
 use clap::Args;
-use judge::{BOUNDS_FILE, bound_subframes, calibrate, check_names};
+use judge::{BOUNDS_FILE, bound_subframes, check_names};
 use measure::{
     Error, Run, RunPlan, estimate_run, measure_scenes, open_gpu, printable_path, refuse_failures,
 };
 use metrics::Metric;
 use tracer::{Progress, Watch};
 
-use super::pages::write_run;
-use super::run_plan::{lock_out, make_plan};
-use crate::arguments::{MeasureArgs, SequenceArgs, within};
+use run::write_run;
+use run::{lock_out, make_plan};
+use terminal::arguments::{MeasureArgs, SequenceArgs, within};
 use terminal::expected::print_expected_time;
 use terminal::output::print;
 
+/// Arguments of `limits calibrate`.
 #[derive(Debug, Args)]
 pub struct CalibrateArgs {
+    /// What to measure.
     #[command(flatten)]
     pub measure: MeasureArgs,
+    /// Frames of each scene.
     #[command(flatten)]
     pub sequence: SequenceArgs,
     /// Number of runs, each with a truth of its own seed: --seed, --seed + 1, and so on.

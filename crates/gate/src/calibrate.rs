@@ -10,9 +10,9 @@ use metrics::{
 };
 use tracer::SceneId;
 
-use crate::bounds::SceneBounds;
-use crate::find_sequence;
-use crate::numbers::number;
+use judge::SceneBounds;
+use judge::find_sequence;
+use judge::number;
 
 /// Margin, in standard deviations.
 const DEVIATIONS: f64 = 3.0;

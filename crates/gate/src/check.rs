@@ -7,7 +7,7 @@ use serde::Serialize;
 use tracer::SceneId;
 
 use crate::baseline::BaselineComparison;
-use crate::{Decision, Finding, Outcome};
+use judge::{Decision, Finding, Outcome};
 
 /// Version of the layout of a check as JSON.
 pub const CHECK_FORMAT: u32 = 1;

@@ -3,12 +3,12 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use crate::{Error, Files, RenderFile, RenderPath, gather, list_files};
 use frame::{Alignment, read_attribute};
+use measure::{
+    CASE_FILES, Error, FRAME_FILES, RenderFile, RenderPath, Run, StoredRun, list_files, truth_files,
+};
 
-use crate::measuring::pictures::{CASE_FILES, FRAME_FILES, truth_files};
-use crate::run::Run;
-use crate::run::stored::StoredRun;
+use crate::gather::{Files, gather};
 
 /// Pictures that a run names, of a case or of one frame of a sequence.
 struct Pictures<'a> {
@@ -22,7 +22,7 @@ struct Pictures<'a> {
 
 /// Gathers the files of all cases and their scenes. A file in two parts must be the same in both,
 /// and every picture must be in some part. Follows no links.
-pub(super) fn gather_files(parts: &[StoredRun]) -> Result<Files, Error> {
+pub fn gather_files(parts: &[StoredRun]) -> Result<Files, Error> {
     let lists = parts.iter().map(|part| {
         let pictures = list_pictures(&part.run)
             .flat_map(|pictures| [pictures.scene, pictures.case.to_owned()]);

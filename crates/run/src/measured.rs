@@ -5,7 +5,7 @@ use measure::{
     EarlierCases, Error, FolderLock, Run, RunPlan, estimate_run, folder_for_size, measure_scenes,
 };
 
-use super::run_plan::lock_out;
+use crate::plan::lock_out;
 use terminal::expected::print_expected;
 use terminal::output::{count_text, is_quiet, print_note};
 

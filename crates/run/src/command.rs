@@ -7,21 +7,23 @@ use clap::Args;
 use judge::{Level, judge};
 use measure::{Error, Part, Run, open_gpu, printable_path, refuse_failures};
 
-use super::measured_run::{MeasuredRun, measure};
-use super::pages::{WrittenFile, page_lines, refuse_folder, write_judgement, write_run};
-use super::run_plan::{add_bounds, apply_options, make_plan};
-use crate::arguments::{AdapterArgs, MeasureArgs, RunOptions, parse_named};
-use crate::tables::{
-    adapter_text, failures_text, legend_text, ranking_text, run_table, sequences_text,
-};
-use terminal::output::{clock_text, print};
+use crate::measured::{MeasuredRun, measure};
+use crate::pages::{WrittenFile, page_lines, refuse_folder, write_judgement, write_run};
+use crate::plan::{add_bounds, apply_options, make_plan};
+use crate::tables::{failures_text, legend_text, ranking_text, run_table, sequences_text};
+use terminal::arguments::{AdapterArgs, MeasureArgs, RunOptions, parse_named};
+use terminal::output::{adapter_text, clock_text, print};
 
+/// Arguments of `run`.
 #[derive(Debug, Args)]
 pub struct RunArgs {
+    /// What to measure.
     #[command(flatten)]
     pub measure: MeasureArgs,
+    /// Adapter to run kernels on.
     #[command(flatten)]
     pub adapter: AdapterArgs,
+    /// Frames, intervals and the common shutter.
     #[command(flatten)]
     pub options: RunOptions,
     /// Measure a part of a run that `truths merge` joins with others. Writes run.json and pictures,
