@@ -2,7 +2,6 @@
 
 mod abreast;
 mod annotations;
-mod audit;
 mod cases;
 mod check;
 mod comparison;
@@ -18,7 +17,6 @@ pub use terminal::table::*;
 
 pub use self::abreast::*;
 pub use self::annotations::*;
-pub use self::audit::*;
 pub use self::cases::*;
 pub use self::check::*;
 pub use self::comparison::*;
