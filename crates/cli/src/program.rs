@@ -7,6 +7,7 @@ use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 use measure::Error;
 
 use crate::commands::*;
+use engine::command::{audit, export, import, ingest};
 use terminal::output::OutputArgs;
 use terminal::result::Ending;
 

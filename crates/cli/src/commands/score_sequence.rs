@@ -9,7 +9,7 @@ use metrics::{Measured, SequenceMeasurement, SequenceMetric};
 use terminal::refuse;
 use tracer::Scene;
 
-use super::capture::read_convention;
+use super::convention::read_convention;
 use super::score::{ScoreArgs, check_scene, scored_json, truth_text};
 use run::score_sequence_table;
 use terminal::output::{print, print_json};

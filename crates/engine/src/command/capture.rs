@@ -1,13 +1,11 @@
-//! Captures of an engine: folder, scene, and convention of the files.
+//! Folder and scene of a capture, as the command line names them.
 
 use std::path::{Path, PathBuf};
+
+use measure::Error;
 use terminal::refuse;
-
-use filters::Convention;
-use measure::{Error, read_text};
-use tracer::{Location, Scene};
-
 use terminal::selection::select_scenes;
+use tracer::{Location, Scene};
 
 /// Names the folder to write: the given one, or one below a default with the capture's name.
 pub fn name_folder(capture: &Path, out: Option<&PathBuf>, below: &str) -> Result<PathBuf, Error> {
@@ -25,13 +23,5 @@ pub fn load_drawn_scene(scenes: &Location, name: &str) -> Result<Scene, Error> {
     match choices.len() {
         1 => Ok(choices.remove(0).scene),
         count => refuse!("scene {name}: matches {count} scenes; a capture shows one"),
-    }
-}
-
-/// Reads an engine's convention, or the convention of frames if no file is named.
-pub fn read_convention(path: Option<&Path>) -> Result<Convention, Error> {
-    match path {
-        None => Ok(Convention::default()),
-        Some(path) => Ok(Convention::parse(path, &read_text(path)?)?),
     }
 }

@@ -1,21 +1,24 @@
 //! The command `engine export`.
 
 use std::path::PathBuf;
-use terminal::refuse;
 
 use clap::Args;
-use engine::{Manifest, check_subframe_count, export_gltf};
 use measure::{Error, PROGRAM, printable_path};
-
-use crate::arguments::RootArgs;
+use terminal::arguments::RootArgs;
 use terminal::output::print;
+use terminal::refuse;
 use terminal::selection::select_scenes;
 
+use crate::export::{Manifest, export_gltf};
+use crate::ingest::check_subframe_count;
+
+/// Arguments of `engine export`.
 #[derive(Debug, Args)]
 pub struct ExportArgs {
     /// Scenes: names, folders or patterns such as 'rail*', each with an optional @variant or @all.
     #[arg(required = true, value_name = "SCENE")]
     pub scenes: Vec<String>,
+    /// Folder of scenes.
     #[command(flatten)]
     pub root: RootArgs,
     /// Folder for glTF 2.0: each scene gets one of its own there.

@@ -1,10 +1,11 @@
 //! Table of an audit.
 
-use engine::{CaptureAudit, ObjectAudit};
 use measure::{engine_name, printable};
-
-use super::{Table, cell};
 use terminal::output::push_wrapped;
+use terminal::table::{Table, cell};
+
+use super::capture_audit::CaptureAudit;
+use super::velocity_audit::ObjectAudit;
 
 /// Lists, per object, its visibility in the engine's picture and its velocity error; then the depth
 /// error, then what is wrong.

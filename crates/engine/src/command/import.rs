@@ -3,12 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use engine::{ImportPlan, Imported, Motions, Up, import};
 use measure::{Error, printable_path};
-
-use crate::arguments::{parse_exposure, parse_named, parse_speed};
+use terminal::arguments::{parse_exposure, parse_named, parse_speed};
 use terminal::output::{print, print_note};
 
+use crate::import::{ImportPlan, Imported, Motions, Up, import};
+
+/// Arguments of `engine import`.
 #[derive(Debug, Args)]
 pub struct ImportArgs {
     /// OBJ file. It is copied, with the MTL and PNG files that it names.

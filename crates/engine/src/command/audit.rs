@@ -1,19 +1,20 @@
 //! The command `engine audit`.
 
 use std::path::PathBuf;
-use terminal::refuse;
 
 use clap::Args;
-use engine::{Capture, audit_capture, write_audit_picture};
 use measure::{Error, Sharing, lock_folder, printable_path};
+use terminal::arguments::RootArgs;
+use terminal::output::{print, print_note};
+use terminal::refuse;
+use terminal::result::{Ending, write_json};
 use tracer::SceneId;
 
 use super::capture::{load_drawn_scene, name_folder};
-use crate::arguments::RootArgs;
-use crate::tables::audit_table;
-use terminal::output::{print, print_note};
-use terminal::result::{Ending, write_json};
+use crate::audit::{audit_capture, audit_table, write_audit_picture};
+use crate::capture::folder::Capture;
 
+/// Arguments of `engine audit`.
 #[derive(Debug, Args)]
 pub struct AuditArgs {
     /// Folder of a capture, as for `engine ingest`: capture.toml, color.exr, velocity.exr,
@@ -27,6 +28,7 @@ pub struct AuditArgs {
     /// Scene that the engine drew, with @VARIANT [default: the one that capture.toml names].
     #[arg(long, value_name = "SCENE")]
     pub scene: Option<String>,
+    /// Folder of scenes.
     #[command(flatten)]
     pub root: RootArgs,
     /// Folder for audit.json, and for a picture of the worst place of each object that is wrong

@@ -1,18 +1,20 @@
 //! The command `engine ingest`.
 
 use std::path::{Path, PathBuf};
-use terminal::refuse;
 
 use clap::Args;
-use engine::{Capture, Ingested, ingest};
 use frame::{Display, Region, Truth};
 use measure::{EngineScene, Error, printable_path};
+use terminal::arguments::RootArgs;
+use terminal::output::{make_monitor, print, print_note};
+use terminal::refuse;
 use tracer::{Location, Scene};
 
 use super::capture::{load_drawn_scene, name_folder};
-use crate::arguments::RootArgs;
-use terminal::output::{make_monitor, print, print_note};
+use crate::capture::folder::Capture;
+use crate::ingest::{Ingested, ingest};
 
+/// Arguments of `engine ingest`.
 #[derive(Debug, Args)]
 pub struct IngestArgs {
     /// Folder of a capture: capture.toml, color.exr, velocity.exr, depth.exr; optionally
@@ -26,6 +28,7 @@ pub struct IngestArgs {
     /// Folder to write, which gives the scene its name [default: out/engine/<name of DIR>].
     #[arg(short, long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// Folder of scenes.
     #[command(flatten)]
     pub root: RootArgs,
 }
