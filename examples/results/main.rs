@@ -17,8 +17,8 @@ use std::process::ExitCode;
 
 use bench::Bench;
 use judge::Results;
+use measure::{ACCUMULATE, Case, Error, Run};
 use report::{write_case_strip, write_report};
-use suite::{ACCUMULATE, Case, Error, Run};
 
 use crate::engines::list_engines;
 use crate::lengths::{Lengths, Panels};

@@ -10,8 +10,8 @@ use judge::{
     Decision, JudgedScore, Level, Outcome, SceneBounds, check, judge, judge_scores, read_bounds,
     size_for_bounds,
 };
+use measure::{FilterChoice, Monitor, Rendering, RunPlan, measure_scenes};
 use metrics::Reference;
-use suite::{FilterChoice, Monitor, Rendering, RunPlan, measure_scenes};
 use tests::{open_gpu, settings};
 use tracer::Scene;
 

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use cli::{Programs, paired_table, select_filters, select_scenes};
 use judge::{SceneBounds, read_bounds};
-use suite::Monitor;
+use measure::Monitor;
 use tests::{open_gpu, settings};
 use tracer::Scene;
 use tune::{

@@ -5,7 +5,7 @@ use terminal::refuse;
 
 use clap::Args;
 use filters::Gpu;
-use suite::{Error, open_adapter};
+use measure::{Error, open_adapter};
 
 use terminal::arguments::{AdapterArgs, parse_size, within};
 use terminal::expected::print_expected_time;

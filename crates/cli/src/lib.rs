@@ -14,9 +14,8 @@ use std::process::ExitCode;
 use environment::set_environment;
 use filters::FilterError;
 use frame::TruthError;
+use measure::{Error, printable};
 use program::{Cli, execute, find_new_place};
-use store::printable;
-use suite::Error;
 use terminal::output::{
     INTERRUPTED_TEXT, catch_interrupts, interrupted_code, print_error, print_failure, set_output,
 };
@@ -46,7 +45,7 @@ pub fn run_program() -> ExitCode {
                 print_error(INTERRUPTED_TEXT)
             } else {
                 match way_out(&error) {
-                    Some(way_out) => print_failure(&Error::Usage(format!("{error}; {way_out}"))),
+                    Some(way_out) => print_failure(&Error::Refused(format!("{error}; {way_out}"))),
                     None => print_failure(&error),
                 }
             }
@@ -83,7 +82,7 @@ fn way_out(error: &Error) -> Option<&'static str> {
 /// Prints an error of the command line, or the requested help.
 fn refuse_arguments(error: &clap::Error) -> ! {
     if let Some(place) = find_new_place(error) {
-        print_failure(&Error::Usage(place));
+        print_failure(&Error::Refused(place));
         std::process::exit(error.exit_code())
     }
     // Words may be file names with control codes, which the message must show as escapes.

@@ -4,7 +4,7 @@ use std::ffi::OsString;
 
 use clap::error::{ContextKind, ContextValue};
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
-use suite::Error;
+use measure::Error;
 
 use crate::commands::*;
 use terminal::output::OutputArgs;
@@ -183,7 +183,7 @@ pub fn execute(program: &Cli) -> Result<Ending, Error> {
         rayon::ThreadPoolBuilder::new()
             .num_threads(*threads)
             .build_global()
-            .map_err(|error| Error::Usage(format!("cannot start the threads: {error}")))?;
+            .map_err(|error| Error::Refused(format!("cannot start the threads: {error}")))?;
     }
     let done = match &program.command {
         Command::Run(args) => run::execute(args),

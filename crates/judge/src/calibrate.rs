@@ -3,11 +3,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
+use measure::{Case, Frames, Intervals, Run};
 use metrics::{
     Ideal, Interval, LabelMetric, Measured, Metric, ObjectMetric, PERFECT_JOD, ProbeMetric, Score,
     SequenceMetric,
 };
-use suite::{Case, Frames, Intervals, Run};
 use tracer::SceneId;
 
 use crate::bounds::SceneBounds;

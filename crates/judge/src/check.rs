@@ -2,8 +2,8 @@
 
 use std::collections::HashSet;
 
+use measure::{Case, Error, Failure, Run, refuse_failures};
 use serde::Serialize;
-use suite::{Case, Error, Failure, Run, refuse_failures};
 use tracer::SceneId;
 
 use crate::baseline::BaselineComparison;
@@ -104,10 +104,10 @@ impl Check {
                     "scores are worse than the baseline's",
                 ),
             ))),
-            Decision::Misconfigured if bounds == 0 => Err(Error::Usage(
+            Decision::Misconfigured if bounds == 0 => Err(Error::Refused(
                 "a case has no bound that applies, and cannot pass; see above".to_owned(),
             )),
-            Decision::Misconfigured => Err(Error::Usage(format!(
+            Decision::Misconfigured => Err(Error::Refused(format!(
                 "{} stricter than three noise floors; raise the limit, or the samples per pixel, as said above",
                 counted(bounds, "a bound is", "bounds are").unwrap_or_default()
             ))),

@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
+use measure::{Case, Run, Sequence};
 use metrics::{Interval, Measured, Metric};
 use serde::{Deserialize, Serialize};
-use suite::{Case, Run, Sequence};
 use tracer::SceneId;
 
 use crate::bounds::Level;

@@ -41,6 +41,7 @@ pub use finding::{Finding, MAX_SAMPLES};
 use judged_score::judge_sequence;
 pub use judged_score::{JudgedScore, judge_scores};
 pub use judgement::{JUDGEMENT_FILE, Judgement, Verdict};
+use measure::{Case, Run, Sequence};
 pub use numbers::{number, round_to_digits};
 pub use outcome::{Decision, Outcome};
 pub use ranking::filters::{
@@ -51,7 +52,6 @@ pub use ranking::no_blur::no_gain_text;
 pub use ranking::sequence_ranking::{RANKED_BY, RankedSequence, rank_sequences, rank_sequences_on};
 pub use ranking::side_effects::{SIDE_EFFECTS_RULE, SideEffects};
 pub use results::{ResultScores, Results};
-use suite::{Case, Run, Sequence};
 use tracer::SceneId;
 pub use worst::{BLOCK, CROP, Worst, worst_block};
 

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use bench::Bench;
-use suite::{Case, FilterId, Run};
+use measure::{Case, FilterId, Run};
 use tracer::SceneId;
 
 /// A run's cases with a row per filter and a column per scene.

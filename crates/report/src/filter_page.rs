@@ -2,8 +2,8 @@
 
 use filters::{Filter, Source};
 use maud::{Markup, html};
+use measure::{Case, FilterId};
 use metrics::Metric;
-use suite::{Case, FilterId};
 
 use crate::address::{case_anchor, section_anchor};
 use crate::case_table::CaseTable;

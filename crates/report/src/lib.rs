@@ -38,6 +38,7 @@ pub use label::label;
 use live::LiveFiles;
 use live::scene::scene_json;
 use maud::{Markup, PreEscaped};
+use measure::{Case, Error, Run};
 use overview::bench_file::read_bench;
 use overview::overview;
 pub use pixels::report_files::LARGEST_PAGE;
@@ -45,7 +46,6 @@ use pixels::report_files::{Place, SceneTexts};
 use pixels::scene_files::SceneFiles;
 use run_page::{PageContent, run_page};
 pub use sequence::{SEQUENCES_PAGE, sequences_page};
-use suite::{Case, Error, Run};
 pub use tuning::{TuneFolder, tuning_page};
 
 /// Approximate bytes of the tables of a case.
@@ -71,7 +71,7 @@ pub fn write_report(
     largest: usize,
 ) -> Result<Vec<PathBuf>, Error> {
     if run.cases.is_empty() {
-        return Err(Error::Usage(
+        return Err(Error::Refused(
             "the run has no cases, and there is nothing to report; run some scenes and filters"
                 .to_owned(),
         ));

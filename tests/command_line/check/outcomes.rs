@@ -187,7 +187,7 @@ fn an_error_map_that_no_file_holds_is_measured_again() {
     let out = sandbox.path("out");
     let errors = read_exr(&out.join(&case.folder).join("errors.exr")).unwrap();
     assert!(errors.plane("absolute_error").is_err(), "it is not kept");
-    let maps = suite::ErrorMaps::read(case, &out).unwrap();
+    let maps = measure::ErrorMaps::read(case, &out).unwrap();
     let map = maps.map("absolute_error").unwrap();
     let frame = Frame::read(&out.join("plate/frame.exr")).unwrap();
     let truth = Truth::read(&out.join("plate/truth_trailing.exr")).unwrap();

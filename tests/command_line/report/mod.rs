@@ -42,7 +42,7 @@ fn panel<'a>(page: &'a str, metric: &str) -> &'a str {
 }
 
 /// Returns the address of a case: `plate/bevy:high`, `plate/identity@trailing`.
-fn address(case: &suite::Case) -> String {
+fn address(case: &measure::Case) -> String {
     let reference = if case.is_reference {
         format!("@{}", case.alignment)
     } else {
@@ -52,12 +52,12 @@ fn address(case: &suite::Case) -> String {
 }
 
 /// Finds the part of a page with a case.
-fn find_article<'a>(page: &'a str, case: &suite::Case) -> &'a str {
+fn find_article<'a>(page: &'a str, case: &measure::Case) -> &'a str {
     let start = format!("<article class=\"case\" id=\"{}\"", address(case));
     between(page, &start, "</article>")[0]
 }
 
 /// Returns the only case of a filter.
-fn filter_case(sandbox: &Sandbox) -> suite::Case {
+fn filter_case(sandbox: &Sandbox) -> measure::Case {
     sandbox.read_filter_cases().remove(0)
 }

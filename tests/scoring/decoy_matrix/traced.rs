@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use frame::{Alignment, Frame, Image, Picture, Plane, Raster, Truth, regions};
-use suite::{Monitor, Rendering};
+use measure::{Monitor, Rendering};
 use tests::settings;
 use tracer::load_scene;
 

@@ -5,8 +5,7 @@ use terminal::refuse;
 
 use clap::Args;
 use judge::{Acceptance, Baseline, accept_scores};
-use store::printable_path;
-use suite::{Error, Run, find_newer_sizes, refuse_failures};
+use measure::{Error, Run, find_newer_sizes, printable_path, refuse_failures};
 
 use crate::arguments::parse_glob;
 use terminal::output::{count_text, print, print_note};

@@ -5,8 +5,7 @@ use terminal::refuse;
 
 use clap::Args;
 use engine::{Capture, audit_capture, write_audit_picture};
-use store::{Sharing, lock_folder, printable_path};
-use suite::Error;
+use measure::{Error, Sharing, lock_folder, printable_path};
 use tracer::SceneId;
 
 use super::capture::{load_drawn_scene, name_folder};
@@ -74,7 +73,7 @@ pub fn execute(args: &AuditArgs) -> Result<Ending, Error> {
     Ok(match (count, audit.shows_scene) {
         (0, _) => Ending::Done,
         (_, true) => Ending::Failed(Error::Broken(format!("{count} findings in {place}"))),
-        (_, false) => Ending::Failed(Error::Usage(format!(
+        (_, false) => Ending::Failed(Error::Refused(format!(
             "{place} does not show {} as it is at the instant",
             audit.scene
         ))),

@@ -5,9 +5,10 @@ use terminal::refuse;
 
 use clap::Args;
 use judge::{BOUNDS_FILE, bound_subframes, calibrate, check_names};
+use measure::{
+    Error, Run, RunPlan, estimate_run, measure_scenes, open_gpu, printable_path, refuse_failures,
+};
 use metrics::Metric;
-use store::printable_path;
-use suite::{Error, Run, RunPlan, estimate_run, measure_scenes, open_gpu, refuse_failures};
 use tracer::{Progress, Watch};
 
 use super::pages::write_run;

@@ -2,8 +2,10 @@
 
 use filters::Gpu;
 use judge::SceneBounds;
-use store::{Sharing, lock_folder};
-use suite::{Error, FilterChoice, estimate_case_seconds, estimate_render_seconds, open_gpu};
+use measure::{
+    Error, FilterChoice, Sharing, estimate_case_seconds, estimate_render_seconds, lock_folder,
+    open_gpu,
+};
 use tracer::{RenderSettings, Scene};
 use tune::{Evaluator, render_scenes};
 

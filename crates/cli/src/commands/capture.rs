@@ -4,8 +4,7 @@ use std::path::{Path, PathBuf};
 use terminal::refuse;
 
 use filters::Convention;
-use store::read_text;
-use suite::Error;
+use measure::{Error, read_text};
 use tracer::{Location, Scene};
 
 use terminal::selection::select_scenes;

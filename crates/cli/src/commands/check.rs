@@ -11,9 +11,8 @@ use judge::{
     check, check_lengths, check_names, compare_with_baseline, judge, require_bounds,
     size_for_bounds,
 };
+use measure::{Case, Error, Run, StoredRun, open_gpu, printable_path, refuse_tracked};
 use metrics::Metric;
-use store::{printable_path, refuse_tracked};
-use suite::{Case, Error, Run, StoredRun, open_gpu};
 use tracer::Location;
 
 use super::measured_run::{MeasuredRun, measure};

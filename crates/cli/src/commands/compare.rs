@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 use judge::compare_runs;
+use measure::{Error, StoredRun};
 use report::compare_page;
-use suite::{Error, StoredRun};
 
 use super::pages::write_page;
 use super::run_plan::read_margins;

@@ -1,7 +1,7 @@
 //! The command `tune compare`.
 
 use clap::Args;
-use suite::Error;
+use measure::Error;
 use tune::{Objective, compare_candidates};
 
 use crate::arguments::CandidateArgs;

@@ -5,8 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use filters::{Settings, Value};
-use store::read_text;
-use suite::{Error, FilterChoice};
+use measure::{Error, FilterChoice, read_text};
 use tune::{Objective, evaluate_candidate};
 
 use crate::arguments::CandidateArgs;
@@ -36,7 +35,7 @@ pub fn execute(args: &EvaluateArgs) -> Result<(), Error> {
 }
 
 fn read_params(path: &Path, choice: &FilterChoice) -> Result<Settings, Error> {
-    let refuse = |reason: String| Error::Usage(format!("{}: {reason}", path.display()));
+    let refuse = |reason: String| Error::Refused(format!("{}: {reason}", path.display()));
     let values = serde_json::from_str(&read_text(path)?).map_err(|error| {
         refuse(format!(
             "{error}; allowed: one table of parameters, such as {{\"samples\": 12}}"

@@ -5,8 +5,7 @@ use terminal::refuse;
 
 use clap::Args;
 use engine::{Manifest, check_subframe_count, export_gltf};
-use store::printable_path;
-use suite::{Error, PROGRAM};
+use measure::{Error, PROGRAM, printable_path};
 
 use crate::arguments::RootArgs;
 use terminal::output::print;

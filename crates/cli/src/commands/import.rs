@@ -4,8 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use engine::{ImportPlan, Imported, Motions, Up, import};
-use store::printable_path;
-use suite::Error;
+use measure::{Error, printable_path};
 
 use crate::arguments::{parse_exposure, parse_named, parse_speed};
 use terminal::output::{print, print_note};

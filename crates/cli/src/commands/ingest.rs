@@ -6,8 +6,7 @@ use terminal::refuse;
 use clap::Args;
 use engine::{Capture, Ingested, ingest};
 use frame::{Display, Region, Truth};
-use store::printable_path;
-use suite::{EngineScene, Error};
+use measure::{EngineScene, Error, printable_path};
 use tracer::{Location, Scene};
 
 use super::capture::{load_drawn_scene, name_folder};

@@ -3,7 +3,7 @@
 use std::path::Path;
 use terminal::refuse;
 
-use suite::Error;
+use measure::Error;
 
 use terminal::output::print_note;
 

@@ -5,7 +5,7 @@ use terminal::refuse;
 
 use clap::Args;
 use filters::{AdapterDescription, Filter, FilterError, Limits, list_adapters, try_out};
-use suite::{Error, InputFormat, open_adapter};
+use measure::{Error, InputFormat, open_adapter};
 use tracer::{SceneListing, find_coincident_surfaces, list_scenes, load_scene};
 
 use super::copy::copy_scenes;

@@ -1,8 +1,9 @@
 //! A run that is measured now, together with an earlier run's cases in the same folder.
 
 use filters::Gpu;
-use store::FolderLock;
-use suite::{EarlierCases, Error, Run, RunPlan, estimate_run, folder_for_size, measure_scenes};
+use measure::{
+    EarlierCases, Error, FolderLock, Run, RunPlan, estimate_run, folder_for_size, measure_scenes,
+};
 
 use super::run_plan::lock_out;
 use terminal::expected::print_expected;
@@ -65,7 +66,7 @@ fn choose_folder(plan: &mut RunPlan) -> Result<(), Error> {
 /// Adds the options that help if an earlier run cannot be kept.
 fn name_options(error: Error) -> Error {
     match error {
-        Error::Usage(reason) => Error::Usage(format!(
+        Error::Refused(reason) => Error::Refused(format!(
             "{reason}; choose another folder with --out, or replace the earlier run with --no-cache"
         )),
         other => other,

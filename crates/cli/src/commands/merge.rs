@@ -4,8 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use judge::JUDGEMENT_FILE;
-use store::printable_path;
-use suite::{Error, holds_run, merge, merge_runs, refuse_failures};
+use measure::{Error, holds_run, merge, merge_runs, printable_path, refuse_failures};
 
 use super::pages::write_run;
 use crate::tables::failures_text;

@@ -4,9 +4,8 @@ use std::path::{Path, PathBuf};
 use terminal::refuse;
 
 use judge::{Finding, Judgement, Verdict};
+use measure::{Error, Run, printable_path};
 use report::{LARGEST_PAGE, SEQUENCES_PAGE, sequences_page, write_report};
-use store::printable_path;
-use suite::{Error, Run};
 
 /// A file that a command wrote.
 #[derive(serde::Serialize)]

@@ -5,8 +5,10 @@ use terminal::refuse;
 
 use clap::Args;
 use frame::{Alignment, Truth};
-use store::{LADDER, MAX_REPLICATES, Sharing, lock_folder, printable_path, scene_folder};
-use suite::{Error, Rendering, deciding_floor, estimate_render_seconds};
+use measure::{
+    Error, LADDER, MAX_REPLICATES, Rendering, Sharing, deciding_floor, estimate_render_seconds,
+    lock_folder, printable_path, scene_folder,
+};
 use tracer::{RenderSettings, Scene, check_next_frame};
 
 use crate::arguments::{

@@ -5,9 +5,8 @@ use terminal::refuse;
 
 use clap::Args;
 use judge::Judgement;
+use measure::{Error, StoredRun, printable_path, write_layers};
 use report::{TuneFolder, tuning_page, write_gallery};
-use store::printable_path;
-use suite::{Error, StoredRun, write_layers};
 
 use super::pages::{WrittenFile, page_lines, page_path, write_page, write_run_page};
 use terminal::output::{make_monitor, print, print_json};

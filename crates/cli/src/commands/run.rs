@@ -5,8 +5,7 @@ use std::time::{Duration, Instant};
 
 use clap::Args;
 use judge::{Level, judge};
-use store::printable_path;
-use suite::{Error, Part, Run, open_gpu, refuse_failures};
+use measure::{Error, Part, Run, open_gpu, printable_path, refuse_failures};
 
 use super::measured_run::{MeasuredRun, measure};
 use super::pages::{WrittenFile, page_lines, refuse_folder, write_judgement, write_run};

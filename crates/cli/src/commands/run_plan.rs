@@ -9,9 +9,10 @@ use judge::{
     BOUNDS_FILE, BoundsFile, Margin, RunBounds, SceneBounds, read_bounds,
     read_bounds_beside_scenes, read_bounds_file,
 };
+use measure::{
+    EngineScene, Error, FilterChoice, FolderLock, Run, RunPlan, Sharing, engine_name, lock_folder,
+};
 use metrics::Metric;
-use store::{FolderLock, Sharing, lock_folder};
-use suite::{EngineScene, Error, FilterChoice, Run, RunPlan, engine_name};
 use tracer::{Location, RenderSettings, Scene, SceneId};
 
 use super::kept_truths::check_truths;

@@ -1,7 +1,7 @@
 //! The command `tune sensitivity`.
 
 use clap::Args;
-use suite::Error;
+use measure::Error;
 use tune::{Space, analyze_sensitivity, count_candidates};
 
 use crate::arguments::{CandidateArgs, within};

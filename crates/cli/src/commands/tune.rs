@@ -4,8 +4,7 @@ use std::time::{Duration, Instant};
 
 use clap::Args;
 use frame::FileError;
-use store::{Sharing, lock_folder};
-use suite::{Error, FilterChoice};
+use measure::{Error, FilterChoice, Sharing, lock_folder};
 use tracer::{Progress, RenderSettings};
 use tune::{Advice, Space, TuneOptions, Tuning, interleave_families, tune, tuned_preset_toml};
 

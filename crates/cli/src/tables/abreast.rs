@@ -2,8 +2,8 @@
 //! cost of each input form.
 
 use judge::{RankedFilter, list_summarized};
+use measure::{Case, FilterId, InputFormat};
 use metrics::Metric;
-use suite::{Case, FilterId, InputFormat};
 use tracer::{FrameRate, SceneId};
 
 use super::{Table, bracket_name, cell, legend_text, list_once, mean_text};
@@ -112,7 +112,7 @@ pub fn twins_text(cases: &[Case], ranked: &[Vec<RankedFilter>]) -> String {
     let engines = list_once(drawn().filter_map(|case| case.scene.variant.clone()));
     let is_row = |case: &Case| {
         if case.is_reference {
-            case.filter == suite::IDENTITY
+            case.filter == measure::IDENTITY
         } else {
             (ranked.iter().flatten()).any(|filter| filter.name == case.name())
         }
@@ -208,7 +208,7 @@ fn column(case: &Case) -> Option<String> {
             let full = name.strip_suffix(form.as_deref().unwrap_or_default());
             Some(full.unwrap_or(&name).to_owned())
         }
-        (true, suite::IDENTITY) => Some(format!("[{name}] {}", case.alignment)),
+        (true, measure::IDENTITY) => Some(format!("[{name}] {}", case.alignment)),
         _ => None,
     }
 }

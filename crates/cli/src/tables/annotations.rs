@@ -1,8 +1,8 @@
 //! Text for GitHub Actions: annotations, and the summary of a step.
 
 use judge::{Check, Decision, Finding, number};
+use measure::{escape_markdown, printable};
 use report::{finding_line, length_text, limit_text, way_out};
-use store::{escape_markdown, printable};
 
 use super::{comparison_line, count_lines, markdown_table, range_text};
 

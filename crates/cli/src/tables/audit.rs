@@ -1,8 +1,7 @@
 //! Table of an audit.
 
 use engine::{CaptureAudit, ObjectAudit};
-use store::printable;
-use suite::engine_name;
+use measure::{engine_name, printable};
 
 use super::{Table, cell};
 use terminal::output::push_wrapped;

@@ -1,9 +1,8 @@
 //! Table of a run: one row per case, and failed cases.
 
 use judge::lag_text;
+use measure::{Case, Failure, Run, printable_lines};
 use metrics::{Metric, Scores};
-use store::printable_lines;
-use suite::{Case, Failure, Run};
 
 use super::{Column, Missing, Table, bracket_name, legend_text, list_once, means_table};
 use terminal::output::{bad, heading, wrap_lines};

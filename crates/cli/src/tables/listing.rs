@@ -1,7 +1,7 @@
 //! Listings of scenes and filters, in brief and in detail, and names of adapters.
 
 use filters::{AdapterDescription, Filter, Parameter, Preset, Unit};
-use suite::InputKind;
+use measure::InputKind;
 use tracer::SceneListing;
 
 use terminal::output::{heading, push_wrapped};

@@ -5,8 +5,8 @@ use judge::{
     MAX_RANKED, RANK_RULE, RankedFilter, SIDE_EFFECTS_RULE, list_summarized, mean_lag,
     no_gain_text, rank_for_summary,
 };
+use measure::Case;
 use metrics::Metric;
-use suite::Case;
 use tracer::FrameRate;
 
 use terminal::output::push_wrapped;

@@ -1,8 +1,8 @@
 //! Tables of means over scenes.
 
 use frame::Alignment;
+use measure::{Overall, rank_filters};
 use metrics::{Metric, SkillMetric};
-use suite::{Overall, rank_filters};
 
 use super::{Column, Table, bracket_name, cell, legend_text, list_once, range_text, shutter_text};
 use terminal::output::heading;

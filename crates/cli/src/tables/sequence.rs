@@ -2,8 +2,8 @@
 //! time.
 
 use judge::{RANK_RULE, RANKED_BY, RankedSequence, rank_sequences, rank_sequences_on};
+use measure::{Run, Sequence};
 use metrics::{SequenceMetric, SequenceScores};
-use suite::{Run, Sequence};
 use tracer::SceneId;
 
 use super::{

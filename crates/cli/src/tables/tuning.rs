@@ -1,6 +1,6 @@
 //! Tables of a finished tuning, of two presets, and of a sensitivity study.
 
-use suite::MIN_SCENES;
+use measure::MIN_SCENES;
 use tune::{
     Advice, Difference, LEAST_BLEED, PairedComparison, ParameterSensitivity, Preference,
     Sensitivity, SobolIndices, Trial, Tuning,

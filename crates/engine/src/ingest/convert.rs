@@ -7,13 +7,10 @@ use frame::{
     Display, ExrFile, FAR_DEPTH, Frame, FrameOptions, Image, Provenance, Raster, Reprojection,
     Truth, VelocityKind, display_srgb, read_bounded, write_exr, write_png,
 };
-use store::{
-    MAX_TAKEN_BYTES, RenderFile, Sharing, ladder_folder, lock_folder, refuse_long_names,
-    refuse_scene,
-};
-use suite::{
-    BLURRED, EXCLUSION_FILE, EngineScene, Error, INGESTED_FILE, INGESTED_FORMAT, PROGRAM,
-    engine_name, name_in_one_word, velocity_wheel,
+use measure::{
+    BLURRED, EXCLUSION_FILE, EngineScene, Error, INGESTED_FILE, INGESTED_FORMAT, MAX_TAKEN_BYTES,
+    PROGRAM, RenderFile, Sharing, engine_name, ladder_folder, lock_folder, name_in_one_word,
+    refuse_long_names, refuse_scene, velocity_wheel,
 };
 use tracer::{SceneId, Watch};
 
@@ -141,7 +138,7 @@ fn median_ratio(picture: &Image, other: &Image, left_out: &Raster<bool>) -> Opti
 /// Refuses a folder with another frame, such as a run's folder of a scene.
 fn refuse_other_files(out: &Path) -> Result<(), Error> {
     if out.join(RenderFile::Frame.path()).exists() && !EngineScene::is_in(out) {
-        Err(Error::Usage(format!(
+        Err(Error::Refused(format!(
             "{}: holds a frame that was not ingested, which would be overwritten; name a new folder",
             out.display()
         )))
@@ -193,7 +190,7 @@ fn name_scene(capture: &Capture, out: &Path) -> Result<SceneId, Error> {
             refuse_long_names(&id.folder())?;
             Ok(id)
         }
-        None => Err(Error::Usage(format!(
+        None => Err(Error::Refused(format!(
             "{}: its last part names the scene; allowed: letters, digits and . _ - +, such as out/engine/railing",
             out.display()
         ))),

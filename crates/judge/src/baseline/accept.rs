@@ -1,8 +1,8 @@
 //! Acceptance of a run's scores as the baseline.
 
 use glob::Pattern;
+use measure::{Case, Error, Run};
 use metrics::Metric;
-use suite::{Case, Error, Run};
 
 use crate::baseline::{BASELINE_FORMAT, Baseline};
 use crate::numbers::round_to_digits;
@@ -115,5 +115,5 @@ fn check_adapter(run: &Run, old: &Baseline, some: bool) -> Result<(), Error> {
 }
 
 fn refuse<T>(reason: &str) -> Result<T, Error> {
-    Err(Error::Usage(reason.to_owned()))
+    Err(Error::Refused(reason.to_owned()))
 }

@@ -3,9 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
+use measure::{Case, Error, ONE_SIDED, Run, SceneMean, plain_mean};
 use metrics::Metric;
 use serde::Serialize;
-use suite::{Case, Error, ONE_SIDED, Run, SceneMean, plain_mean};
 
 use crate::baseline::Baseline;
 use crate::baseline::loss::{SceneLoss, check_truth, find_loss};
@@ -93,7 +93,7 @@ pub fn compare_with_baseline(
     margins: &BTreeMap<Metric, Margin>,
     path: &Path,
 ) -> Result<Vec<BaselineComparison>, Error> {
-    let refuse = |reason: String| Error::Usage(format!("{}: {reason}", path.display()));
+    let refuse = |reason: String| Error::Refused(format!("{}: {reason}", path.display()));
     if margins.is_empty() {
         return Err(refuse(
             "nothing says by how much a score may be worse; give bounds.toml beside the scenes a table [margin], with lines \

@@ -1,8 +1,8 @@
 //! Loss of a score on one scene since the baseline.
 
+use measure::Case;
 use metrics::{Measured, Metric};
 use serde::Serialize;
-use suite::Case;
 use tracer::SceneId;
 
 use crate::baseline::Baseline;

@@ -14,8 +14,7 @@ use metrics::Metric;
 use serde::{Deserialize, Serialize};
 use tracer::SceneId;
 
-use store::read_text;
-use suite::Error;
+use measure::{Error, read_text};
 
 pub use accept::{Acceptance, accept_scores};
 pub use comparison::{BaselineComparison, ComparisonKind, DecidedBy, compare_with_baseline};
@@ -47,14 +46,14 @@ impl Baseline {
     pub fn read(path: &Path) -> Result<Self, Error> {
         let text = read_text(path)?;
         let baseline: Self = serde_json::from_str(&text).map_err(|error| {
-            Error::Usage(format!(
+            Error::Refused(format!(
                 "{}: no baseline: {error}; `shuttertruth limits accept` writes one",
                 path.display()
             ))
         })?;
         match baseline.format {
             BASELINE_FORMAT => Ok(baseline),
-            other => Err(Error::Usage(format!(
+            other => Err(Error::Refused(format!(
                 "{}: has format {other}; allowed: {BASELINE_FORMAT}; accept it anew",
                 path.display()
             ))),

@@ -5,7 +5,7 @@ use std::path::Path;
 use bench::{Bench, CaseCost, Spread};
 use filters::Value;
 use maud::{Markup, html};
-use suite::{Error, FilterId};
+use measure::{Error, FilterId};
 
 use crate::case_table::CaseTable;
 use crate::numbers::three_digits;

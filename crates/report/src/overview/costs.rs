@@ -2,8 +2,8 @@
 
 use bench::{BASELINE, Bench, CaseCost, GROWTH_FROM, REACHES};
 use maud::{Markup, html};
+use measure::FilterId;
 use metrics::Metric;
-use suite::FilterId;
 
 use super::bench_file::{cost_of, milliseconds, spread};
 use super::pareto::{Point, pareto_section};

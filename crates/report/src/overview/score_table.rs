@@ -2,8 +2,8 @@
 
 use judge::{Level, list_summarized};
 use maud::{Markup, html};
+use measure::{Case, FilterId, Overall};
 use metrics::{Ideal, Metric};
-use suite::{Case, FilterId, Overall};
 use tracer::FrameRate;
 
 use super::bench_file::cost_of;

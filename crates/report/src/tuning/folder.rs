@@ -2,9 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use measure::{Error, read_text};
 use serde::de::DeserializeOwned;
-use store::read_text;
-use suite::Error;
 use tune::{JournalHeader, Sensitivity, TUNE_FORMAT, Trial, Tuning, read_journal};
 
 /// Contents of tune.json, journal.jsonl and sensitivity.json; at least one exists.
@@ -35,14 +34,14 @@ impl TuneFolder {
         if let Some(format) = tuning.as_ref().map(|tuning| tuning.format)
             && format != TUNE_FORMAT
         {
-            return Err(Error::Usage(format!(
+            return Err(Error::Refused(format!(
                 "{}: has format {format}; allowed: {TUNE_FORMAT}; tune anew with this version",
                 tuning_path.display()
             )));
         }
         let sensitivity = read_json(&path.join("sensitivity.json"))?;
         if header.is_none() && sensitivity.is_none() {
-            return Err(Error::Usage(format!(
+            return Err(Error::Refused(format!(
                 "{}: holds neither a run.json nor a journal.jsonl or sensitivity.json; `shuttertruth run` and `tune` write \
                  such folders",
                 path.display()
@@ -64,7 +63,7 @@ fn read_json<T: DeserializeOwned>(path: &Path) -> Result<Option<T>, Error> {
         return Ok(None);
     }
     let parsed = serde_json::from_str(&read_text(path)?).map_err(|error| {
-        Error::Usage(format!(
+        Error::Refused(format!(
             "{}: not of this program: {error}; `shuttertruth tune search` writes it anew into another folder",
             path.display()
         ))

@@ -8,7 +8,7 @@ mod trials;
 
 pub use folder::TuneFolder;
 use maud::{Markup, html};
-use suite::Error;
+use measure::Error;
 use tune::{JournalHeader, Tuning};
 
 use crate::document::{Document, Siblings};

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use suite::{EngineScene, Error};
+use measure::{EngineScene, Error};
 use tracer::{Location, Scene, SceneId, list_scene, list_scenes, load_scene};
 
 use super::names::{is_path, match_names, refuse_empty_names, suggest_names};

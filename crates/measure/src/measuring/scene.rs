@@ -1,0 +1,246 @@
+//! Cases of one scene: read back if their inputs are the same, otherwise measured.
+
+use std::path::{Path, PathBuf};
+
+use crate::{
+    CASE_RECORD, Error, RenderFile, clear_scene, look_up, put, refuse_scene, remove_altered_files,
+    take,
+};
+use filters::Gpu;
+use frame::Frame;
+
+use super::pictures::{PARTS_FILE, write_frame, write_truth};
+use super::plan::RunPlan;
+use super::planned_case::PlannedCase;
+use super::run_scene::RunScene;
+use crate::measuring::scene_keys::SceneKeys;
+use crate::run::case::Case;
+use crate::run::failure::Failure;
+
+/// One scene of a run.
+#[derive(Clone)]
+pub(crate) struct SceneContext<'a> {
+    pub plan: &'a RunPlan,
+    pub gpu: Option<&'a Gpu>,
+    pub scene: RunScene<'a>,
+    /// Hashes that identify records; none if the program cannot be hashed, and then nothing is read
+    /// back.
+    pub keys: Option<SceneKeys>,
+}
+
+impl<'a> SceneContext<'a> {
+    /// Prepares a scene of a plan for measuring. `program` is the hash of this program; none if it
+    /// cannot be hashed.
+    pub fn new(
+        plan: &'a RunPlan,
+        gpu: Option<&'a Gpu>,
+        program: Option<&str>,
+        scene: RunScene<'a>,
+    ) -> Self {
+        let alignments = scene.alignments(plan.alignments());
+        Self {
+            plan,
+            gpu,
+            scene,
+            keys: program.map(|program| SceneKeys::new(program, scene, &plan.render, alignments)),
+        }
+    }
+}
+
+impl SceneContext<'_> {
+    /// Returns each alignment's reference pictures, then one case per filter preset and input form;
+    /// a failure if a filter made no measurable picture. Also counts the cases that were read back.
+    /// `advance` gets the number of finished steps.
+    pub fn measure_cases(
+        &self,
+        advance: &dyn Fn(u64),
+    ) -> Result<(Vec<Result<Case, Failure>>, usize), Error> {
+        if self.plan.no_cache {
+            clear_scene(&self.folder())?;
+        }
+        let planned = PlannedCase::all(self.plan, self.scene);
+        let stored_cases: Vec<Option<Case>> = (planned.iter())
+            .map(|case| self.read_case(case, look_up))
+            .collect();
+        let read_back = stored_cases.iter().flatten().count();
+        if read_back == stored_cases.len() && self.has_its_files() {
+            return Ok((
+                stored_cases.into_iter().flatten().map(Ok).collect(),
+                read_back,
+            ));
+        }
+        let truths = self.plan.alignments().len();
+        (self.scene).check(&self.plan.render, self.plan.measured(truths))?;
+        let frame = self.render(advance)?;
+        let missing = (planned.iter().zip(&stored_cases)).filter(|(_, stored)| stored.is_none());
+        let missing: Vec<&PlannedCase> = missing.map(|(case, _)| case).collect();
+        let label = format!("{} blurs and scores", self.scene.id());
+        let monitor = self.plan.monitor;
+        advance(self.render_steps());
+        let measured = monitor.watch(&label, |watch| self.measure(&missing, &frame, watch))?;
+        let mut measured = measured.into_iter();
+        let mut cases = Vec::new();
+        for stored in stored_cases {
+            cases.push(match stored {
+                Some(case) => Ok(case),
+                None => measured.next().expect("every missing case was tried"),
+            });
+        }
+        Ok((cases, read_back))
+    }
+
+    /// Renders the scene's frame and one truth per alignment that a filter of the plan declares, or
+    /// copies an engine's, and writes their pictures.
+    fn render(&self, advance: &dyn Fn(u64)) -> Result<Frame, Error> {
+        for (record, key) in self.render_records() {
+            remove_altered_files(&record, &key);
+        }
+        self.take_renders()?;
+        let folder = self.folder();
+        let frame = self.render_first(advance)?;
+        let mut files = vec![write_frame(&folder, &frame)?];
+        let alignments = self.scene.alignments(self.plan.alignments());
+        for (alignment, done) in alignments.into_iter().zip(0..) {
+            advance(1 + done * self.truth_steps());
+            let truth = self.read_truth(alignment)?;
+            self.ensure_ladder(&truth)?;
+            files.push(write_truth(&folder, &truth, frame.display)?);
+        }
+        for ((record, key), files) in self.render_records().into_iter().zip(files) {
+            put(&record, key, &files, &())?;
+        }
+        Ok(frame)
+    }
+
+    /// Copies what it can from the plan's folder of truths.
+    fn take_renders(&self) -> Result<(), Error> {
+        let plan = self.plan;
+        if let (Some(truths), RunScene::Traced(scene)) = (&plan.truths, self.scene) {
+            let files = plan
+                .rendering(scene)
+                .list_wanted(&plan.alignments(), plan.ladders);
+            refuse_scene(&self.folder())?;
+            take(&files, truths, &plan.out)?;
+        }
+        Ok(())
+    }
+
+    /// Renders the frame, and what its truths share; copies an engine's frame.
+    fn render_first(&self, advance: &dyn Fn(u64)) -> Result<Frame, Error> {
+        let rendering = match self.scene {
+            RunScene::Traced(scene) => self.plan.rendering(scene),
+            RunScene::Drawn(scene) => return scene.copy_frame(&self.folder()),
+        };
+        let frame = rendering.frame()?;
+        advance(1);
+        rendering.shared(&self.plan.alignments(), 0..self.plan.render.replicates)?;
+        Ok(frame)
+    }
+
+    /// Names the folder of the scene's files.
+    pub(super) fn folder(&self) -> PathBuf {
+        self.plan.out.join(self.scene.id().folder())
+    }
+
+    /// Counts the steps of the whole scene, as progress shows them: rendering and measuring.
+    pub fn steps(&self) -> u64 {
+        self.render_steps() + 1
+    }
+
+    /// Counts a frame and the truths.
+    fn render_steps(&self) -> u64 {
+        1 + self.plan.alignments().len() as u64 * self.truth_steps()
+    }
+
+    /// Counts the replicates of a truth, and its ladder.
+    fn truth_steps(&self) -> u64 {
+        u64::from(self.plan.render.replicates) + 1
+    }
+
+    /// Reads a case that was measured before, without its intervals if the plan asks for none. A
+    /// plan that asks for intervals or ladders accepts no case without them. `look_up` may check
+    /// its pictures as well.
+    pub fn read_case(
+        &self,
+        planned: &PlannedCase,
+        look_up: fn(&Path, &str) -> Option<Case>,
+    ) -> Option<Case> {
+        let record = self.case_record(planned);
+        let keys = self.case_keys(planned);
+        let mut case = keys.iter().find_map(|key| look_up(&record, key))?;
+        if !self.plan.intervals {
+            case.intervals.clear();
+            return Some(case);
+        }
+        let has_none = case.is_reference || case.drawn.is_some();
+        (has_none || self.has_intervals(&case)).then_some(case)
+    }
+
+    /// Returns whether a case has intervals, and the pictures that a sequence's intervals are
+    /// measured from.
+    fn has_intervals(&self, case: &Case) -> bool {
+        let parts = self.plan.out.join(&case.folder).join(PARTS_FILE);
+        !case.intervals.is_empty() && (self.plan.frames.is_one() || parts.is_file())
+    }
+
+    /// Lists the frame and the truths that must be rendered, by the headers of files. Copying an
+    /// engine's counts as no time.
+    pub fn find_missing(&self) -> Vec<RenderFile> {
+        let plan = self.plan;
+        let folders = plan
+            .truths
+            .iter()
+            .chain([&plan.out])
+            .filter(|_| !plan.no_cache);
+        let folders: Vec<&Path> = folders.map(|folder| &**folder).collect();
+        let alignments = plan.alignments();
+        (self.scene.traced()).map_or(Vec::new(), |scene| {
+            (plan.rendering(scene)).find_missing(&alignments, plan.ladders, &folders)
+        })
+    }
+
+    /// Lists the keys of cases that the plan accepts, first the one for its own records: a plan
+    /// without ladders also accepts cases with them. None if nothing is read back.
+    pub(super) fn case_keys(&self, planned: &PlannedCase) -> Vec<String> {
+        let adapter = self.gpu.map(|gpu| &gpu.adapter);
+        let (Some(inputs), Some(keys)) = (planned.inputs(self.plan, adapter), &self.keys) else {
+            return Vec::new();
+        };
+        let alignments = [planned.id.alignment, self.plan.common_alignment()];
+        let ladders: &[bool] = if self.plan.ladders {
+            &[true]
+        } else {
+            &[false, true]
+        };
+        let key = |has_ladder: &bool| keys.case(&inputs, alignments, *has_ladder);
+        ladders.iter().map(key).collect()
+    }
+
+    pub(super) fn case_record(&self, planned: &PlannedCase) -> PathBuf {
+        let folder = self.plan.out.join(planned.id.folder());
+        folder.join(CASE_RECORD)
+    }
+
+    /// Returns whether frame, truths and their pictures are there and unaltered.
+    fn has_its_files(&self) -> bool {
+        let mut records = self.render_records().into_iter();
+        self.keys.is_some() && records.all(|(record, key)| look_up::<()>(&record, &key).is_some())
+    }
+
+    /// Lists the records of the frame and of every truth, in this order, with their keys; none if
+    /// nothing is read back.
+    fn render_records(&self) -> Vec<(PathBuf, String)> {
+        let Some(keys) = &self.keys else {
+            return Vec::new();
+        };
+        let folder = self.folder();
+        let record = |file: RenderFile| folder.join(file.path().with_extension("json"));
+        let mut records = vec![(record(RenderFile::Frame), keys.frame())];
+        let alignments = self.scene.alignments(self.plan.alignments());
+        records.extend(alignments.into_iter().map(|alignment| {
+            let record = record(RenderFile::Truth(alignment));
+            (record, keys.truth(alignment))
+        }));
+        records
+    }
+}
