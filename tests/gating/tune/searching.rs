@@ -112,7 +112,7 @@ const BAD_RANGES: [(&[&str], &[&str]); 8] = [
 #[test]
 fn fixed_parameters_are_refused_with_the_variable_ones() {
     for (words, parts) in BAD_RANGES {
-        assert_contains(&make_space(words).unwrap_err(), &parts);
+        assert_contains(&make_space(words).unwrap_err(), parts);
     }
     let identity = Filter::builtin("identity").unwrap();
     let start = identity.settings(None).unwrap();
