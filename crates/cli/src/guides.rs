@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 
 use clap::{Arg, Args, Command, CommandFactory, Id, Parser};
 
-use crate::arguments::{
+use crate::program::Cli;
+use terminal::arguments::{
     AdapterArgs, MeasureArgs, ProgramArgs, RootArgs, RunOptions, SceneArgs, SequenceArgs,
 };
-use crate::program::Cli;
 use terminal::output::OutputArgs;
 
 /// Columns of help on the page of all commands.

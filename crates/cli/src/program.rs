@@ -7,6 +7,7 @@ use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 use measure::Error;
 
 use crate::commands::*;
+use engine::command::{audit, export, import, ingest};
 use terminal::output::OutputArgs;
 use terminal::result::Ending;
 
@@ -35,7 +36,7 @@ pub enum Command {
     /// Prints a ranking; writes report.html, run.json, EXR and PNG.
     Run(run::RunArgs),
     /// Run, and compare every score with its bound: pass or fail
-    Check(check::CheckArgs),
+    Check(gate::CheckArgs),
     /// Measure a finished picture from any source
     Score(score::ScoreArgs),
     /// Write a finished run or tuning as one HTML page
@@ -99,9 +100,9 @@ pub enum TruthsCommand {
 #[derive(Debug, Subcommand)]
 pub enum LimitsCommand {
     /// Make the scores of a finished run the baseline of later checks
-    Accept(accept::AcceptArgs),
+    Accept(gate::AcceptArgs),
     /// Run several times, measure how scores scatter, and propose bounds
-    Calibrate(calibrate::CalibrateArgs),
+    Calibrate(gate::CalibrateArgs),
 }
 
 impl Cli {
@@ -167,7 +168,7 @@ pub fn execute(program: &Cli) -> Result<Ending, Error> {
     }
     let done = match &program.command {
         Command::Run(args) => run::execute(args),
-        Command::Check(args) => return check::execute(args),
+        Command::Check(args) => return gate::execute_check(args),
         Command::Score(args) if args.frames > 1 => score_sequence::execute(args),
         Command::Score(args) => score::execute(args),
         Command::Report(args) => report::execute(args),
@@ -182,8 +183,8 @@ pub fn execute(program: &Cli) -> Result<Ending, Error> {
         Command::Engine(EngineCommand::Blur(args)) => blur::execute(args),
         Command::Truths(TruthsCommand::Render(args)) => render::execute(args),
         Command::Truths(TruthsCommand::Merge(args)) => merge::execute(args),
-        Command::Limits(LimitsCommand::Accept(args)) => accept::execute(args),
-        Command::Limits(LimitsCommand::Calibrate(args)) => calibrate::execute(args),
+        Command::Limits(LimitsCommand::Accept(args)) => gate::execute_accept(args),
+        Command::Limits(LimitsCommand::Calibrate(args)) => gate::execute_calibrate(args),
         Command::Completions(args) => description::print_completions(args, Cli::all_visible()),
         Command::Man(args) => description::write_manual(args, Cli::all_visible()),
     };

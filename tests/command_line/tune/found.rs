@@ -35,8 +35,14 @@ fn tuned() -> Sandbox {
 fn a_tuning_beats_its_start_and_records_the_way() {
     let sandbox = tuned();
     let table = sandbox.text("printed");
-    let parts = "jump_flood:paper, 20 trials on 7 scenes | the start | chosen: trial | family left out | \
-        held-out scenes, evaluated once at 64x32 | FLIP of chosen against start";
+    let parts = [
+        "jump_flood:paper, 20 trials on 7 scenes",
+        "the start",
+        "chosen: trial",
+        "family left out",
+        "held-out scenes, evaluated once at 64x32",
+        "FLIP of chosen against start",
+    ];
     assert_contains(&table, &parts);
     let trials = read_trials(&sandbox);
     assert_eq!(trials.len(), 20);

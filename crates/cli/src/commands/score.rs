@@ -10,9 +10,9 @@ use measure::{
 };
 use metrics::Metric;
 
-use super::capture::read_convention;
-use crate::arguments::{RootArgs, above_zero, frame_count};
-use crate::tables::score_table;
+use super::convention::read_convention;
+use run::score_table;
+use terminal::arguments::{RootArgs, above_zero, frame_count};
 use terminal::output::{print, print_json};
 
 #[derive(Debug, Args)]
