@@ -39,6 +39,9 @@ fn read_pages() -> Vec<String> {
             }
         }
     }
+    let crates = fs::read_dir(root.join("crates")).unwrap();
+    let guides = crates.map(|entry| entry.unwrap().path().join("README.md"));
+    paths.extend(guides.filter(|path| path.is_file()));
     let pages = paths.iter().map(|path| fs::read_to_string(path).unwrap());
     pages.collect()
 }
