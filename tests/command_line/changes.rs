@@ -71,7 +71,7 @@ fn a_search_refuses_names_that_do_not_exist_and_too_few_scenes() {
         ("--preset shipped", "--preset shipped: three has default"),
         (
             "--preset default --keep exposure",
-            "exposure: three has no such parameter; it has samples",
+            "three has no such parameter; it has samples",
         ),
         (
             "--preset default --change taps=3",

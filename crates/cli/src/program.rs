@@ -3,7 +3,7 @@
 use std::ffi::OsString;
 
 use clap::error::{ContextKind, ContextValue};
-use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use measure::Error;
 
 use crate::commands::*;
@@ -23,9 +23,9 @@ pub struct Cli {
     pub command: Command,
     #[command(flatten)]
     pub output: OutputArgs,
-    /// Arguments of the command as given on the command line.
+    /// Number of threads that the command is given.
     #[arg(skip)]
-    pub given: ArgMatches,
+    pub threads: Option<usize>,
 }
 
 /// The commands.
@@ -128,12 +128,15 @@ impl Cli {
         words: impl IntoIterator<Item = W>,
     ) -> Result<Self, clap::Error> {
         let mut program = Self::command_line();
-        let mut given = program.try_get_matches_from_mut(words)?;
-        let parsed = Self::from_arg_matches(&given).map_err(|error| error.format(&mut program))?;
-        while let Some((_, command)) = given.remove_subcommand() {
-            given = command;
+        let matches = program.try_get_matches_from_mut(words)?;
+        let parsed =
+            Self::from_arg_matches(&matches).map_err(|error| error.format(&mut program))?;
+        let mut command = &matches;
+        while let Some((_, inner)) = command.subcommand() {
+            command = inner;
         }
-        Ok(Self { given, ..parsed })
+        let threads = command.try_get_one("threads").unwrap_or(None).copied();
+        Ok(Self { threads, ..parsed })
     }
 }
 
@@ -160,9 +163,9 @@ pub fn find_new_place(error: &clap::Error) -> Option<String> {
 
 /// Does a command's work on the requested number of threads.
 pub fn execute(program: &Cli) -> Result<Ending, Error> {
-    if let Ok(Some(threads)) = program.given.try_get_one::<usize>("threads") {
+    if let Some(threads) = program.threads {
         rayon::ThreadPoolBuilder::new()
-            .num_threads(*threads)
+            .num_threads(threads)
             .build_global()
             .map_err(|error| Error::Refused(format!("cannot start the threads: {error}")))?;
     }

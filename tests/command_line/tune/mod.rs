@@ -1,6 +1,6 @@
 //! `tune`: the search, the journal, the results and the refusals.
 
-mod found;
+mod results;
 
 use std::fs;
 use std::process::Command;
