@@ -1,5 +1,8 @@
-//! `tune`: the search, the journal, the results and the refusals.
+//! `tune`: the search, the journal, the results and the refusals. A part of tests/command_line,
+//! which is linked with the program once.
 
+mod evaluate;
+mod page;
 mod results;
 
 use std::fs;
@@ -97,6 +100,26 @@ const BAD_TUNINGS: [(&str, &[&str]); 7] = [
     ),
 ];
 
+/// Words of a command line, and the message.
+const BAD_WORDS: [(&str, &str); 4] = [
+    (
+        "tune search --filter jump_flood --budget 10000000000000 --out out",
+        "10000000000000 is not in 1..=1000000",
+    ),
+    (
+        "tune sensitivity --filter jump_flood --rows 10000000000000 --out out",
+        "10000000000000 is not in 2..=1000000",
+    ),
+    (
+        "tune --filter jump_flood",
+        "tune: use shuttertruth tune search",
+    ),
+    (
+        "compare-presets a b",
+        "compare-presets: use shuttertruth tune compare",
+    ),
+];
+
 #[test]
 fn bad_tunings_are_refused_and_leave_no_files() {
     let sandbox = set_up();
@@ -104,6 +127,9 @@ fn bad_tunings_are_refused_and_leave_no_files() {
     sandbox.put("scenes/g/scene.toml", still);
     let search = format!("{SEARCH} --filter jump_flood --budget 2");
     sandbox.refuse_each(&format!("{search} --objective flip"), &BAD_TUNINGS);
+    for (words, message) in BAD_WORDS {
+        sandbox.refuse(words, &[message]);
+    }
     let speed = format!("{search} --scenes a --objective speed");
     sandbox.refuse(&speed, &["allowed: flip, bleed, cost"]);
     assert!(!sandbox.path("out").exists(), "nothing is written");
