@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use tracer::{Family, FrameRate, SceneId};
 
 use crate::engine_scene::engine_name;
-use crate::identity::CaseId;
+use crate::identity::{CaseId, ReferencePicture};
 use crate::render::ladders::SHARP;
 
 /// Confidence intervals of scores.
@@ -98,7 +98,7 @@ impl Case {
     /// Returns whether this is the reference that shows the shutter's middle sharply, if the frame
     /// does not.
     pub fn is_sharp(&self) -> bool {
-        self.is_reference && self.filter == ACCUMULATE && self.preset == SHARP.to_string()
+        self.reference() == Some(ReferencePicture::Accumulation(SHARP))
     }
 
     /// Names a rendered file of its scene; `folder` is run.json's.
@@ -124,10 +124,3 @@ impl Deref for Case {
         &self.id
     }
 }
-
-/// Name of the reference picture that is the frame itself.
-pub const IDENTITY: &str = "identity";
-/// Name of the reference picture of [`metrics::scatter_oracle`].
-pub const SCATTER_ORACLE: &str = "scatter_oracle";
-/// Name of the reference pictures that are means of sub-frames.
-pub const ACCUMULATE: &str = "accumulate";
