@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use cli::{run_table, terminal_text};
+use cli::run_table;
 use frame::Alignment;
 use judge::compare_runs;
 use measure::{Case, CaseId, FORMAT, InputFormat, Overall, Run, StoredRun, overall};
@@ -114,7 +114,7 @@ fn mean<'a>(run: &'a Run, filter: &str, metric: &str) -> &'a Overall {
 /// Prints the run's table without colour codes.
 fn print_table(run: &Run) -> String {
     let mut text = String::new();
-    for (index, part) in terminal_text(&run_table(run)).split('\u{1b}').enumerate() {
+    for (index, part) in run_table(run).terminal_codes().split('\u{1b}').enumerate() {
         text += match index {
             0 => part,
             _ => part.split_once('m').expect("a code of a colour").1,

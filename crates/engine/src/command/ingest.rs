@@ -57,7 +57,7 @@ pub fn execute(args: &IngestArgs) -> Result<(), Error> {
     let ingested = make_monitor().watch("sub-frames", |watch| {
         ingest(&capture, (display, names), &out, watch)
     })?;
-    print(&describe(&ingested, &out, traced.as_ref()))
+    print(describe(&ingested, &out, traced.as_ref()))
 }
 
 /// Names the folder to write: the given one, or one with the capture's name.

@@ -161,6 +161,7 @@ fn write_tuning(tuning: &Tuning, options: &TuneOptions, as_json: bool) -> Result
             .map_err(|source| FileError::io(&preset, "remove", source))?,
         _ => {}
     }
-    let table = tuning_table(tuning) + "\n" + advice_text(tuning).trim_end();
-    write_result(&path("tune.json"), tuning, &table, as_json)
+    let advice = advice_text(tuning).plain();
+    let table = tuning_table(tuning) + "\n" + advice.trim_end();
+    write_result(&path("tune.json"), tuning, table, as_json)
 }

@@ -49,7 +49,10 @@ fn compare(name: &str, names: &[&str], width: u32, as_written: bool) -> (PairedC
     let [published, tuned_preset] =
         [&tuned.from, "tuned"].map(|preset| choice.preset_at(preset, width).unwrap());
     let paired = compare_candidates(&mut evaluator, &published, &tuned_preset).unwrap();
-    let table = format!("{name}\n{}", paired_table(&paired, [&tuned.from, "tuned"]));
+    let table = format!(
+        "{name}\n{}",
+        paired_table(&paired, [&tuned.from, "tuned"]).plain()
+    );
     println!("{table}");
     (paired, table)
 }
