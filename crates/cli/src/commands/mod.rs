@@ -11,6 +11,7 @@ mod convention;
 mod copy;
 pub mod description;
 pub mod evaluate;
+mod ingested_scenes;
 mod kept_truths;
 pub mod list;
 mod measured_run;

@@ -62,7 +62,7 @@ fn gather_renders(parts: &[PathBuf]) -> Result<Files, Error> {
         }
         lists.push((&**part, renders.iter().map(RenderPath::path).collect()));
     }
-    Ok(gather(lists)?)
+    gather(lists)
 }
 
 /// The files of each truth's replicates, by index.
