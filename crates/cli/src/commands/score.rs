@@ -12,7 +12,7 @@ use metrics::Metric;
 
 use super::convention::read_convention;
 use crate::arguments::{RootArgs, above_zero, frame_count};
-use crate::tables::score_table;
+use run::score_table;
 use terminal::output::{print, print_json};
 
 #[derive(Debug, Args)]

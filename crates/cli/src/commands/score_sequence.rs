@@ -11,7 +11,7 @@ use tracer::Scene;
 
 use super::convention::read_convention;
 use super::score::{ScoreArgs, check_scene, scored_json, truth_text};
-use crate::tables::score_sequence_table;
+use run::score_sequence_table;
 use terminal::output::{print, print_json};
 use terminal::selection::select_scenes;
 

@@ -12,7 +12,7 @@ pub(super) struct Include {
 }
 
 /// Words of Slang before the path of a module.
-pub(super) const IMPORTS: [&str; 4] = ["import", "__import", "__include", "implementing"];
+const IMPORTS: [&str; 4] = ["import", "__import", "__include", "implementing"];
 
 /// Lists the files that a plain text names.
 pub(super) fn list_includes(text: &str) -> Vec<Include> {
@@ -57,7 +57,7 @@ fn list_imports(text: &str) -> impl Iterator<Item = String> {
 }
 
 /// Returns true for text before the path of a module.
-pub(super) fn ends_with_import(text: &str) -> bool {
+fn ends_with_import(text: &str) -> bool {
     let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
     let text = text.trim_end();
     let start = text.trim_end_matches(is_part).len();
@@ -66,7 +66,7 @@ pub(super) fn ends_with_import(text: &str) -> bool {
 
 /// Lists the lines of a plain text, each with its number. An import of Slang continues on the next
 /// line.
-pub(super) fn list_lines(text: &str) -> Vec<(usize, String)> {
+fn list_lines(text: &str) -> Vec<(usize, String)> {
     let mut lines: Vec<(usize, String)> = Vec::new();
     let mut goes_on = false;
     for (index, part) in text.split('\n').enumerate() {
@@ -82,8 +82,7 @@ pub(super) fn list_lines(text: &str) -> Vec<(usize, String)> {
 }
 
 /// Makes the text that a compiler gets, and that [`list_includes`] reads: lines that end with `\`
-/// are joined, comments are removed, and lines keep their numbers. So both see the same, even if
-/// they disagree about comments.
+/// are joined, comments are removed, and lines keep their numbers. So both see the same includes.
 pub(super) fn make_plain(text: &str) -> String {
     let text = text.trim_start_matches('\u{feff}').replace("\r\n", "\n");
     let text = text.replace(['\u{b}', '\u{c}'], " ");

@@ -6,7 +6,6 @@
 
 mod bind;
 mod branches;
-mod closed;
 mod combined;
 mod compile;
 mod compiler;
@@ -47,7 +46,6 @@ use compiler::Compiler;
 use module::{OpenModule, check_macros, compile_shader, find_language, read};
 use places::check_places;
 
-pub(crate) use closed::check_macro;
 pub(crate) use language::{Language, SHADER_LAB};
 pub(crate) use sources::{MAX_MODULE_BYTES, stays_below};
 pub(crate) use textures::check_texture;

@@ -6,7 +6,6 @@ use std::path::{Component, Path, PathBuf};
 
 use frame::read_bounded;
 
-use super::closed::check_closed;
 use super::includes::{list_includes, make_plain};
 use super::language::Language;
 use super::packages::name_packages;
@@ -108,8 +107,7 @@ impl<'a> Sources<'a> {
     }
 
     /// Rewrites a plain text so that each `#include` names a copy as seen from the file itself:
-    /// there every compiler looks first, and opens nothing else. Returns the files that it names,
-    /// too.
+    /// there every compiler looks first. Returns the files that it names, too.
     fn resolve(
         &self,
         file: &Path,
@@ -117,7 +115,7 @@ impl<'a> Sources<'a> {
         text: &str,
     ) -> Result<(String, Vec<PathBuf>), FilterError> {
         let mut lines: Vec<String> = text.split('\n').map(str::to_owned).collect();
-        let (mut resolved, mut places) = (Vec::new(), Vec::new());
+        let mut places = Vec::new();
         for include in list_includes(text) {
             let refuse = |reason: String| self.refuse(file, include.line, reason);
             let Some(path) = include.path.as_deref() else {
@@ -135,7 +133,6 @@ impl<'a> Sources<'a> {
             match (lead, include.is_module) {
                 (Some(lead), false) => {
                     lines[include.line - 1] = format!("#include \"{lead}\"");
-                    resolved.push(include.line);
                 }
                 // A condition may leave it out.
                 (None, false) => {
@@ -164,10 +161,7 @@ impl<'a> Sources<'a> {
             }
             places.extend(place);
         }
-        let text = lines.join("\n");
-        check_closed(&text, self.language, &resolved)
-            .map_err(|(line, reason)| self.refuse(file, line, reason))?;
-        Ok((text, places))
+        Ok((lines.join("\n"), places))
     }
 
     fn leads_out(&self, path: &str) -> String {

@@ -5,7 +5,6 @@ pub mod files;
 pub mod ingested_scene;
 pub mod ladders;
 pub mod memory;
-pub mod merge;
 pub mod rendering;
 pub mod replicates;
 pub mod run_scene;
