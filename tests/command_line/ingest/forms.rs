@@ -286,9 +286,18 @@ fn files_of_two_captures_are_not_mixed() {
         fs::write(&path, before).unwrap();
     }
     sandbox.done(words);
-    sandbox.put("out/engine/mine/ingested.json", "{}");
-    let parts = ["ingested.json: no ingested capture", "make the folder anew"];
-    sandbox.refuse(words, &parts);
+    let record = sandbox.text("out/engine/mine/ingested.json");
+    let altered = record.replace("\"exposure\": 0.5", "\"exposure\": 0.25");
+    assert_ne!(altered, record);
+    for (text, reason) in [
+        ("{}", "no ingested capture"),
+        (&*altered, "an altered one"),
+        ("{\"format\": 2}", "has format 2; allowed: 3"),
+    ] {
+        sandbox.put("out/engine/mine/ingested.json", text);
+        let parts = ["ingested.json: ", reason, "make the folder anew"];
+        sandbox.refuse(words, &parts);
+    }
 }
 
 #[test]

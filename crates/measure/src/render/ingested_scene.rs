@@ -1,28 +1,30 @@
 //! A scene that an engine drew: a folder that `ingest` wrote.
+//!
+//! Frame, truth and ladder have the names and headers of rendered ones, so that a run finds them by
+//! the hash of their inputs. A record next to them holds what only an engine's pictures have.
 
 use std::path::{Path, PathBuf};
 
-use crate::{Error, FilterChoice, MAX_TAKEN_BYTES, RenderFile, read_text};
+use crate::{Error, FilterChoice, RenderFile, hash_inputs, put, read_record, read_text};
 use filters::EXCLUSION;
-use frame::{Alignment, Frame, Ladder, Picture, Plane, Provenance, Truth, read_bounded, read_exr};
+use frame::{Alignment, Frame, Picture, Plane, read_exr};
 use serde::{Deserialize, Serialize};
-use tracer::SceneId;
+use tracer::{RenderSettings, SceneId};
 
-use crate::inputs::border::wide;
-use crate::render::exclusion::EXCLUSION_FILE;
+use super::exclusion::EXCLUSION_FILE;
 
-/// Name of the file that marks a folder as ingested.
+/// Name of the record that marks a folder as ingested.
 pub const INGESTED_FILE: &str = "ingested.json";
 /// Name of the engine's own blurred picture in that folder.
 pub const BLURRED: &str = "blurred.exr";
-/// Version of the layout of the file.
-pub const INGESTED_FORMAT: u32 = 2;
+/// Version of the layout of the record.
+pub const INGESTED_FORMAT: u32 = 3;
 /// Halves of a truth, each a picture of the whole shutter.
 const HALVES: u32 = 2;
 
 /// A frame that an engine drew, with the truth of its sub-frames and its own blurred picture.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct EngineScene {
+pub struct IngestedScene {
     /// Version of the layout.
     pub format: u32,
     /// Program that ingested the capture.
@@ -51,56 +53,146 @@ pub struct EngineScene {
     /// Inputs of the frame that few filters read: `velocity_next`, `velocity_z`, `exclusion`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub further_inputs: Vec<String>,
-    /// Hash of the capture.
+    /// Hash of the capture: the inputs of the record.
+    #[serde(skip)]
     pub hash: String,
     /// The folder.
     #[serde(skip)]
     pub folder: PathBuf,
 }
 
-impl EngineScene {
+/// Engine that drew a frame and a truth, as a case names it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Drawn {
+    /// Engine and version.
+    pub engine: String,
+    /// Scene of the suite that it drew.
+    pub scene: Option<SceneId>,
+    /// Number of sub-frames in the truth's mean.
+    pub subframes: u32,
+    /// 99th percentile of the moving pixels' motion between two of them, in pixels.
+    pub step: f64,
+}
+
+impl Drawn {
+    /// Describes the truth: `mean of 32 sub-frames that three.js 0.187.0 drew`.
+    pub fn truth_text(&self) -> String {
+        format!(
+            "mean of {} sub-frames that {} drew",
+            self.subframes,
+            engine_name(&self.engine)
+        )
+    }
+}
+
+/// Layout of records before they held hashes of the files.
+#[derive(Deserialize)]
+struct OldRecord {
+    format: u32,
+}
+
+impl IngestedScene {
     /// Returns whether `ingest` wrote a folder.
     pub fn is_in(folder: &Path) -> bool {
         folder.join(INGESTED_FILE).is_file()
     }
 
     /// Reads a folder that `ingest` wrote.
+    ///
+    /// # Errors
+    /// The record is altered or of another format, or a file differs from the ingested one.
     pub fn read(folder: &Path) -> Result<Self, Error> {
         let path = folder.join(INGESTED_FILE);
-        let reason = match serde_json::from_str::<Self>(&read_text(&path)?) {
-            Err(error) => format!("no ingested capture: {error}"),
-            Ok(scene) if scene.format != INGESTED_FORMAT => {
-                format!("has format {}; allowed: {INGESTED_FORMAT}", scene.format)
-            }
-            Ok(scene) if !is_engine_scene(&scene.id) => format!(
+        let text = read_text(&path)?;
+        let refuse = |reason: String| {
+            Err(Error::Refused(format!(
+                "{}: {reason}; make the folder anew with `shuttertruth engine ingest`",
+                path.display()
+            )))
+        };
+        let other = |format| refuse(format!("has format {format}; allowed: {INGESTED_FORMAT}"));
+        let Some(record) = read_record::<Self>(&path) else {
+            return match serde_json::from_str::<OldRecord>(&text) {
+                Ok(old) => other(old.format),
+                Err(_) => refuse("no ingested capture, or an altered one".to_owned()),
+            };
+        };
+        let scene = Self {
+            hash: record.inputs,
+            folder: folder.to_owned(),
+            ..record.made
+        };
+        if scene.format != INGESTED_FORMAT {
+            return other(scene.format);
+        }
+        if !has_ingested_name(&scene.id) {
+            return refuse(format!(
                 "name \"{}\"; allowed: names of a folder and of an engine, such as railing@three.js_0.187.0",
                 scene.id
-            ),
-            Ok(mut scene) => {
-                scene.folder = folder.to_owned();
-                return Ok(scene);
-            }
-        };
-        Err(Error::Refused(format!(
-            "{}: {reason}; make the folder anew with `shuttertruth engine ingest`",
-            path.display()
-        )))
-    }
-
-    /// Finds what a filter reads and the frame lacks.
-    pub fn find_lacking(&self, choice: &FilterChoice) -> Option<&'static str> {
-        let is_there = |name: &&str| self.further_inputs.iter().any(|input| input == name);
-        let mut further = choice.filter.further_inputs().into_iter();
-        if choice.filter.reads_camera(&choice.settings) {
-            Some("the camera")
-        } else {
-            further.find(|name| !is_there(name))
+            ));
+        }
+        match record.altered.first() {
+            Some(file) => Err(refuse_file(file)),
+            None => Ok(scene),
         }
     }
 
-    /// Returns the content hash of the truth.
-    pub(crate) fn truth_hash(&self) -> String {
-        frame::truth_hash(&self.hash, HALVES)
+    /// Writes the record of a folder after its `files`.
+    pub fn write(&self, files: &[String]) -> Result<(), Error> {
+        let path = self.folder.join(INGESTED_FILE);
+        Ok(put(&path, self.hash.clone(), files, self)?)
+    }
+
+    /// Explains why a filter cannot run on the frame; none if it can.
+    pub fn leaves_out(&self, choice: &FilterChoice) -> Option<String> {
+        if choice.filter.alignment != self.alignment {
+            return Some(format!(
+                "of another shutter than the {} one that the engine drew",
+                self.alignment
+            ));
+        }
+        let is_there = |name: &&str| self.further_inputs.iter().any(|input| input == name);
+        let mut further = choice.filter.further_inputs().into_iter();
+        let lacking = if choice.filter.reads_camera(&choice.settings) {
+            "the camera"
+        } else {
+            further.find(|name| !is_there(name))?
+        };
+        Some(format!("because the capture does not have {lacking}"))
+    }
+
+    /// Names the engine as a case does.
+    pub(crate) fn drawn(&self) -> Drawn {
+        Drawn {
+            engine: self.engine.clone(),
+            scene: self.scene.clone(),
+            subframes: self.subframes,
+            step: self.step,
+        }
+    }
+
+    /// Returns the settings of the scene's files. Two halves are too few replicates for intervals:
+    /// sub-frames are no random samples, and a truth without some of them has holes.
+    pub(crate) fn settings(&self, run: RenderSettings) -> RenderSettings {
+        run.with_replicates(HALVES)
+    }
+
+    /// Returns the hash of the inputs of a file.
+    pub(crate) fn content_hash(&self, file: RenderFile) -> String {
+        match file {
+            RenderFile::Truth(_) => frame::truth_hash(&self.hash, HALVES),
+            RenderFile::Frame | RenderFile::Replicate(..) | RenderFile::Rung(..) => {
+                self.hash.clone()
+            }
+        }
+    }
+
+    /// Hashes the description, wherever the folder is.
+    pub(crate) fn description_hash(&self) -> String {
+        hash_inputs(&Self {
+            folder: PathBuf::new(),
+            ..self.clone()
+        })
     }
 
     /// Names the engine in one word, like filters: `three.js_0.187.0`.
@@ -145,43 +237,6 @@ impl EngineScene {
         }
     }
 
-    /// Reads the frame, and copies its file into a scene's folder of a run.
-    pub(crate) fn copy_frame(&self, folder: &Path) -> Result<Frame, Error> {
-        let file = RenderFile::Frame;
-        let frame = Frame::read(&self.copy(file, folder)?)?;
-        self.check_file(file, &frame.provenance, &self.hash, frame.size())?;
-        Ok(frame)
-    }
-
-    /// Reads the truth, and copies its file and its ladder's into a scene's folder of a run.
-    pub(crate) fn copy_truth(&self, folder: &Path) -> Result<Truth, Error> {
-        for rung in &self.ladder {
-            self.copy(RenderFile::Rung(self.alignment, *rung), folder)?;
-        }
-        let file = RenderFile::Truth(self.alignment);
-        let truth = Truth::read(&self.copy(file, folder)?)?;
-        self.check_file(file, &truth.provenance, &self.truth_hash(), truth.size())?;
-        Ok(truth)
-    }
-
-    /// Refuses a file that changed since it was ingested.
-    fn check_file(
-        &self,
-        file: RenderFile,
-        provenance: &Provenance,
-        hash: &str,
-        (width, height): (u32, u32),
-    ) -> Result<(), Error> {
-        if provenance.content_hash == hash && self.size == [width, height] {
-            Ok(())
-        } else {
-            Err(Error::Refused(format!(
-                "{}: comes from a different capture than {INGESTED_FILE}; run `ingest` again",
-                self.folder.join(file.path()).display()
-            )))
-        }
-    }
-
     /// Reads the mask of what a blur leaves alone, as wide as a frame with a border; none if the
     /// capture had none.
     pub(crate) fn read_exclusion(&self, frame: &Frame) -> Result<Option<Plane>, Error> {
@@ -189,13 +244,7 @@ impl EngineScene {
             return Ok(None);
         }
         let mask = read_exr(&self.folder.join(EXCLUSION_FILE))?.plane(EXCLUSION)?;
-        Ok(Some(wide(&mask, frame.guard_band)))
-    }
-
-    /// Reads a rung of the ladder from a scene's folder of a run.
-    pub(crate) fn read_rung(&self, folder: &Path, subframes: u32) -> Result<Ladder, Error> {
-        let file = RenderFile::Rung(self.alignment, subframes);
-        Ok(Ladder::read_rung(&folder.join(file.path()), subframes)?)
+        Ok(Some(mask.widened(frame.guard_band)))
     }
 
     /// Reads the engine's own blurred picture, with the frame's mattes.
@@ -207,16 +256,14 @@ impl EngineScene {
             coverage: frame.coverage.clone(),
         })
     }
+}
 
-    /// Copies a file, unless the same bytes are there; returns its new path.
-    fn copy(&self, file: RenderFile, folder: &Path) -> Result<PathBuf, Error> {
-        let [from, to] = [&*self.folder, folder].map(|folder| folder.join(file.path()));
-        let bytes = read_bounded(&from, MAX_TAKEN_BYTES)?;
-        if read_bounded(&to, MAX_TAKEN_BYTES).ok().as_ref() != Some(&bytes) {
-            frame::write_atomically(&to, &bytes)?;
-        }
-        Ok(to)
-    }
+/// Refuses a file that is not the ingested one.
+pub(crate) fn refuse_file(path: &Path) -> Error {
+    Error::Refused(format!(
+        "{}: was altered, or comes from a different capture than {INGESTED_FILE}; run `ingest` again",
+        path.display()
+    ))
 }
 
 /// Shortens an engine's name: removes what follows in brackets, such as its driver.
@@ -234,9 +281,9 @@ pub fn name_in_one_word(text: &str) -> String {
     letters.collect()
 }
 
-/// Returns whether a text can be the name of an engine's scene: it names the scene's folder, and
+/// Returns whether a name can be an ingested scene's: it names the scene's folder, and
 /// its engine names the picture's subfolder.
-fn is_engine_scene(id: &SceneId) -> bool {
+fn has_ingested_name(id: &SceneId) -> bool {
     let is_word = |word: &str| !word.is_empty() && name_in_one_word(word) == word;
     let is_engine = |engine: &String| is_word(engine) && !engine.starts_with('.');
     is_word(&id.name) && id.variant.as_ref().is_some_and(is_engine) && id.rate.is_none()
@@ -247,8 +294,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_that_lead_elsewhere_are_no_engine_scenes() {
-        let is_allowed = |name: &str| name.parse().is_ok_and(|id| is_engine_scene(&id));
+    fn names_that_lead_elsewhere_are_no_ingested_scenes() {
+        let is_allowed = |name: &str| name.parse().is_ok_and(|id| has_ingested_name(&id));
         assert!(is_allowed("railing@three.js_0.187.0"));
         for name in [
             "plate@..",
