@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 use serde_json::Value;
 
 use crate::child::wait_until;
-use crate::sandbox::{Sandbox, python_with, read_table, split, stderr, stdout};
+use crate::sandbox::{Sandbox, python_with, split, stderr, stdout};
 
 const EVALUATE: &str =
     "tune evaluate --quiet --filter jump_flood --size 64x32 --samples-per-pixel 16 --out out";
@@ -27,11 +27,27 @@ fn a_file_of_parameters_is_scored_on_every_scene() {
     assert_ne!(scores["error"], 0.0, "it differs from the start");
 }
 
+/// Files of parameters, and parts of the message.
+const BAD_PARAMETERS: [(&str, &[&str]); 3] = [
+    (
+        r#"{"sample": 3}"#,
+        &["p.json: jump_flood.sample", "allowed: samples"],
+    ),
+    (
+        r#"{"samples": 3.5}"#,
+        &["p.json: jump_flood.samples: found 3.5", "from 1 to 64"],
+    ),
+    (
+        "samples = 3",
+        &["p.json", "allowed: one table of parameters"],
+    ),
+];
+
 #[test]
 fn parameters_of_a_file_are_checked() {
     let sandbox = Sandbox::new();
     let words = "tune evaluate --quiet --filter jump_flood --params p.json --out out";
-    for (text, parts) in read_table("parameters of requests") {
+    for (text, parts) in BAD_PARAMETERS {
         sandbox.put("p.json", text);
         sandbox.refuse(words, &parts);
     }

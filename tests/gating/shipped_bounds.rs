@@ -6,8 +6,9 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use cli::{Programs, SceneChoice, select_filters, select_scenes};
 use frame::Alignment;
+use gate::check;
 use judge::{
-    Decision, JudgedScore, Level, Outcome, SceneBounds, check, judge, judge_scores, read_bounds,
+    Decision, JudgedScore, Level, Outcome, SceneBounds, judge, judge_scores, read_bounds,
     size_for_bounds,
 };
 use measure::{FilterChoice, Monitor, Rendering, RunPlan, measure_scenes};

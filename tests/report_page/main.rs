@@ -163,7 +163,14 @@ fn a_broken_bound_is_seen_with_its_place_and_its_pictures() {
     browser.until("location.hash === '#plate/identity:default'");
     settle(&mut browser);
     let section = browser.text("$('article.open .verdicts').innerText");
-    let parts = "Why it failed | BROKEN flip_moving 0.2 | it serves a test | no_blur | 95 % CI | noise floor";
+    let parts = [
+        "Why it failed",
+        "BROKEN flip_moving 0.2",
+        "it serves a test",
+        "no_blur",
+        "95 % CI",
+        "noise floor",
+    ];
     assert_contains(&section, &parts);
     // Truth, output and error are drawn, and no two of them are equal.
     let canvas = |at: usize| format!("$$('article.open .crop canvas')[{at}].toDataURL()");

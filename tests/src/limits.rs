@@ -2,7 +2,8 @@
 
 use std::fs;
 
-use judge::{SceneBounds, calibrate, read_bounds_file};
+use gate::calibrate;
+use judge::{SceneBounds, read_bounds_file};
 use measure::Run;
 use metrics::Metric;
 use tracer::SceneId;

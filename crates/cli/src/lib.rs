@@ -22,12 +22,12 @@ use terminal::output::{
 use terminal::result::Ending;
 use tracer::TraceError;
 
-pub use tables::{
-    annotations, check_text, compare_table, junit, list_once, markdown_table, paired_table,
-    range_text, ranking_text, run_table, score_table, summary,
-};
+pub use gate::{annotations, check_text, junit, summary};
+pub use run::{ranking_text, run_table, score_table};
+pub use tables::{compare_table, paired_table};
 pub use terminal::output::terminal_text;
 pub use terminal::selection::{Programs, SceneChoice, select_filters, select_scenes};
+pub use terminal::table::{list_once, markdown_table, range_text};
 
 /// Runs the command of the command line and returns its exit code.
 pub fn run_program() -> ExitCode {

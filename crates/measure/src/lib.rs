@@ -6,10 +6,10 @@ mod engine_scene;
 mod error;
 mod files;
 mod filter_choice;
+mod fold;
 mod identity;
 mod inputs;
 mod measuring;
-mod merge;
 mod monitor;
 mod named;
 mod random;
@@ -28,9 +28,9 @@ pub use error::Error;
 pub use files::clear::clear_scene;
 pub use files::folder::{is_below, refuse_long_names, refuse_scene, scene_folder};
 pub use files::folder_lock::{FolderLock, Sharing, lock_folder};
-pub use files::gather::{Files, MAX_TAKEN_BYTES, gather, place_files};
 pub use files::json::{MAX_JSON_BYTES, MAX_RUN_BYTES, read_text, read_text_within};
 pub use files::json_lines::to_lines;
+pub use files::place::{MAX_TAKEN_BYTES, is_one_file, place_file};
 pub use files::record::{
     CASE_RECORD, hash_inputs, hash_program, look_up, look_up_alone, put, remove_altered_files,
 };
@@ -40,6 +40,7 @@ pub use files::render_file::{
 };
 pub use files::tracked::refuse_tracked;
 pub use filter_choice::FilterChoice;
+pub use fold::fold_runs;
 pub use identity::{CaseId, FilterId};
 pub use inputs::buffer_size::BufferSize;
 pub use inputs::camera_jitter::CameraJitter;
@@ -50,22 +51,21 @@ pub use inputs::multisampling::Multisampling;
 pub use inputs::render_scale::RenderScale;
 pub use inputs::shutter_rule::ShutterRule;
 pub use inputs::velocity_format::VelocityFormat;
+pub use measuring::earlier::{EarlierCases, find_newer_sizes, folder_for_size};
 pub use measuring::estimate::{
     RunEstimate, estimate_case_seconds, estimate_render_seconds, estimate_run,
 };
 pub use measuring::measured_filters::MEASURED_FILTERS;
 pub use measuring::part::Part;
+pub use measuring::pictures::{CASE_FILES, FRAME_FILES, truth_files};
 pub use measuring::plan::RunPlan;
 pub use measuring::probes::{filter_input, pack_planes, unpack_planes};
 pub use measuring::scenes::measure_scenes;
 pub use measuring::sequence::{CHANGE_PICTURE, SEQUENCE_PICTURE};
-pub use merge::earlier::{EarlierCases, find_newer_sizes, folder_for_size};
-pub use merge::{holds_run, merge_runs};
 pub use monitor::{Monitor, Step};
 pub use random::Random;
 pub use render::exclusion::{EXCLUSION_FILE, FilterFrame, read_exclusion};
 pub use render::ladders::{SHARP, sharp_picture};
-pub use render::merge::{Merged, merge};
 pub use render::rendering::Rendering;
 pub use render::settings::{SIDES, list_settings};
 pub use render::truths::deciding_floor;

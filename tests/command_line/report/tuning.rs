@@ -101,8 +101,12 @@ fn the_page_of_a_sensitivity_study_shows_intervals_and_slices() {
         parameter["indices"] = serde_json::Value::Null;
     }
     sandbox.put("tuned/sensitivity.json", old.to_string());
-    let parts = "tuned/sensitivity.json | no Sobol indices | `shuttertruth tune search`";
-    sandbox.refuse(REPORT, parts);
+    let parts = [
+        "tuned/sensitivity.json",
+        "no Sobol indices",
+        "`shuttertruth tune search`",
+    ];
+    sandbox.refuse(REPORT, &parts);
 }
 
 #[test]

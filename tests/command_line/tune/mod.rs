@@ -1,6 +1,6 @@
 //! `tune`: the search, the journal, the results and the refusals.
 
-mod found;
+mod results;
 
 use std::fs;
 use std::process::Command;
@@ -68,15 +68,44 @@ fn read_tuning(sandbox: &Sandbox) -> Tuning {
 
 const SEARCH: &str = "tune search --quiet --size 64x32 --samples-per-pixel 16 --out out";
 
+/// More words of `tune search`, and parts of the message.
+const BAD_TUNINGS: [(&str, &[&str]); 7] = [
+    (
+        "--scenes nowhere",
+        &[r#"no scene "nowhere""#, "allowed: a, b"],
+    ),
+    ("--scenes a,a", &["a is named twice"]),
+    (
+        "--scenes a,b --held-out b --vary samples",
+        &["scene b", "proves nothing"],
+    ),
+    (
+        "--scenes a --vary sample",
+        &["parameter sample:", "no parameter", "samples"],
+    ),
+    (
+        "--scenes a --vary samples=9..3",
+        &["parameter samples=9..3", "the range is empty"],
+    ),
+    (
+        "--scenes a --cost-at-most 1x",
+        &["cost has a limit", "objectives: flip,cost"],
+    ),
+    (
+        "--scenes a --from fastest",
+        &[r#"no preset "fastest""#, "paper"],
+    ),
+];
+
 #[test]
 fn bad_tunings_are_refused_and_leave_no_files() {
     let sandbox = set_up();
     let still = SCENE.replace("translation = [-1.6,", "translation = [0,");
     sandbox.put("scenes/g/scene.toml", still);
     let search = format!("{SEARCH} --filter jump_flood --budget 2");
-    sandbox.refuse_table(&format!("{search} --objective flip"), "tunings");
+    sandbox.refuse_each(&format!("{search} --objective flip"), &BAD_TUNINGS);
     let speed = format!("{search} --scenes a --objective speed");
-    sandbox.refuse(&speed, "allowed: flip, bleed, cost");
+    sandbox.refuse(&speed, &["allowed: flip, bleed, cost"]);
     assert!(!sandbox.path("out").exists(), "nothing is written");
     let parts = ["scene g: nothing moves", "leave the scene out"];
     sandbox.refuse(&format!("{search} --scenes g"), &parts);
@@ -184,8 +213,11 @@ fn a_larger_budget_extends_a_smaller_one_and_another_seed_searches_differently()
     }
     let other = format!("{TUNE} --out out {ON_TWO} --budget 8 --search-seed 2");
     let output = sandbox.shuttertruth(&split(&other));
-    let parts = "journal.jsonl:1: it was begun with another seed: found 1, this command has 2 | \
-        to go on with it, search with the seed 1 | another output folder";
+    let parts = [
+        "journal.jsonl:1: it was begun with another seed: found 1, this command has 2",
+        "to go on with it, search with the seed 1",
+        "another output folder",
+    ];
     assert_refused(&output, 2, &parts);
     let said = stderr(&output);
     assert!(said.len() < 400, "a wall of numbers: {said}");
@@ -208,8 +240,11 @@ fn a_full_disk_loses_nothing() {
         .args(["-c", &script, "sh"]);
     let words = format!("{TUNE} --out out {BUDGET}");
     let output = full.args(split(&words)).output().unwrap();
-    let parts =
-        "journal.jsonl: cannot be written | whole trials are safe | run the same command again";
+    let parts = [
+        "journal.jsonl: cannot be written",
+        "whole trials are safe",
+        "run the same command again",
+    ];
     assert_refused(&output, 2, &parts);
     let left = read_journal(&sandbox, "out");
     assert!(left.starts_with(&begun) && left.len() > begun.len());

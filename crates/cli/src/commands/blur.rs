@@ -13,7 +13,7 @@ use measure::{
     Error, FilterChoice, Runner, file_at_frame, numbered_file, open_gpu, printable_path,
 };
 
-use super::capture::read_convention;
+use super::convention::read_convention;
 use super::show_texture::{check_shown, show_texture};
 use crate::arguments::{AdapterArgs, ProgramArgs, frame_count, parse_exposure};
 use terminal::output::{make_monitor, print};

@@ -9,8 +9,8 @@ use measure::{
 use tracer::{RenderSettings, Scene};
 use tune::{Evaluator, render_scenes};
 
-use super::run_plan::load_scenes;
 use crate::arguments::{CandidateArgs, SceneArgs};
+use run::load_scenes;
 use terminal::expected::print_expected_time;
 use terminal::output::{count_text, make_monitor};
 use terminal::selection::select_filters;

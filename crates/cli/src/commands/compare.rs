@@ -7,10 +7,10 @@ use judge::compare_runs;
 use measure::{Error, StoredRun};
 use report::compare_page;
 
-use super::pages::write_page;
-use super::run_plan::read_margins;
 use crate::arguments::RootArgs;
 use crate::tables::compare_table;
+use run::read_margins;
+use run::write_page;
 use terminal::output::{make_monitor, print, print_json};
 
 #[derive(Debug, Args)]

@@ -8,7 +8,7 @@ use judge::Judgement;
 use measure::{Error, StoredRun, printable_path, write_layers};
 use report::{TuneFolder, tuning_page, write_gallery};
 
-use super::pages::{WrittenFile, page_lines, page_path, write_page, write_run_page};
+use run::{WrittenFile, page_lines, page_path, write_page, write_run_page};
 use terminal::output::{make_monitor, print, print_json};
 
 #[derive(Debug, Args)]

@@ -10,9 +10,9 @@ use measure::{
 };
 use metrics::Metric;
 
-use super::capture::read_convention;
+use super::convention::read_convention;
 use crate::arguments::{RootArgs, above_zero, frame_count};
-use crate::tables::score_table;
+use run::score_table;
 use terminal::output::{print, print_json};
 
 #[derive(Debug, Args)]

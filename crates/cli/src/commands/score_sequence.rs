@@ -9,9 +9,9 @@ use metrics::{Measured, SequenceMeasurement, SequenceMetric};
 use terminal::refuse;
 use tracer::Scene;
 
-use super::capture::read_convention;
+use super::convention::read_convention;
 use super::score::{ScoreArgs, check_scene, scored_json, truth_text};
-use crate::tables::score_sequence_table;
+use run::score_sequence_table;
 use terminal::output::{print, print_json};
 use terminal::selection::select_scenes;
 

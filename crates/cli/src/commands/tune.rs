@@ -9,9 +9,9 @@ use tracer::{Progress, RenderSettings};
 use tune::{Advice, Space, TuneOptions, Tuning, interleave_families, tune, tuned_preset_toml};
 
 use super::candidate::print_expected_scoring;
-use super::run_plan::load_scenes;
 use crate::arguments::{CandidateArgs, above_zero, parse_ratio, parse_samples, parse_size, within};
 use crate::tables::{advice_text, tuning_table};
+use run::load_scenes;
 use terminal::output::{is_quiet, make_monitor, print_error};
 use terminal::result::{write_json, write_result};
 

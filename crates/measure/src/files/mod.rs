@@ -4,9 +4,9 @@
 pub mod clear;
 pub mod folder;
 pub mod folder_lock;
-pub mod gather;
 pub mod json;
 pub mod json_lines;
+pub mod place;
 pub mod record;
 pub mod render_file;
 pub mod tracked;

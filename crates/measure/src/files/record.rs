@@ -11,8 +11,8 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use crate::files::folder::is_below;
-use crate::files::gather::MAX_TAKEN_BYTES;
 use crate::files::json::MAX_JSON_BYTES;
+use crate::files::place::MAX_TAKEN_BYTES;
 
 /// Name of a case's record, next to its pictures.
 pub const CASE_RECORD: &str = "case.json";

@@ -8,7 +8,7 @@ use tracer::SceneId;
 use walkdir::{DirEntry, WalkDir};
 
 use crate::files::folder::walk_error;
-use crate::files::gather::place_file;
+use crate::files::place::place_file;
 
 /// Sub-frame counts of the ladder that N_eq is read from.
 pub const LADDER: [u32; 7] = [1, 2, 4, 8, 16, 32, 64];

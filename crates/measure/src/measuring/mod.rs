@@ -4,6 +4,7 @@
 pub mod case;
 mod check_plan;
 pub mod dilated_velocity;
+pub mod earlier;
 pub mod estimate;
 mod frames;
 pub mod measured_filters;

@@ -14,9 +14,9 @@ use crate::colors::{magma, velocity_wheel};
 use crate::run::error_maps::KEPT_MAPS;
 
 /// Files of a frame, in the folder of its scene.
-pub(crate) const FRAME_FILES: [&str; 3] = ["frame.exr", "frame.png", "velocity.png"];
+pub const FRAME_FILES: [&str; 3] = ["frame.exr", "frame.png", "velocity.png"];
 /// Files of a case, in its folder.
-pub(crate) const CASE_FILES: [&str; 6] = [
+pub const CASE_FILES: [&str; 6] = [
     "output.png",
     "flip.png",
     "label_tv.png",
@@ -48,7 +48,7 @@ pub(crate) fn write_parts(folder: &Path, parts: &[Picture]) -> Result<(), FileEr
 }
 
 /// Names the picture of a truth and its file, in the folder of its scene.
-pub(crate) fn truth_files(alignment: Alignment) -> [String; 2] {
+pub fn truth_files(alignment: Alignment) -> [String; 2] {
     let file = RenderFile::Truth(alignment);
     [file.picture(), file.to_string()]
 }

@@ -4,7 +4,6 @@ pub mod exclusion;
 pub mod files;
 pub mod ladders;
 pub mod memory;
-pub mod merge;
 pub mod rendering;
 pub mod replicates;
 pub mod settings;
