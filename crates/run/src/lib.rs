@@ -2,6 +2,7 @@
 //! run.json and its page. Other commands that measure share its plan and its files.
 
 mod command;
+mod ingested_scenes;
 mod kept_truths;
 mod measured;
 mod pages;

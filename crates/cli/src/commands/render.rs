@@ -97,7 +97,7 @@ pub fn execute(args: &RenderArgs) -> Result<(), Error> {
             let scene = scene.at_frame(frame);
             let _lock = lock_folder(&args.scenes.out, [&scene], Sharing::Together)?;
             let rendering = Rendering {
-                scene: &scene,
+                scene: (&scene).into(),
                 settings: *settings,
                 out: &args.scenes.out,
                 monitor: make_monitor(),
