@@ -8,6 +8,7 @@ use terminal::table::{Table, cell};
 use crate::advice::Advice;
 use crate::comparison::{Difference, PairedComparison, Preference};
 use crate::loss::LEAST_BLEED;
+use crate::selection::Fold;
 use crate::sensitivity::{ParameterSensitivity, Sensitivity};
 use crate::sobol::SobolIndices;
 use crate::trial::Trial;
@@ -50,14 +51,7 @@ pub fn tuning_table(tuning: &Tuning) -> Text {
     push_wrapped(&mut text, 0, choice_text(tuning));
     if !tuning.folds.is_empty() {
         text += "\n";
-        text += heading("family left out  scenes  trial  on the others  on the family    gap");
-        text += "\n";
-    }
-    for fold in &tuning.folds {
-        text += format!(
-            "{:15} {:7} {:6} {:14.3} {:14.3} {:6.3}\n",
-            fold.family, fold.scenes, fold.trial, fold.others, fold.held_out, fold.gap
-        );
+        text += folds_table(&tuning.folds);
     }
     if let Some(last) = tuning.held_out.last() {
         let times = match tuning.held_out.len() {
@@ -74,6 +68,23 @@ pub fn tuning_table(tuning: &Tuning) -> Text {
         push_wrapped(&mut text, 0, format!("failed: trial {trial}: {reason}"));
     }
     text
+}
+
+/// Makes the table of cross-validation.
+fn folds_table(folds: &[Fold]) -> Text {
+    let titles = ["scenes", "trial", "on the others", "on the family", "gap"];
+    let mut table = Table::new("family left out", titles);
+    for fold in folds {
+        let cells = [
+            fold.scenes.to_string(),
+            fold.trial.to_string(),
+            format!("{:.3}", fold.others),
+            format!("{:.3}", fold.held_out),
+            format!("{:.3}", fold.gap),
+        ];
+        table.push(&fold.family, cells);
+    }
+    table.text()
 }
 
 /// Describes the choice and its distance from the best.

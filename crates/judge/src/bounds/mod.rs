@@ -9,7 +9,7 @@ mod sized;
 use metrics::Metric;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use tracer::Location;
+use tracer::{Location, Scene};
 
 use measure::{Error, Frames};
 
@@ -53,6 +53,15 @@ pub enum Level {
     Required,
     /// The report mentions it.
     Report,
+}
+
+/// A scene with its bounds.
+#[derive(Clone, Debug)]
+pub struct BoundedScene {
+    /// The scene.
+    pub scene: Scene,
+    /// Its bounds.
+    pub bounds: SceneBounds,
 }
 
 /// Bounds of one scene, for every filter.

@@ -18,9 +18,21 @@ use crate::pixels::report_files::write_script;
 /// Most pixels of a frame that can be tried; the file of such a scene has about 15 MB.
 const MOST_PIXELS: u32 = 1280 * 720;
 
-/// A live case as JSON, or the sentence that says why it is not live; none if nobody expects it to
-/// be.
-pub type Live = Option<Result<String, String>>;
+/// A case that a filter made, as its page runs it.
+pub enum Live {
+    /// It is live: what the script needs, as JSON.
+    Case(String),
+    /// It is not live: a sentence that says why.
+    Not(String),
+}
+
+/// A filter of live cases.
+enum LiveFilter {
+    /// The filter, and the number of its file.
+    Ready { number: usize, filter: Box<Filter> },
+    /// The page cannot run it: a sentence that says why.
+    Not(String),
+}
 
 /// Live filters of a run, and the files written for them.
 pub struct LiveFiles<'a> {
@@ -29,8 +41,8 @@ pub struct LiveFiles<'a> {
     folder: &'a Path,
     /// Path of the page.
     html: &'a Path,
-    /// Filters by name: each with the number of its file, or the reason why it is not live.
-    filters: HashMap<&'a str, Result<(usize, Filter), String>>,
+    /// Filters by name.
+    filters: HashMap<&'a str, LiveFilter>,
     pub written: Vec<PathBuf>,
 }
 
@@ -47,13 +59,13 @@ impl<'a> LiveFiles<'a> {
     }
 
     /// Describes a case; `frame` is its scene's, with the guard band. Writes the file of a filter
-    /// that no case had before.
+    /// that no case had before. None for a picture that no filter made.
     pub fn describe(
         &mut self,
         case: &'a Case,
         scene: usize,
         frame: &FilterFrame,
-    ) -> Result<Live, Error> {
+    ) -> Result<Option<Live>, Error> {
         // An engine's own picture has no preset.
         if case.is_reference || case.preset.is_empty() {
             return Ok(None);
@@ -62,11 +74,15 @@ impl<'a> LiveFiles<'a> {
             let filter = self.find_filter(case)?;
             self.filters.insert(&case.filter, filter);
         }
-        let described = match &self.filters[&case.filter[..]] {
-            Ok((number, filter)) => describe_case(case, (scene, frame), (*number, filter)),
-            Err(reason) => Err(reason.clone()),
-        };
-        Ok(Some(described))
+        Ok(Some(match &self.filters[&case.filter[..]] {
+            LiveFilter::Ready { number, filter } => {
+                match describe_case(case, scene, frame, *number, filter) {
+                    Ok(json) => Live::Case(json),
+                    Err(reason) => Live::Not(reason),
+                }
+            }
+            LiveFilter::Not(reason) => Live::Not(reason.clone()),
+        }))
     }
 
     /// Writes a file that the page loads as `name`.
@@ -77,7 +93,7 @@ impl<'a> LiveFiles<'a> {
 
     /// Finds the filter that a case ran, as its run's folder or this program has it, and writes its
     /// file.
-    fn find_filter(&mut self, case: &Case) -> Result<Result<(usize, Filter), String>, Error> {
+    fn find_filter(&mut self, case: &Case) -> Result<LiveFilter, Error> {
         let folder = self.folder.join(MEASURED_FILTERS).join(&case.filter);
         let filter = if folder.join("filter.toml").is_file() {
             Filter::load(&folder)
@@ -92,27 +108,28 @@ impl<'a> LiveFiles<'a> {
                     "This page cannot run the filter: the run's folder does not hold it in WGSL."
                 }
             };
-            return Ok(Err(reason.to_owned()));
+            return Ok(LiveFilter::Not(reason.to_owned()));
         };
         let is_as_written = |other: &Case| {
             let mut presets = filter
                 .presets
                 .iter()
                 .filter(|preset| preset.name == other.preset);
-            let is_own = other.filter == case.filter && other.reference_width.is_none();
-            is_own && presets.any(|preset| preset.reference_width.is_some())
+            let is_unscaled = other.filter == case.filter && other.reference_width.is_none();
+            is_unscaled && presets.any(|preset| preset.reference_width.is_some())
         };
         let as_written = self.run.cases.iter().any(is_as_written);
         Ok(match filter.live(self.run.render.width, as_written) {
-            Err(reason) => Err(reason),
+            Err(reason) => LiveFilter::Not(reason),
             Ok(live) => {
                 let number = self
                     .filters
                     .values()
-                    .filter(|filter| filter.is_ok())
+                    .filter(|filter| matches!(filter, LiveFilter::Ready { .. }))
                     .count();
                 self.write(&format!("live_filter_{number}"), &live.to_string())?;
-                Ok((number, filter))
+                let filter = Box::new(filter);
+                LiveFilter::Ready { number, filter }
             }
         })
     }
@@ -128,8 +145,10 @@ fn is_of(filter: &Filter, case: &Case) -> bool {
 /// Describes a case of a live filter.
 fn describe_case(
     case: &Case,
-    (scene, frame): (usize, &FilterFrame),
-    (number, filter): (usize, &Filter),
+    scene: usize,
+    frame: &FilterFrame,
+    number: usize,
+    filter: &Filter,
 ) -> Result<String, String> {
     let (width, height) = frame.size();
     let is_missing = |name: &&str| match *name {
