@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::{Error, FilterChoice, MAX_TAKEN_BYTES, RenderFile, read_text};
-use filters::EXCLUSION;
+use filters::{EXCLUSION, Layer};
 use frame::{Alignment, Frame, Ladder, Picture, Plane, Provenance, Truth, read_bounded, read_exr};
 use serde::{Deserialize, Serialize};
 use tracer::SceneId;
@@ -90,7 +90,8 @@ impl EngineScene {
     /// Finds what a filter reads and the frame lacks.
     pub fn find_lacking(&self, choice: &FilterChoice) -> Option<&'static str> {
         let is_there = |name: &&str| self.further_inputs.iter().any(|input| input == name);
-        let mut further = choice.filter.further_inputs().into_iter();
+        let further = choice.filter.further_inputs().into_iter();
+        let mut further = further.map(Layer::name);
         if choice.filter.reads_camera(&choice.settings) {
             Some("the camera")
         } else {

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::{Error, Monitor, RenderFile, refuse_scene, scene_folder};
-use filters::{EXCLUSION, Filter};
+use filters::{EXCLUSION, Filter, Layer};
 use frame::{
     Alignment, Frame, Picture, TracedFrame, read_attribute, read_frame_replicates, write_small_exr,
 };
@@ -87,7 +87,7 @@ impl Rendering<'_> {
         } else {
             self.frame()?
         };
-        let reads = filter.further_inputs().contains(&EXCLUSION);
+        let reads = filter.further_inputs().contains(&Layer::Exclusion);
         let exclusion = reads.then(|| draw_exclusion(&frame, self.scene));
         Ok(FilterFrame { frame, exclusion })
     }
