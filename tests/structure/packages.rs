@@ -44,8 +44,8 @@ const PACKAGES: [Package; 7] = [
     },
     Package {
         name: "obvhs",
-        place: "tracer/src/accel",
-        code: &["use obvhs::bvh2::", "ReinsertionOptimizer"],
+        place: "bvh/src",
+        code: &["PlocBuilder::new().build(", "ReinsertionOptimizer"],
         is_alone: true,
     },
     Package {

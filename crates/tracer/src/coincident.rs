@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 
 use crate::error::TraceError;
-use crate::geometry::ray::Hit;
+use crate::hit::Hit;
 use crate::scene::Scene;
 use crate::stage::Stage;
 

@@ -1,5 +1,6 @@
 //! The frame of the instant, as an engine would hand it to its motion blur.
 
+use bvh::Ray;
 use frame::{
     Alignment, FAR_DEPTH, Frame, Picture, Plane, Raster, Tile, TracedFrame, Vectors, VelocityKind,
 };
@@ -13,7 +14,7 @@ use crate::film::pilot::{PILOT_REPLICATES, PILOT_SAMPLES, choose_samples};
 use crate::film::render::{Film, Times};
 use crate::film::sample_counts::SampleCounts;
 use crate::frame_rate::FrameRate;
-use crate::geometry::ray::{Hit, Ray};
+use crate::hit::Hit;
 use crate::material::surface::Sight;
 use crate::motion::point_motion::{ObjectsBefore, PointMotion};
 use crate::motion::poses::Poses;

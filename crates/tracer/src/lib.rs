@@ -11,7 +11,7 @@ mod defocus;
 mod error;
 mod film;
 mod frame_rate;
-mod geometry;
+mod hit;
 mod instant;
 mod ladder;
 mod light;
@@ -34,12 +34,13 @@ mod stage;
 mod test_scene;
 mod truth;
 
+pub use bvh::Ray;
 pub use coincident::find_coincident_surfaces;
 pub use content_hash::{frame_hash, ladder_hash, replicate_hash, truth_hash};
 pub use defocus::{Defocus, trace_defocus};
 pub use error::TraceError;
 pub use frame_rate::FrameRate;
-pub use geometry::ray::{Hit, Ray};
+pub use hit::Hit;
 pub use instant::{
     PointLayers, trace_frame, trace_frame_part, trace_further_velocities, trace_motion,
     trace_motion_on,

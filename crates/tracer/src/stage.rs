@@ -1,19 +1,19 @@
 //! A scene prepared for rays.
 
+use bvh::{Lanes, Portable, Ray};
 use glam::{DVec3, Vec3};
 
-#[cfg(target_arch = "x86_64")]
-use crate::accel::lanes::Avx2;
-use crate::accel::lanes::{Lanes, Portable};
 use crate::accel::scene_tree::SceneTree;
 use crate::error::TraceError;
-use crate::geometry::ray::{Hit, Ray};
+use crate::hit::Hit;
 use crate::light::sky::Sky;
 use crate::material::glossy_material::GlossyMaterial;
 use crate::material::passage::Passage;
 use crate::material::surface::{Sight, Surface};
 use crate::motion::poses::Poses;
 use crate::scene::{Material, Scene};
+#[cfg(target_arch = "x86_64")]
+use bvh::Avx2;
 
 /// A scene between two times, prepared for rays.
 ///
@@ -215,7 +215,7 @@ impl Traversal {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::ray::LIFT;
+    use crate::hit::LIFT;
     use crate::motion::lens::LensPoint;
     use crate::test_scene::load_test_scene;
 

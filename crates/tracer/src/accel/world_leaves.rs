@@ -1,8 +1,8 @@
 //! The choice of objects with leaves in the world tree.
 
+use bvh::{Aabb, Numbers};
+
 use crate::accel::mesh_tree::MeshTree;
-use crate::accel::world_tree::Numbers;
-use crate::geometry::aabb::Aabb;
 use crate::motion::poses::Poses;
 use crate::scene::Scene;
 

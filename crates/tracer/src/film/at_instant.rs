@@ -1,10 +1,11 @@
 //! The instant's view of points that are seen at other times.
 
+use bvh::Ray;
 use glam::{DVec2, DVec3, Vec3};
 
 use crate::film::canvas::Canvas;
 use crate::film::eye::EyeRay;
-use crate::geometry::ray::{Hit, LIFT, Ray};
+use crate::hit::{Hit, LIFT};
 use crate::motion::camera::{Target, View};
 use crate::motion::lens::LensPoint;
 use crate::motion::poses::Poses;

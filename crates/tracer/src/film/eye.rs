@@ -1,7 +1,8 @@
 //! The camera and all poses, at the time of one sample after the other.
 
+use bvh::Ray;
+
 use crate::film::canvas::Canvas;
-use crate::geometry::ray::Ray;
 use crate::motion::camera::View;
 use crate::motion::lens::LensPoint;
 use crate::motion::poses::Poses;

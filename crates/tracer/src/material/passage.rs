@@ -1,8 +1,9 @@
 //! The light that a translucent surface stops, reflects and lets pass.
 
+use bvh::Ray;
 use glam::Vec3;
 
-use crate::geometry::ray::{Hit, Ray};
+use crate::hit::Hit;
 use crate::material::fresnel;
 use crate::material::surface::{find_material, incidence, opacity};
 use crate::motion::poses::Poses;

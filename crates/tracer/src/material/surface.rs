@@ -1,8 +1,9 @@
 //! The surface at a hit: position, normals, colour and emission.
 
+use bvh::Ray;
 use glam::{DVec3, Vec2, Vec3, Vec4};
 
-use crate::geometry::ray::{Hit, Ray};
+use crate::hit::Hit;
 use crate::material::brdf::Brdf;
 use crate::material::glossy_material::GlossyMaterial;
 use crate::motion::pose::Pose;

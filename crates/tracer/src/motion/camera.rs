@@ -1,9 +1,9 @@
 //! The camera at one time: rays through pixels and its lens, and projection back to them.
 
+use bvh::Ray;
 use frame::CameraPose;
 use glam::{DAffine3, DVec2, DVec3};
 
-use crate::geometry::ray::Ray;
 use crate::motion::curve::{Cubic, Keyed};
 use crate::motion::lens::LensPoint;
 use crate::scene::{Camera, Lens};

@@ -1,8 +1,8 @@
 //! The extent of a mesh in every direction, for boxes around it at any pose.
 
+use bvh::Aabb;
 use glam::{DAffine3, DVec3};
 
-use crate::geometry::aabb::Aabb;
 use crate::scene::{Mesh, Scene};
 
 /// Nodes along an edge of the cube of directions. With 9 a cell is 0.25 wide and a box around a

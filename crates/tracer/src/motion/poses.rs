@@ -3,7 +3,8 @@
 
 use std::sync::Arc;
 
-use crate::geometry::ray::Ray;
+use bvh::Ray;
+
 use crate::motion::keys::{Segment, key_times};
 use crate::motion::pose::Pose;
 use crate::motion::screw::Screw;

@@ -1,8 +1,8 @@
 //! Motion that turns about a fixed axis, worked out in advance.
 
+use bvh::Ball;
 use glam::{DAffine3, DMat3, DVec3};
 
-use crate::geometry::ball::Ball;
 use crate::motion::curve::Cubic;
 use crate::motion::keys::Segment;
 use crate::motion::pose::Pose;

@@ -1,8 +1,8 @@
 //! Boxes around a moving mesh over an interval of time.
 
+use bvh::Aabb;
 use glam::DVec3;
 
-use crate::geometry::aabb::Aabb;
 use crate::motion::extent::Extent;
 use crate::motion::keys::{Segment, times_within};
 use crate::scene::{Mesh, Motion, Scene};

@@ -3,7 +3,7 @@
 use frame::{Camera, Reprojection, VelocityKind};
 use glam::DVec3;
 
-use crate::geometry::ray::Hit;
+use crate::hit::Hit;
 use crate::motion::camera::{Target, View, ViewRate};
 use crate::motion::point_motion::{ObjectsBefore, PointMotion};
 use crate::scene::Scene;

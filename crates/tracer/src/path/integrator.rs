@@ -1,8 +1,9 @@
 //! The path integrator: radiance along one path.
 
+use bvh::Ray;
 use glam::{DVec3, Vec3};
 
-use crate::geometry::ray::{Hit, LIFT, Ray};
+use crate::hit::{Hit, LIFT};
 use crate::light::lights::{Emitters, LightSample, density_per_steradian, power_heuristic};
 use crate::material::brdf::Brdf;
 use crate::material::brdf_sample::{BrdfSample, BrdfValue};

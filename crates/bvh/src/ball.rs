@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use crate::geometry::ray::Ray;
-use crate::geometry::triangle::{Crossing, cross};
+use crate::ray::Ray;
+use crate::triangle::{Crossing, cross};
 
 /// Room for rounding.
 const SLACK: f64 = 1.0 + 1e-6;
@@ -15,13 +15,14 @@ const NEAR: f64 = 8.0;
 const FAR: f64 = 1e4;
 
 /// A ball around a mesh.
-pub(crate) struct Ball {
+pub struct Ball {
     centre: DVec3,
     radius_squared: f64,
 }
 
 /// A ray with its origin moved up to a ball, so that it has the ball's own magnitude.
-pub(crate) struct Approach {
+pub struct Approach {
+    /// The ray from its moved origin.
     pub ray: Ray,
     /// Distance by which the origin was moved, in units of the direction.
     pub start: f64,

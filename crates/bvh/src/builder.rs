@@ -1,23 +1,23 @@
 //! The build of wide trees.
 //!
-//! A binary tree is built ([`crate::accel::binary_tree`]) and collapsed
-//! ([`crate::accel::collapse`]) into nodes of sixteen children with full-precision boxes. Only
-//! these three files use obvhs. Its triangle tests leave holes along shared edges, its two-level
-//! traversal drops instances, and its eight-wide nodes ignore hits nearer than 1e-4. Traversal,
-//! intersections and the second level are therefore this crate's own.
+//! A binary tree is built ([`crate::binary_tree`]) and collapsed ([`crate::collapse`]) into nodes of
+//! sixteen children with full-precision boxes. Only these three files use obvhs. Its triangle tests
+//! leave holes along shared edges, its two-level traversal drops instances, and its eight-wide nodes
+//! ignore hits nearer than 1e-4. Collapse, traversal, intersections and the second level are
+//! therefore this crate's.
 
 use glam::DVec3;
 use obvhs::aabb::Aabb as Aabb32;
 use obvhs::bvh2::node::Bvh2Node;
 
-use crate::accel::binary_tree::{build_binary_tree, optimize};
-use crate::accel::bvh::{Child, Leaves, Node, Tree};
-use crate::accel::collapse::{Collapse, LeafRules};
-use crate::accel::lanes::{Boxes, WIDTH};
-use crate::geometry::aabb::Aabb;
+use crate::aabb::Aabb;
+use crate::binary_tree::{build_binary_tree, optimize};
+use crate::collapse::{Collapse, LeafRules};
+use crate::lanes::{Boxes, WIDTH};
+use crate::tree::{Child, Leaves, Node, Tree};
 
 /// Builds a tree over `boxes`; returns it with the items of its leaves.
-pub(crate) fn build_tree(boxes: &[Aabb], rules: LeafRules) -> (Tree, Leaves) {
+pub fn build_tree(boxes: &[Aabb], rules: LeafRules) -> (Tree, Leaves) {
     let mut builder = TreeBuilder::default();
     let mut leaves = Leaves {
         starts: vec![0],
@@ -73,11 +73,7 @@ impl TreeBuilder {
     ) -> Child {
         let coordinates = boxes.iter().map(|aabb| aabb.largest_coordinate());
         self.largest_coordinate = coordinates.fold(self.largest_coordinate, f64::max);
-        let rounded: Vec<Aabb32> = boxes
-            .iter()
-            .map(|aabb| Aabb32::new(aabb.min.as_vec3().into(), aabb.max.as_vec3().into()))
-            .collect();
-        let mut binary = build_binary_tree(&rounded);
+        let mut binary = build_binary_tree(boxes);
         optimize(&mut binary);
         let collapse = Collapse::new(&binary, rules);
         self.add_nodes(&binary.nodes, &collapse, stack_size, &mut child)

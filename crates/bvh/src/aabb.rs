@@ -2,14 +2,14 @@
 
 use glam::DVec3;
 
-use crate::geometry::ray::Ray;
+use crate::ray::Ray;
 
 /// Room for the rounding of distances along a ray.
 const SLACK: f64 = 1.0 + 1e-12;
 
 /// A box; empty when `min` exceeds `max`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Aabb {
+pub struct Aabb {
     /// Least corner, metres.
     pub min: DVec3,
     /// Greatest corner, metres.

@@ -11,28 +11,28 @@ mod avx2;
 use glam::{DVec3, Vec3};
 
 #[cfg(target_arch = "x86_64")]
-pub(crate) use avx2::Avx2;
+pub use avx2::Avx2;
 
 /// Children of a node.
-pub(crate) const WIDTH: usize = 16;
+pub const WIDTH: usize = 16;
 /// Triangles of a leaf.
-pub(crate) const LEAF: usize = 8;
+pub const LEAF: usize = 8;
 
 /// Sixteen boxes side by side: per axis the least and the greatest coordinates, metres. Unused
 /// lanes are empty boxes.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(32))]
-pub(crate) struct Boxes(pub [[[f32; WIDTH]; 2]; 3]);
+pub struct Boxes(pub [[[f32; WIDTH]; 2]; 3]);
 
 /// Eight triangles side by side: per vertex and axis. Unused lanes repeat the first triangle.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(32))]
-pub(crate) struct Triangles(pub [[[f32; LEAF]; 3]; 3]);
+pub struct Triangles(pub [[[f32; LEAF]; 3]; 3]);
 
 /// A ray prepared for boxes: it crosses a plane at `t = scale * plane + offset`, in units of its
 /// direction.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct SlabRay {
+pub struct SlabRay {
     scale: [f32; 3],
     /// Offsets for planes through which the ray enters, a little too early, and leaves, a little
     /// too late.
@@ -44,7 +44,7 @@ pub(crate) struct SlabRay {
 /// A ray prepared for triangles: a shear moves every vertex along the ray into the plane across the
 /// ray's longest axis, with the ray at the plane's origin (Woop, Benthin and Wald 2013).
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct EdgeRay {
+pub struct EdgeRay {
     /// The two axes of the plane, then the one along which the direction is longest.
     axes: [usize; 3],
     /// Slope of the ray along the plane's axes, per metre along the third.
@@ -71,7 +71,7 @@ const GREATEST_SQUARED: f64 = 1e18;
 const LEAST_DIRECTION: f32 = 1e-18;
 
 /// Instructions that test several boxes or triangles at once.
-pub(crate) trait Lanes: Copy {
+pub trait Lanes: Copy {
     /// Runs `work` with the processor's features switched on for whatever is inlined into it.
     fn run<R>(self, work: impl FnOnce() -> R) -> R;
 
@@ -85,7 +85,7 @@ pub(crate) trait Lanes: Copy {
 
 /// Plain Rust for any processor.
 #[derive(Clone, Copy)]
-pub(crate) struct Portable;
+pub struct Portable;
 
 impl SlabRay {
     /// Prepares a ray for boxes of coordinates up to `largest_coordinate`, in metres.
@@ -211,8 +211,8 @@ impl Lanes for Portable {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::ray::Ray;
-    use crate::geometry::triangle::cross;
+    use crate::ray::Ray;
+    use crate::triangle::cross;
 
     /// R2 points (Roberts 2018), rotated per dimension, in [-1, 1).
     fn number(index: usize, dimension: usize) -> f64 {

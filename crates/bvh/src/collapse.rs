@@ -7,12 +7,12 @@
 
 use obvhs::bvh2::Bvh2;
 
-use crate::accel::binary_tree::parents_first;
-use crate::accel::lanes::WIDTH;
+use crate::binary_tree::parents_first;
+use crate::lanes::WIDTH;
 
 /// The size and the cost of leaves.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct LeafRules {
+pub struct LeafRules {
     /// Most items of a leaf.
     pub max_items: u32,
     /// Cost of testing one item, added to that of the visit; a visit to a node or leaf costs 1.
@@ -20,7 +20,7 @@ pub(crate) struct LeafRules {
 }
 
 /// The cheapest collapse of a binary tree.
-pub(crate) struct Collapse<'a> {
+pub struct Collapse<'a> {
     binary: &'a Bvh2,
     rules: LeafRules,
     /// Costs per node of the binary tree.
@@ -151,8 +151,8 @@ impl<'a> Collapse<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::accel::binary_tree::build_binary_tree;
-    use crate::accel::binary_tree::tests::scatter_boxes;
+    use crate::binary_tree::build_binary_tree;
+    use crate::binary_tree::tests::scatter_boxes;
 
     /// Every way to cover a node of the binary tree by nodes at or below it.
     fn covers(binary: &Bvh2, node: usize) -> Vec<Vec<usize>> {

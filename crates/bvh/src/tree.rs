@@ -2,30 +2,30 @@
 
 use prefetch_index::prefetch_index;
 
-use crate::accel::lanes::{Boxes, Lanes, SlabRay, WIDTH};
-use crate::geometry::ray::Ray;
+use crate::lanes::{Boxes, Lanes, SlabRay, WIDTH};
+use crate::ray::Ray;
 
 /// Wide trees over boxes, which may share what is below their topmost nodes.
-pub(crate) struct Tree {
-    pub nodes: Vec<Node>,
+pub struct Tree {
+    pub(crate) nodes: Vec<Node>,
     /// Greatest coordinate of any box, metres.
-    pub largest_coordinate: f64,
+    pub(crate) largest_coordinate: f64,
     /// Size of the stack that a traversal needs.
     pub stack_size: usize,
 }
 
 /// A node or a leaf, by its number.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Child(pub u32);
+pub struct Child(pub(crate) u32);
 
 /// Bit that is set in a child that is a leaf. The rest is the leaf's number.
 const IS_LEAF: u32 = 1 << 31;
 
 /// The items of a tree's leaves. Leaves are numbered from 0.
-pub(crate) struct Leaves {
+pub struct Leaves {
     /// Per leaf and one past the last, the place in `order` where its items begin.
-    pub starts: Vec<u32>,
-    pub order: Vec<u32>,
+    pub(crate) starts: Vec<u32>,
+    pub(crate) order: Vec<u32>,
 }
 
 /// Boxes and children of a wide node.
@@ -44,6 +44,7 @@ impl Child {
     /// Bits that a leaf's number may have.
     pub const LEAF_BITS: u32 = 31;
 
+    /// A leaf of this number.
     pub fn leaf(number: u32) -> Self {
         assert!(number < IS_LEAF, "a leaf's number has 31 bits");
         Self(IS_LEAF | number)

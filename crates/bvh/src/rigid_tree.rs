@@ -3,31 +3,37 @@
 use glam::{DAffine3, DVec3, Vec3};
 use prefetch_index::prefetch_index;
 
-use crate::accel::build::build_tree;
-use crate::accel::bvh::{Child, Tree};
-use crate::accel::collapse::LeafRules;
-use crate::accel::lanes::{EdgeRay, LEAF, Lanes, Triangles};
-use crate::geometry::aabb::Aabb;
-use crate::geometry::ball::{Approach, Ball};
-use crate::geometry::ray::Ray;
-use crate::geometry::triangle::Crossing;
-use crate::scene::Mesh;
+use crate::aabb::Aabb;
+use crate::ball::{Approach, Ball};
+use crate::builder::build_tree;
+use crate::collapse::LeafRules;
+use crate::lanes::{EdgeRay, LEAF, Lanes, Triangles};
+use crate::ray::Ray;
+use crate::tree::{Child, Tree};
+use crate::triangle::Crossing;
 
 /// Leaves of triangles side by side, and a tree over the leaves.
-pub(crate) struct RigidTree {
+pub struct RigidTree {
     /// Tree over the leaves; dropped if the leaves of every object that shows the mesh are in the
     /// world tree.
     tree: Option<Tree>,
     leaves: Vec<Leaf>,
+    /// A ball around the mesh.
     pub ball: Ball,
     /// Greatest coordinate of the mesh, metres.
     largest_coordinate: f64,
 }
 
 /// A ray in the mesh's space, prepared for its leaves.
-pub(crate) struct LeafRay {
+pub struct LeafRay {
     approach: Approach,
     edges: EdgeRay,
+}
+
+/// The triangles of a mesh, and its vertices in metres.
+struct Mesh<'a> {
+    positions: &'a [Vec3],
+    triangles: &'a [[u32; 3]],
 }
 
 /// Triangles that are tested together.
@@ -44,14 +50,18 @@ struct Leaf {
 }
 
 impl RigidTree {
-    /// Builds the tree of a mesh.
-    pub fn build(mesh: &Mesh) -> Self {
-        let boxes: Vec<Aabb> = (0..mesh.triangles.len())
-            .map(|triangle| Aabb::around(corners(mesh, triangle).map(|corner| corner.as_dvec3())))
+    /// Builds the tree of the triangles of a mesh; `positions` are its vertices, in metres.
+    pub fn build(positions: &[Vec3], triangles: &[[u32; 3]]) -> Self {
+        let mesh = Mesh {
+            positions,
+            triangles,
+        };
+        let boxes: Vec<Aabb> = (0..triangles.len() as u32)
+            .map(|triangle| Aabb::around(mesh.corners(triangle).map(|corner| corner.as_dvec3())))
             .collect();
         let union = (boxes.iter()).fold(Aabb::EMPTY, |union, aabb| union.union(*aabb));
-        let vertices = mesh.triangles.iter().flatten();
-        let vertices = vertices.map(|&vertex| mesh.positions[vertex as usize].as_dvec3());
+        let vertices = triangles.iter().flatten();
+        let vertices = vertices.map(|&vertex| positions[vertex as usize].as_dvec3());
         // Eight triangles are tested at once, as fast as one.
         let rules = LeafRules {
             max_items: LEAF as u32,
@@ -59,7 +69,7 @@ impl RigidTree {
         };
         let (tree, listed) = build_tree(&boxes, rules);
         let leaves = (0..listed.count())
-            .map(|leaf| Leaf::new(mesh, listed.items(leaf)))
+            .map(|leaf| Leaf::new(&mesh, listed.items(leaf)))
             .collect();
         Self {
             tree: Some(tree),
@@ -173,7 +183,7 @@ impl Leaf {
     /// Packs at most eight triangles of the mesh.
     fn new(mesh: &Mesh, items: &[u32]) -> Self {
         let indices = std::array::from_fn(|lane| *items.get(lane).unwrap_or(&items[0]));
-        let corners = indices.map(|triangle| corners(mesh, triangle as usize));
+        let corners = indices.map(|triangle| mesh.corners(triangle));
         Self {
             triangles: Triangles(std::array::from_fn(|vertex| {
                 std::array::from_fn(|axis| corners.map(|corners| corners[vertex].to_array()[axis]))
@@ -207,8 +217,10 @@ impl Leaf {
     }
 }
 
-fn corners(mesh: &Mesh, triangle: usize) -> [Vec3; 3] {
-    mesh.triangles[triangle].map(|index| mesh.positions[index as usize])
+impl Mesh<'_> {
+    fn corners(&self, triangle: u32) -> [Vec3; 3] {
+        self.triangles[triangle as usize].map(|vertex| self.positions[vertex as usize])
+    }
 }
 
 /// The greatest extent of a triangle along an axis, metres; never too small.

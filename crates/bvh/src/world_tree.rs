@@ -1,12 +1,12 @@
 //! The world tree: the upper level of the hierarchy, over the whole scene.
 
-use crate::accel::build::TreeBuilder;
-use crate::accel::bvh::{Child, Tree};
-use crate::accel::collapse::LeafRules;
-use crate::accel::lanes::Lanes;
-use crate::geometry::aabb::Aabb;
-use crate::geometry::ray::Ray;
-use crate::motion::slices::Slices;
+use crate::aabb::Aabb;
+use crate::builder::TreeBuilder;
+use crate::collapse::LeafRules;
+use crate::lanes::Lanes;
+use crate::ray::Ray;
+use crate::slices::Slices;
+use crate::tree::{Child, Tree};
 
 /// Topmost nodes of the still tree that the slices' trees sort in among the moving objects.
 const TOPMOST: usize = 16;
@@ -17,7 +17,8 @@ const LEAF_RULES: LeafRules = LeafRules {
 
 /// A tree over the leaves of still objects. Per slice of the shutter interval, there is a small
 /// tree above it, over its topmost nodes and the boxes that all other objects sweep.
-pub(crate) struct WorldTree {
+pub struct WorldTree {
+    /// Trees of all slices.
     pub tree: Tree,
     slices: Slices,
     /// Root of each slice, or of them all.
@@ -27,7 +28,7 @@ pub(crate) struct WorldTree {
 
 /// The content of one leaf of the world tree.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Part {
+pub struct Part {
     /// Index into the scene's objects.
     pub object: usize,
     /// Leaf of the object's mesh; none for the whole object.
@@ -36,7 +37,7 @@ pub(crate) struct Part {
 
 /// The numbering of parts: the object's index in the high bits, the leaf's in the low ones.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Numbers {
+pub struct Numbers {
     /// Bits of the leaf's index.
     bits: u32,
 }
@@ -170,7 +171,7 @@ mod tests {
     use glam::DVec3;
 
     use super::*;
-    use crate::accel::lanes::Portable;
+    use crate::lanes::Portable;
 
     /// A cube of 0.9 metres.
     fn cube(x: f64) -> Aabb {

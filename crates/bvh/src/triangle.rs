@@ -2,11 +2,11 @@
 
 use glam::DVec3;
 
-use crate::geometry::ray::Ray;
+use crate::ray::Ray;
 
 /// A ray's crossing of a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Crossing {
+pub struct Crossing {
     /// Distance in units of the ray's direction; may be negative.
     pub t: f64,
     /// Weight of the second vertex.
@@ -32,7 +32,7 @@ const BEHIND: f64 = 1e-12;
 /// triangle there refuse the ray. A sign in doubt is therefore decided exactly, for one and the
 /// same line (Shewchuk 1997, adaptive predicates).
 #[inline(always)]
-pub(crate) fn cross(ray: &Ray, corners: [DVec3; 3]) -> Option<Crossing> {
+pub fn cross(ray: &Ray, corners: [DVec3; 3]) -> Option<Crossing> {
     let [a, b, c] = corners;
     let [a, b, c] = [a - ray.origin, b - ray.origin, c - ray.origin];
     let mut weights = [

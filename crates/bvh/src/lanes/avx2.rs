@@ -9,7 +9,7 @@ use super::{Boxes, EdgeRay, LEAF, Lanes, SlabRay, Triangles, WIDTH};
 
 /// Proof that the processor has AVX2 and FMA.
 #[derive(Clone, Copy)]
-pub(crate) struct Avx2(V3);
+pub struct Avx2(V3);
 
 impl Avx2 {
     /// The instructions; none if the processor lacks them.
