@@ -8,8 +8,9 @@ use std::process::ExitCode;
 
 use filters::{Filter, Gpu};
 use metrics::{Ideal, Interval, Metric};
+use scene::load_scene;
 use suite::{Error, FilterChoice, Monitor, RunPlan, measure_scenes, open_gpu};
-use tracer::{RenderSettings, load_scene};
+use tracer::RenderSettings;
 
 /// One filter per shutter: trailing and centred.
 const FILTERS: [(&str, &str); 2] = [("jump_flood", "paper"), ("mcguire", "paper")];

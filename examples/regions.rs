@@ -10,8 +10,9 @@ use judge::make_wrong_pictures;
 use metrics::scatter_oracle;
 use metrics::{MeasureError, Reference};
 use rayon::prelude::*;
+use scene::{Scene, list_scenes, load_scene};
 use suite::Error;
-use tracer::{Progress, RenderSettings, Scene, list_scenes, load_scene, trace_frame, trace_truth};
+use tracer::{Progress, RenderSettings, trace_frame, trace_truth};
 
 /// FLIP over *moving* and over *support*.
 type Errors = [f64; 2];

@@ -1,10 +1,13 @@
-//! Hashes the sources of the tracer and of the trees into the program, so that one tracer's renders
+//! Hashes the sources of tracer, trees and scenes into the program, so that one tracer's renders
 //! are never mistaken for another's.
 
 use std::path::{Path, PathBuf};
 
 /// Crates that pixels depend on, and the variables that name their folders of sources.
-const SOURCES: [(&str, &str); 1] = [("bvh", "DEP_SHUTTERTRUTH_BVH_SOURCES")];
+const SOURCES: [(&str, &str); 2] = [
+    ("bvh", "DEP_SHUTTERTRUTH_BVH_SOURCES"),
+    ("scene", "DEP_SHUTTERTRUTH_SCENE_SOURCES"),
+];
 
 fn main() {
     let mut hasher = blake3::Hasher::new();

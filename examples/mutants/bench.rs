@@ -7,10 +7,11 @@ use filters::{Convention, Gpu};
 use frame::{Frame, Image, Region, Truth, regions};
 use judge::{Bounds, Level, Outcome, SceneBounds, judge_scores, read_bounds};
 use metrics::Measured;
+use scene::Scene;
 use suite::{Case, Error, FilterChoice, RunPlan, measure_scenes, read_finished_picture};
 use tempfile::TempDir;
 use tests::filter_folder::{copy_changed_filter, shipped_filter};
-use tracer::{RenderSettings, Scene};
+use tracer::RenderSettings;
 
 use crate::mutant::Mutant;
 

@@ -9,9 +9,9 @@ use judge::{
     compare_sizes,
 };
 use metrics::Metric;
+use scene::SceneId;
 use store::{escape_markdown, markdown_code};
 use suite::{Error, IDENTITY};
-use tracer::SceneId;
 
 use super::change::Change;
 use super::engines::{Engine, Measured, Shape, list_engines, measured};

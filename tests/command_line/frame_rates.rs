@@ -5,11 +5,11 @@ use std::fs;
 
 use frame::Image;
 use metrics::{Metric, SequenceMetric};
+use scene::{FrameRate, SceneId};
 use suite::{Case, Run, ShutterRule};
 use tests::filter_folder::{write_manifest, write_script};
 use tests::root;
 use tests::text::{assert_contains, squeeze};
-use tracer::{FrameRate, SceneId};
 
 use crate::sandbox::{Sandbox, read_table, split};
 

@@ -10,11 +10,11 @@ use cli::{Programs, select_filters, select_scenes};
 use filters::Gpu;
 use judge::{Check, Decision, Finding, RunBounds, check, judge};
 use metrics::Metric;
+use scene::SceneId;
 use suite::{FilterChoice, Run, RunPlan, measure_scenes};
 use tests::filter_folder::copy_changed_filter;
 use tests::limits::calibrate_scene;
 use tests::open_gpu;
-use tracer::SceneId;
 
 /// Scenes: one object that slides, far and at an angle; two that pass one another; many that turn,
 /// fly and hide one another; many that cross; some that leave the picture; thin ones.

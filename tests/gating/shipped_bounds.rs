@@ -11,9 +11,9 @@ use judge::{
     size_for_bounds,
 };
 use metrics::Reference;
+use scene::Scene;
 use suite::{FilterChoice, Monitor, Rendering, RunPlan, measure_scenes};
 use tests::{open_gpu, settings};
-use tracer::Scene;
 
 /// Scenes with quick truths.
 const FEW: [&str; 2] = ["sliding_panel", "two_spheres"];

@@ -4,9 +4,9 @@ use std::path::Path;
 
 use cli::{Programs, paired_table, select_filters, select_scenes};
 use judge::{SceneBounds, read_bounds};
+use scene::Scene;
 use suite::Monitor;
 use tests::{open_gpu, settings};
-use tracer::Scene;
 use tune::{
     Evaluator, LEAST_BLEED, PairedComparison, Preference, compare_candidates, render_scenes,
 };

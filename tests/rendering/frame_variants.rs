@@ -3,7 +3,8 @@
 
 use frame::{ColorSampling, VelocityKind};
 use glam::{DQuat, DVec3, Vec3};
-use tracer::{Background, Key, Scene, TraceError, Turn, trace_frame};
+use scene::{Background, Key, Scene, Turn};
+use tracer::{TraceError, trace_frame};
 
 use crate::renders::*;
 

@@ -2,9 +2,10 @@
 
 use frame::{ColorSampling, Frame, VelocityKind};
 use glam::{DVec3, Vec3};
+use scene::{Background, Key, Scene};
 use tracer::{
-    Background, Key, PixelGrid, PointMotion, RenderSettings, Scene, TraceError, frame_hash,
-    trace_frame_part, trace_motion_on,
+    PixelGrid, PointMotion, RenderSettings, TraceError, frame_hash, trace_frame_part,
+    trace_motion_on,
 };
 
 use crate::renders::*;

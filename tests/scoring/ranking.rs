@@ -6,11 +6,11 @@ use cli::{run_table, terminal_text};
 use frame::Alignment;
 use judge::compare_runs;
 use metrics::{Measured, Metric, Scores};
+use scene::{Family, SceneId};
 use suite::{Case, CaseId, FORMAT, InputFormat, Overall, Run, StoredRun, overall};
 use tests::synthetic::{Blur, Object, Shape};
 use tests::text::assert_contains;
 use tests::unwatched;
-use tracer::{Family, SceneId};
 
 use crate::{measure_blur, scene};
 

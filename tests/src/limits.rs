@@ -4,8 +4,8 @@ use std::fs;
 
 use judge::{SceneBounds, calibrate, read_bounds_file};
 use metrics::Metric;
+use scene::SceneId;
 use suite::Run;
-use tracer::SceneId;
 
 /// Makes the bounds of a scene that `calibrate` proposes after several runs of sound filters.
 pub fn calibrate_scene(runs: &[Run], metrics: &[Metric], scene: &SceneId) -> SceneBounds {

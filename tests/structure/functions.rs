@@ -12,7 +12,7 @@ const EXCEPTIONS: &[(&str, &str)] = &[
     ("crates/cli/src/commands/check.rs", "execute"),
     ("crates/metrics/src/sequence/reference.rs", "measure"),
     ("crates/bvh/src/tree.rs", "traverse"),
-    ("crates/tracer/src/load/mod.rs", "load_scene_and_files"),
+    ("crates/scene/src/load/mod.rs", "load_scene_and_files"),
     ("crates/tracer/src/path/integrator.rs", "follow_path"),
 ];
 

@@ -38,7 +38,7 @@ const PACKAGES: [Package; 7] = [
     },
     Package {
         name: "tobj",
-        place: "tracer/src/load",
+        place: "scene/src/load",
         code: &["tobj::load_obj_buf(", "tobj::load_mtl_buf("],
         is_alone: true,
     },

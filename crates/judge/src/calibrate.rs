@@ -7,8 +7,8 @@ use metrics::{
     Ideal, Interval, LabelMetric, Measured, Metric, ObjectMetric, PERFECT_JOD, ProbeMetric, Score,
     SequenceMetric,
 };
+use scene::SceneId;
 use suite::{Case, Frames, Intervals, Run};
-use tracer::SceneId;
 
 use crate::bounds::SceneBounds;
 use crate::find_sequence;

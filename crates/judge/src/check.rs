@@ -2,9 +2,9 @@
 
 use std::collections::HashSet;
 
+use scene::SceneId;
 use serde::Serialize;
 use suite::{Case, Error, Failure, Run, refuse_failures};
-use tracer::SceneId;
 
 use crate::baseline::BaselineComparison;
 use crate::{Decision, Finding, Outcome};

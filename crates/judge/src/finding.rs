@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use metrics::{Interval, Measured, Metric};
+use scene::SceneId;
 use serde::{Deserialize, Serialize};
 use suite::{Case, Run, Sequence};
-use tracer::SceneId;
 
 use crate::bounds::Level;
 use crate::decoys::Resemblance;

@@ -5,10 +5,10 @@ use std::path::Path;
 
 use frame::Alignment;
 use metrics::Metric;
+use scene::{Family, SceneId};
 use serde::{Deserialize, Serialize};
 use store::{read_text, to_lines};
 use suite::{Case, Error, IDENTITY, InputFormat, Run, refuse_failures};
-use tracer::{Family, SceneId};
 
 use crate::groups::group_by;
 use crate::numbers::round_to_digits;

@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 
 use bench::Bench;
+use scene::SceneId;
 use suite::{Case, FilterId, Run};
-use tracer::SceneId;
 
 /// A run's cases with a row per filter and a column per scene.
 pub struct CaseTable<'a> {

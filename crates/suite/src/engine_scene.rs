@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use filters::EXCLUSION;
 use frame::{Alignment, Frame, Ladder, Picture, Plane, Provenance, Truth, read_bounded, read_exr};
+use scene::SceneId;
 use serde::{Deserialize, Serialize};
 use store::{MAX_TAKEN_BYTES, RenderFile, read_text};
-use tracer::SceneId;
 
 use crate::inputs::border::wide;
 use crate::render::exclusion::EXCLUSION_FILE;

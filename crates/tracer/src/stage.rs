@@ -2,6 +2,7 @@
 
 use bvh::{Lanes, Portable, Ray};
 use glam::{DVec3, Vec3};
+use scene::{Material, Scene};
 
 use crate::accel::scene_tree::SceneTree;
 use crate::error::TraceError;
@@ -11,7 +12,6 @@ use crate::material::glossy_material::GlossyMaterial;
 use crate::material::passage::Passage;
 use crate::material::surface::{Sight, Surface};
 use crate::motion::poses::Poses;
-use crate::scene::{Material, Scene};
 #[cfg(target_arch = "x86_64")]
 use bvh::Avx2;
 
@@ -217,6 +217,7 @@ mod tests {
     use super::*;
     use crate::hit::LIFT;
     use crate::motion::lens::LensPoint;
+    use crate::motion::view::View;
     use crate::test_scene::load_test_scene;
 
     #[test]
@@ -228,7 +229,7 @@ mod tests {
             let mut met = 0;
             for time in [-0.5, -0.2, 0.0, 0.5] {
                 poses.at(time);
-                let view = scene.camera.view(time, 48, 27);
+                let view = View::new(&scene.camera, time, 48, 27);
                 for pixel in 0..48 * 27 {
                     let place = [pixel % 48, pixel / 48].map(|at| f64::from(at) + 0.5);
                     let ray = view.ray_through(place, LensPoint::CENTRE);

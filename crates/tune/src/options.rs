@@ -5,8 +5,9 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use judge::SceneBounds;
+use scene::Scene;
 use suite::{Error, FilterChoice, Monitor};
-use tracer::{RenderSettings, Scene};
+use tracer::RenderSettings;
 
 use crate::loss::LEAST_BLEED;
 use crate::selection::ChoiceLimits;

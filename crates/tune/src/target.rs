@@ -7,9 +7,10 @@ use filters::Filter;
 use frame::{Image, Plane, Truth};
 use judge::{Bounds, SceneBounds};
 use metrics::{Metric, ObjectMetric, Reference, Viewing, flip_ldr};
+use scene::Scene;
 use serde::{Deserialize, Serialize};
 use suite::{Error, FilterFrame, Monitor, Rendering};
-use tracer::{RenderSettings, Scene};
+use tracer::RenderSettings;
 
 /// A scene, rendered once and used for hundreds of measurements.
 pub struct RenderedScene {

@@ -4,7 +4,7 @@
 //! Most are in `slips/`, one file per kind of file.
 
 use image::{ImageBuffer, Rgb32FImage};
-use tracer::{SceneError, list_scenes, load_scene};
+use scene::{SceneError, list_scenes, load_scene};
 
 use crate::appearance::{counting_image, folder_with_background};
 use crate::{Folder, OBJ, SCENE};

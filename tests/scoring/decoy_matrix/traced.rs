@@ -4,9 +4,9 @@
 use std::path::Path;
 
 use frame::{Alignment, Frame, Image, Picture, Plane, Raster, Truth, regions};
+use scene::load_scene;
 use suite::{Monitor, Rendering};
 use tests::settings;
-use tracer::load_scene;
 
 use super::decoys::blur_isotropically;
 use super::touches::touch;

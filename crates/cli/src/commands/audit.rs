@@ -5,9 +5,9 @@ use terminal::refuse;
 
 use clap::Args;
 use engine::{Capture, audit_capture, write_audit_picture};
+use scene::SceneId;
 use store::{Sharing, lock_folder, printable_path};
 use suite::Error;
-use tracer::SceneId;
 
 use super::capture::{load_drawn_scene, name_folder};
 use crate::arguments::RootArgs;

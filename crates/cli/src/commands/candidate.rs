@@ -2,9 +2,10 @@
 
 use filters::Gpu;
 use judge::SceneBounds;
+use scene::Scene;
 use store::{Sharing, lock_folder};
 use suite::{Error, FilterChoice, estimate_case_seconds, estimate_render_seconds, open_gpu};
-use tracer::{RenderSettings, Scene};
+use tracer::RenderSettings;
 use tune::{Evaluator, render_scenes};
 
 use super::run_plan::load_scenes;

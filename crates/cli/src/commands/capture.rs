@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 use terminal::refuse;
 
 use filters::Convention;
+use scene::{Location, Scene};
 use store::read_text;
 use suite::Error;
-use tracer::{Location, Scene};
 
 use terminal::selection::select_scenes;
 

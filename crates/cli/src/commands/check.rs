@@ -12,9 +12,9 @@ use judge::{
     size_for_bounds,
 };
 use metrics::Metric;
+use scene::Location;
 use store::{printable_path, refuse_tracked};
 use suite::{Case, Error, Run, StoredRun, open_gpu};
-use tracer::Location;
 
 use super::measured_run::{MeasuredRun, measure};
 use super::pages::{

@@ -4,9 +4,9 @@ use std::path::Path;
 use terminal::refuse;
 
 use frame::{FileError, write_atomically};
+use scene::{Location, list_scenes};
 use store::printable_path;
 use suite::Error;
-use tracer::{Location, list_scenes};
 
 use terminal::output::{count_text, print};
 use terminal::selection::choose_names;

@@ -6,9 +6,9 @@ use terminal::refuse;
 use clap::Args;
 use engine::{Capture, Ingested, ingest};
 use frame::{Display, Region, Truth};
+use scene::{Location, Scene};
 use store::printable_path;
 use suite::{EngineScene, Error};
-use tracer::{Location, Scene};
 
 use super::capture::{load_drawn_scene, name_folder};
 use crate::arguments::RootArgs;

@@ -5,8 +5,9 @@ use terminal::refuse;
 
 use clap::Args;
 use filters::{AdapterDescription, Filter, FilterError, Limits, list_adapters, try_out};
+use scene::{SceneListing, list_scenes, load_scene};
 use suite::{Error, InputFormat, open_adapter};
-use tracer::{SceneListing, find_coincident_surfaces, list_scenes, load_scene};
+use tracer::find_coincident_surfaces;
 
 use super::copy::copy_scenes;
 use crate::arguments::{AdapterArgs, RootArgs};

@@ -5,9 +5,10 @@ use terminal::refuse;
 
 use clap::Args;
 use frame::{Alignment, Truth};
+use scene::Scene;
 use store::{LADDER, MAX_REPLICATES, Sharing, lock_folder, printable_path, scene_folder};
 use suite::{Error, Rendering, deciding_floor, estimate_render_seconds};
-use tracer::{RenderSettings, Scene, check_next_frame};
+use tracer::{RenderSettings, check_next_frame};
 
 use crate::arguments::{
     Replicates, SceneArgs, above_zero, frame_count, parse_replicates, parse_size, within,

@@ -10,9 +10,10 @@ use judge::{
     read_bounds_beside_scenes, read_bounds_file,
 };
 use metrics::Metric;
+use scene::{Location, Scene, SceneId};
 use store::{FolderLock, Sharing, lock_folder};
 use suite::{EngineScene, Error, FilterChoice, Run, RunPlan, engine_name};
-use tracer::{Location, RenderSettings, Scene, SceneId};
+use tracer::RenderSettings;
 
 use super::kept_truths::check_truths;
 use crate::arguments::{MeasureArgs, RunOptions, SceneArgs};

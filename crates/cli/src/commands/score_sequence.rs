@@ -2,13 +2,13 @@
 
 use frame::{Frame, Image, Truth};
 use metrics::{Measured, SequenceMeasurement, SequenceMetric};
+use scene::Scene;
 use store::{printable, printable_path};
 use suite::{
     Error, Frames, SequenceTruth, file_at_frame, find_numbered, read_finished_picture,
     score_sequence, worst_frames,
 };
 use terminal::refuse;
-use tracer::Scene;
 
 use super::capture::read_convention;
 use super::score::{ScoreArgs, check_scene, scored_json, truth_text};

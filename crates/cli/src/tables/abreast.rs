@@ -3,8 +3,8 @@
 
 use judge::{RankedFilter, list_summarized};
 use metrics::Metric;
+use scene::{FrameRate, SceneId};
 use suite::{Case, FilterId, InputFormat};
-use tracer::{FrameRate, SceneId};
 
 use super::{Table, bracket_name, cell, legend_text, list_once, mean_text};
 

@@ -1,8 +1,8 @@
 //! Listings of scenes and filters, in brief and in detail, and names of adapters.
 
 use filters::{AdapterDescription, Filter, Parameter, Preset, Unit};
+use scene::SceneListing;
 use suite::InputKind;
-use tracer::SceneListing;
 
 use terminal::output::{heading, push_wrapped};
 

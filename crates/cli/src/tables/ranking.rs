@@ -6,8 +6,8 @@ use judge::{
     no_gain_text, rank_for_summary,
 };
 use metrics::Metric;
+use scene::FrameRate;
 use suite::Case;
-use tracer::FrameRate;
 
 use terminal::output::push_wrapped;
 

@@ -3,8 +3,8 @@
 
 use judge::{RANK_RULE, RANKED_BY, RankedSequence, rank_sequences, rank_sequences_on};
 use metrics::{SequenceMetric, SequenceScores};
+use scene::SceneId;
 use suite::{Run, Sequence};
-use tracer::SceneId;
 
 use super::{
     Table, bracket_name, cell, legend_text, list_once, ranked_name, ranking_cells, shutter_text,

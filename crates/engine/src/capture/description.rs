@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use frame::{Alignment, MAX_STOPS, is_hidden};
+use scene::SceneId;
 use serde::Deserialize;
 use store::read_text;
 use suite::Error;
-use tracer::SceneId;
 
 use crate::capture::raw::RawLayout;
 use crate::files::refuse;

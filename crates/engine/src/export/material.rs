@@ -1,9 +1,9 @@
 //! Materials: metallic-roughness, emissive, with holes, translucent.
 
 use glam::Vec3;
+use scene::{Finish, Material, Translucency};
 use serde_json::{Value, json};
 use suite::Error;
-use tracer::{Finish, Material, Translucency};
 
 use crate::export::document::{Document, widen};
 use crate::export::textures::Textures;

@@ -4,9 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use frame::write_atomically;
+use scene::{Location, Parent, Scene};
 use serde_json::json;
 use suite::Error;
-use tracer::{Location, Parent, Scene};
 
 use crate::capture::description::CAPTURE_FILE;
 use crate::export::animation::Channels;

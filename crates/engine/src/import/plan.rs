@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
+use scene::Family;
 use suite::Error;
-use tracer::Family;
 
 use crate::import::model::Up;
 

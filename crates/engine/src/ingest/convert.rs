@@ -7,6 +7,7 @@ use frame::{
     Display, ExrFile, FAR_DEPTH, Frame, FrameOptions, Image, Provenance, Raster, Reprojection,
     Truth, VelocityKind, display_srgb, read_bounded, write_exr, write_png,
 };
+use scene::SceneId;
 use store::{
     MAX_TAKEN_BYTES, RenderFile, Sharing, ladder_folder, lock_folder, refuse_long_names,
     refuse_scene,
@@ -15,7 +16,7 @@ use suite::{
     BLURRED, EXCLUSION_FILE, EngineScene, Error, INGESTED_FILE, INGESTED_FORMAT, PROGRAM,
     engine_name, name_in_one_word, velocity_wheel,
 };
-use tracer::{SceneId, Watch};
+use tracer::Watch;
 
 use crate::capture::folder::Capture;
 use crate::files::write_json;

@@ -1,9 +1,9 @@
 //! Loss of a score on one scene since the baseline.
 
 use metrics::{Measured, Metric};
+use scene::SceneId;
 use serde::Serialize;
 use suite::Case;
-use tracer::SceneId;
 
 use crate::baseline::Baseline;
 use crate::baseline::accept::round_score;

@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use metrics::Metric;
+use scene::Location;
 use serde::Deserialize;
 use store::{printable, printable_path, read_text};
 use suite::{Error, SIDES};
 use toml::Spanned;
-use tracer::Location;
 
 use crate::bounds::{Bound, Bounds, Length, Level};
 

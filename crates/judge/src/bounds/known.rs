@@ -1,8 +1,8 @@
 //! Checks that bounds name scenes and filters that exist, and that every case has a bound.
 
 use filters::Filter;
+use scene::{Location, SceneId};
 use suite::{Error, FilterChoice, Frames};
-use tracer::{Location, SceneId};
 
 use crate::bounds::sized::read_all_bounds;
 use crate::bounds::{BOUNDS_FILE, BoundsFile, Level, SceneBounds};

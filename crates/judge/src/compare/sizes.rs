@@ -6,8 +6,8 @@ use std::collections::BTreeSet;
 
 use frame::Alignment;
 use metrics::Metric;
+use scene::SceneId;
 use suite::{Error, Random, SceneMean, TWO_SIDED, plain_mean};
-use tracer::SceneId;
 
 use crate::results::Results;
 

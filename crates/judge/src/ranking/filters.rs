@@ -4,8 +4,8 @@ use std::cmp::Ordering;
 
 use frame::Alignment;
 use metrics::Metric;
+use scene::{FrameRate, SceneId};
 use suite::{Case, IDENTITY, InputFormat, TWO_SIDED, plain_mean};
-use tracer::{FrameRate, SceneId};
 
 use crate::groups::group_by;
 use crate::ranking::side_effects::SideEffects;

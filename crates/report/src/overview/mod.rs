@@ -11,8 +11,8 @@ use costs::costs;
 use judge::{Decision, Level, Verdict, lag_text};
 use maud::{Markup, html};
 use metrics::{Ideal, Metric};
+use scene::SceneId;
 use score_table::score_table;
-use tracer::SceneId;
 use winners::{sequence_winners, winners};
 
 use crate::case::bounds::broken_bounds;

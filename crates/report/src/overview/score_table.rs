@@ -3,8 +3,8 @@
 use judge::{Level, list_summarized};
 use maud::{Markup, html};
 use metrics::{Ideal, Metric};
+use scene::FrameRate;
 use suite::{Case, FilterId, Overall};
-use tracer::FrameRate;
 
 use super::bench_file::cost_of;
 use super::cell::{Colors, cell};

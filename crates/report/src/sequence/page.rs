@@ -4,10 +4,10 @@ use std::path::Path;
 
 use judge::{Finding, RANKED_BY};
 use maud::{Markup, html};
+use scene::SceneId;
 use serde_json::{Value, json};
 use store::RenderFile;
 use suite::{CHANGE_PICTURE, Run, Sequence, SequenceFrame};
-use tracer::SceneId;
 
 use super::ranking::ranking_tables;
 use super::scores::score_tables;

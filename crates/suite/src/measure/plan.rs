@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use filters::{AdapterDescription, EXCLUSION};
 use frame::Alignment;
-use tracer::{RenderSettings, Scene};
+use scene::Scene;
+use tracer::RenderSettings;
 
 use super::part::Part;
 use super::run_scene::RunScene;

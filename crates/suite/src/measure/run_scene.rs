@@ -1,8 +1,9 @@
 //! A scene of a run: rendered from its files, or drawn by an engine.
 
 use frame::Alignment;
+use scene::{Family, Scene, SceneId};
 use store::LADDER;
-use tracer::{Family, RenderSettings, Scene, SceneId};
+use tracer::RenderSettings;
 
 use crate::Error;
 use crate::engine_scene::EngineScene;

@@ -4,8 +4,9 @@ use frame::{
     Alignment, Image, Truth, read_exr, read_png, tile_pictures, write_animated_png, write_png,
 };
 use metrics::{Instant, SequenceReference, SequenceScores};
+use scene::Scene;
 use store::{RenderFile, RenderPath};
-use tracer::{PointLayers, Scene};
+use tracer::PointLayers;
 
 use super::pictures::{PARTS_FILE, part_layer};
 use super::plan::RunPlan;

@@ -2,8 +2,8 @@
 
 use std::collections::HashMap;
 
+use scene::SceneId;
 use serde::Serialize;
-use tracer::SceneId;
 
 use super::order::Order;
 use crate::Error;

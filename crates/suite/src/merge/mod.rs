@@ -9,8 +9,8 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use frame::Alignment;
+use scene::SceneId;
 use store::{FolderLock, Sharing, lock_folder, place_files};
-use tracer::SceneId;
 
 use self::files::gather_files;
 use self::fold::fold_runs;

@@ -5,8 +5,9 @@ use std::path::PathBuf;
 
 use frame::{Accumulation, Alignment, Frame, Ladder, Truth, read_attribute};
 use metrics::Sharp;
+use scene::Scene;
 use store::{LADDER, RenderFile};
-use tracer::{LadderTracer, RenderSettings, Scene};
+use tracer::{LadderTracer, RenderSettings};
 
 use super::rendering::Rendering;
 use crate::Error;

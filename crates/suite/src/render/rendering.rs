@@ -6,8 +6,9 @@ use filters::{EXCLUSION, Filter};
 use frame::{
     Alignment, Frame, Picture, TracedFrame, read_attribute, read_frame_replicates, write_small_exr,
 };
+use scene::Scene;
 use store::{RenderFile, refuse_scene, scene_folder};
-use tracer::{PixelGrid, RenderSettings, Scene};
+use tracer::{PixelGrid, RenderSettings};
 
 use super::exclusion::{FilterFrame, draw_exclusion};
 use super::memory::check_memory;

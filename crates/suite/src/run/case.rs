@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 use filters::{Convention, Value};
 use frame::{FileError, Frame, Truth};
 use metrics::{ImageScores, Interval, Jitter, Metric, Scores};
+use scene::{Family, FrameRate, SceneId};
 use serde::{Deserialize, Serialize};
 use store::RenderFile;
-use tracer::{Family, FrameRate, SceneId};
 
 use crate::engine_scene::engine_name;
 use crate::identity::CaseId;

@@ -1,8 +1,8 @@
 //! Arguments for the frame rates of scenes.
 
 use clap::Args;
+use scene::FrameRate;
 use suite::Error;
-use tracer::FrameRate;
 use tracer::limits::{FASTEST_RATE, FASTEST_SHUTTER, SLOWEST_RATE, SLOWEST_SHUTTER};
 
 use super::parse_number;

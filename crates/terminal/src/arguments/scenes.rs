@@ -4,8 +4,9 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use frame::{ColorSampling, FrameOptions, VelocityKind};
+use scene::SceneId;
 use suite::Error;
-use tracer::{RenderSettings, SceneId};
+use tracer::RenderSettings;
 
 use super::{FrameRateArgs, RootArgs, parse_exposure, parse_samples, thread_count};
 use crate::selection::split_scene;

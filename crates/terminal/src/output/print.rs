@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 use std::io::{ErrorKind, IsTerminal, Write};
 
+use scene::Scene;
 use store::{printable, printable_lines};
 use suite::Error;
-use tracer::Scene;
 
 use super::{terminal_text, wrap_lines};
 

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
+use scene::{Location, Scene, SceneId, list_scene, list_scenes, load_scene};
 use suite::{EngineScene, Error};
-use tracer::{Location, Scene, SceneId, list_scene, list_scenes, load_scene};
 
 use super::names::{is_path, match_names, refuse_empty_names, suggest_names};
 

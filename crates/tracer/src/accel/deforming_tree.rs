@@ -1,9 +1,7 @@
 //! The tree of a deforming mesh, in object space.
 
 use bvh::{Aabb, Ball, Child, Crossing, Lanes, LeafRules, Leaves, Ray, Slices, Tree, build_tree};
-
-use crate::motion::keys::times_within;
-use crate::scene::Mesh;
+use scene::{Mesh, times_within};
 
 /// Triangles are tested one by one, each in the time of a visit.
 const LEAF_RULES: LeafRules = LeafRules {

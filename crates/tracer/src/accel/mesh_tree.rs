@@ -1,9 +1,9 @@
 //! The tree of a mesh, rigid or deforming, in object space.
 
 use bvh::{Crossing, Lanes, Ray, RigidTree};
+use scene::Mesh;
 
 use crate::accel::deforming_tree::DeformingTree;
-use crate::scene::Mesh;
 
 /// A mesh and its trees; shared by every object that shows it.
 pub(crate) enum MeshTree<'a> {

@@ -1,6 +1,7 @@
 //! The geometry of a scene under its trees: the nearest hit of a ray, and occlusion.
 
 use bvh::{Aabb, Crossing, Lanes, LeafRay, Part, Ray, RigidTree, WorldTree};
+use scene::Scene;
 
 use crate::accel::mesh_tree::MeshTree;
 use crate::accel::world_leaves::collect_world_leaves;
@@ -10,7 +11,6 @@ use crate::limits::LARGEST_COORDINATE;
 use crate::material::surface::{Sight, find_solid_objects, is_seen};
 use crate::motion::poses::Poses;
 use crate::motion::slices::sweep_slices;
-use crate::scene::Scene;
 
 /// A limit before every crossing: it ends a traversal.
 const NOWHERE: f64 = f64::NEG_INFINITY;

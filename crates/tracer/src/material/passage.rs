@@ -2,12 +2,12 @@
 
 use bvh::Ray;
 use glam::Vec3;
+use scene::Scene;
 
 use crate::hit::Hit;
 use crate::material::fresnel;
 use crate::material::surface::{find_material, incidence, opacity};
 use crate::motion::poses::Poses;
-use crate::scene::Scene;
 
 /// Shares of the light along a ray through one point of a translucent surface.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,12 +2,12 @@
 
 use bvh::Ray;
 use glam::{DVec3, Vec2, Vec3, Vec4};
+use scene::{Material, Mesh, Scene};
 
 use crate::hit::Hit;
 use crate::material::brdf::Brdf;
 use crate::material::glossy_material::GlossyMaterial;
 use crate::motion::pose::Pose;
-use crate::scene::{Material, Mesh, Scene};
 
 /// A point of a surface at one time, in the world.
 #[derive(Clone, Copy, Debug)]

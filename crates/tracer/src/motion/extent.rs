@@ -2,8 +2,7 @@
 
 use bvh::Aabb;
 use glam::{DAffine3, DVec3};
-
-use crate::scene::{Mesh, Scene};
+use scene::{Mesh, Scene};
 
 /// Nodes along an edge of the cube of directions. With 9 a cell is 0.25 wide and a box around a
 /// sphere at most `2 x 0.25^2 / 8` = 1.6 % too large, because the curvature of a vector's length on

@@ -4,11 +4,10 @@
 use std::sync::Arc;
 
 use bvh::Ray;
+use scene::{Mesh, Motion, Parent, Scene, Segment, key_times};
 
-use crate::motion::keys::{Segment, key_times};
 use crate::motion::pose::Pose;
 use crate::motion::screw::Screw;
-use crate::scene::{Mesh, Motion, Parent, Scene};
 
 /// The poses of all objects at one time.
 #[derive(Clone)]

@@ -1,10 +1,10 @@
 //! The boxes that objects sweep within slices of an interval of time.
 
 use bvh::{Aabb, Slices};
+use scene::Scene;
 
 use crate::motion::extent::Extent;
 use crate::motion::sweep::{greatest_speed, swept_aabb};
-use crate::scene::Scene;
 
 /// Part of its diagonal that an object travels within a slice at most, unless that takes too many
 /// slices.

@@ -2,11 +2,11 @@
 
 use glam::{DAffine3, DVec3, Vec3};
 
-use crate::scene::{Mesh, Shape};
+use crate::model::{Mesh, Shape};
 
 /// The vertices of a mesh at one time: of its only shape, or between two shapes.
 #[derive(Clone, Copy)]
-pub(crate) struct ShapeAt<'a> {
+pub struct ShapeAt<'a> {
     mesh: &'a Mesh,
     between: Option<Between<'a>>,
 }
@@ -20,7 +20,7 @@ struct Between<'a> {
 
 impl Mesh {
     /// The mesh at `time` (frames).
-    pub(crate) fn at(&self, time: f64) -> ShapeAt<'_> {
+    pub fn at(&self, time: f64) -> ShapeAt<'_> {
         let next = self.shapes.partition_point(|shape| shape.time <= time);
         self.between(next, time)
     }
@@ -44,7 +44,7 @@ impl Mesh {
 
     /// The velocity of a point of a triangle just before `time` (frames), in the object's space,
     /// metres per frame.
-    pub(crate) fn velocity_before(&self, time: f64, triangle: u32, weights: [f64; 2]) -> DVec3 {
+    pub fn velocity_before(&self, time: f64, triangle: u32, weights: [f64; 2]) -> DVec3 {
         let next = self.shapes.partition_point(|shape| shape.time < time);
         let Some(Between { shapes, .. }) = self.between(next, time).between else {
             return DVec3::ZERO;
@@ -57,18 +57,18 @@ impl Mesh {
     }
 
     /// Returns true if the mesh changes its shape.
-    pub(crate) fn deforms(&self) -> bool {
+    pub fn deforms(&self) -> bool {
         !self.shapes.is_empty()
     }
 
     /// Times of its key shapes, rising.
-    pub(crate) fn shape_times(&self) -> impl Iterator<Item = f64> {
+    pub fn shape_times(&self) -> impl Iterator<Item = f64> {
         self.shapes.iter().map(|shape| shape.time)
     }
 
     /// The greatest distance from the origin (metres) and the greatest speed (metres per frame) of
     /// any vertex within `[from, to]`, an interval without key shapes inside.
-    pub(crate) fn vertex_maxima(&self, from: f64, to: f64) -> [f64; 2] {
+    pub fn vertex_maxima(&self, from: f64, to: f64) -> [f64; 2] {
         let distance = self.at(from).radius().max(self.at(to).radius());
         let Some(between) = self.at(0.5 * (from + to)).between else {
             return [distance, 0.0];

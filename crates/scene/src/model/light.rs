@@ -1,5 +1,6 @@
 //! Light from infinity: the background and the sun.
 
+use std::f64::consts::PI;
 use std::path::PathBuf;
 
 use glam::{DVec3, Vec3};
@@ -52,4 +53,45 @@ pub struct Sun {
     /// Radius of its disc in radians; 0 is a point at infinity, which no camera ray and no bounce
     /// can hit.
     pub angular_radius: f64,
+}
+
+impl Background {
+    /// Radiance from a unit direction.
+    pub fn radiance(&self, direction: DVec3) -> Vec3 {
+        match self {
+            Background::Constant(radiance) => *radiance,
+            Background::Gradient {
+                ground,
+                horizon,
+                zenith,
+            } => {
+                let height = direction.y as f32;
+                let end = if height < 0.0 { ground } else { zenith };
+                horizon.lerp(*end, height.abs())
+            }
+            Background::Map(map) => map.radiance(direction),
+        }
+    }
+}
+
+impl Sun {
+    /// The radiance of the disc: its irradiance on a facing surface is radiance x pi sin^2(radius).
+    pub fn radiance(&self) -> Vec3 {
+        if self.angular_radius == 0.0 {
+            return self.irradiance;
+        }
+        let sine = self.angular_radius.sin();
+        self.irradiance * (1.0 / (PI * sine * sine)) as f32
+    }
+
+    /// Returns true if a ray that leaves the scene in this unit direction ends on the disc.
+    pub fn covers(&self, direction: DVec3) -> bool {
+        self.angular_radius > 0.0 && 1.0 - direction.dot(self.direction) <= self.cap()
+    }
+
+    /// 1 - cos(radius), without cancellation.
+    pub fn cap(&self) -> f64 {
+        let sine = (0.5 * self.angular_radius).sin();
+        2.0 * sine * sine
+    }
 }

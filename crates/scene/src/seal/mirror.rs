@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use crate::scene::{Background, Key, Scene};
+use crate::model::{Background, Key, Scene};
 
 /// Mirrors a scene at the plane x = 0, camera and lights included: its picture is the scene's, left
 /// for right.

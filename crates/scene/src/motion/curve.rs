@@ -2,10 +2,10 @@
 
 use std::ops::{Add, Mul, Sub};
 
-use crate::scene::Interpolation;
+use crate::model::Interpolation;
 
 /// A number or a vector that changes along a curve.
-pub(crate) trait Quantity:
+pub trait Quantity:
     Copy + Default + Add<Output = Self> + Sub<Output = Self> + Mul<f64, Output = Self>
 {
 }
@@ -17,10 +17,11 @@ impl<T> Quantity for T where
 
 /// A cubic polynomial in the time since its start; coefficients from the lowest degree up.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Cubic<T>([T; 4]);
+pub struct Cubic<T>([T; 4]);
 
 /// Upper limits of a curve within an interval.
-pub(crate) struct CurveMaxima {
+pub struct CurveMaxima {
+    /// Size of the value.
     pub value: f64,
     /// First derivative, per frame.
     pub slope: f64,
@@ -42,6 +43,7 @@ impl<T: Quantity> Cubic<T> {
         Self([values[0], slopes[0], bend, twist])
     }
 
+    /// The value.
     pub fn at(&self, time: f64) -> T {
         let [value, slope, bend, twist] = self.0;
         value + (slope + (bend + twist * time) * time) * time
@@ -100,7 +102,7 @@ impl Cubic<f64> {
 }
 
 /// Keys at rising times, and the interpolation between them.
-pub(crate) struct Keyed<'a, K> {
+pub struct Keyed<'a, K> {
     pub keys: &'a [K],
     /// Time of a key, in frames.
     pub time: fn(&K) -> f64,

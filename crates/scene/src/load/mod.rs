@@ -52,7 +52,7 @@ use objects::ObjectLoader;
 use schema::SceneTable;
 use variants::ParsedScene;
 
-use crate::settings::check_size;
+use crate::picture_size::check_size;
 use crate::{FrameRate, Location, Scene, SceneId, Seal};
 
 /// Variant that every scene has without naming it: its surfaces send out their own colours.

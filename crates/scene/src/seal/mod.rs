@@ -10,7 +10,7 @@ use glam::{DQuat, Vec3};
 
 use self::chance::Chance;
 use self::mirror::mirror;
-use crate::scene::{Background, Material, Scene};
+use crate::model::{Background, Material, Scene};
 
 /// Factor on all speeds.
 const SPEED: RangeInclusive<f64> = 0.75..=1.3;

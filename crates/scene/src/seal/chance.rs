@@ -3,9 +3,10 @@
 use std::ops::RangeInclusive;
 
 /// Numbers that a seed and a name give, the same everywhere.
-pub(crate) struct Chance(blake3::OutputReader);
+pub struct Chance(blake3::OutputReader);
 
 impl Chance {
+    /// The numbers of a seed and a name.
     pub fn new(seed: u64, name: &str) -> Self {
         let text = format!("sealed variant {seed} of {name}");
         Self(blake3::Hasher::new().update(text.as_bytes()).finalize_xof())

@@ -2,24 +2,27 @@
 
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
+use crate::model::{Interpolation, Key, Motion, Turn};
 use crate::motion::curve::{Cubic, Keyed};
-use crate::scene::{Interpolation, Key, Motion, Turn};
 
 /// A part of a motion without keys inside, as polynomials in time.
-pub(crate) struct Segment {
+pub struct Segment {
     /// Time that the curves count from, in frames.
     pub start: f64,
+    /// Metres.
     pub translation: Cubic<DVec3>,
+    /// Factors along the axes.
     pub scale: Cubic<DVec3>,
     /// Orientation at the start.
     pub orientation: DQuat,
+    /// Turn since the start.
     pub turn: Rotation,
     /// Rotations before and after the turn.
     pub swings: Option<[Rotation; 2]>,
 }
 
 /// A rotation about a fixed axis by an angle that changes.
-pub(crate) struct Rotation {
+pub struct Rotation {
     /// Unit vector.
     pub axis: DVec3,
     /// Radians.
@@ -33,7 +36,7 @@ impl Motion {
     }
 
     /// The derivative of [`Motion::at`] just before `time` (frames), per frame.
-    pub(crate) fn rate_before(&self, time: f64) -> DAffine3 {
+    pub fn rate_before(&self, time: f64) -> DAffine3 {
         self.segment_at(self.keyed().segment_before(time))
             .rate(time)
     }
@@ -50,12 +53,12 @@ impl Motion {
     }
 
     /// The segment that contains `time`; at a key, the one that begins there.
-    pub(crate) fn segment(&self, time: f64) -> Segment {
+    pub fn segment(&self, time: f64) -> Segment {
         self.segment_at(self.keyed().segment(time))
     }
 
     /// All segments: before the first key, and from each key on.
-    pub(crate) fn segments(&self) -> impl Iterator<Item = Segment> {
+    pub fn segments(&self) -> impl Iterator<Item = Segment> {
         (0..=self.keys.len()).map(|index| self.segment_at(index))
     }
 
@@ -190,7 +193,7 @@ impl Segment {
 }
 
 /// Times of `motions`' keys strictly between `from` and `to`, with both ends, rising.
-pub(crate) fn key_times<'a>(
+pub fn key_times<'a>(
     motions: impl IntoIterator<Item = &'a Motion>,
     from: f64,
     to: f64,
@@ -200,7 +203,7 @@ pub(crate) fn key_times<'a>(
 }
 
 /// The times strictly between `from` and `to`, with both ends, rising and each once.
-pub(crate) fn times_within(times: impl IntoIterator<Item = f64>, from: f64, to: f64) -> Vec<f64> {
+pub fn times_within(times: impl IntoIterator<Item = f64>, from: f64, to: f64) -> Vec<f64> {
     let inside = (times.into_iter()).filter(|time| from < *time && *time < to);
     let mut times: Vec<f64> = inside.chain([from, to]).collect();
     times.sort_by(f64::total_cmp);

@@ -1,12 +1,11 @@
-//! The camera at one time: rays through pixels and its lens, and projection back to them.
+//! A view of the camera at one time: rays through pixels and its lens, and projection back to them.
 
 use bvh::Ray;
 use frame::CameraPose;
 use glam::{DAffine3, DVec2, DVec3};
+use scene::{Camera, Lens};
 
-use crate::motion::curve::{Cubic, Keyed};
 use crate::motion::lens::LensPoint;
-use crate::scene::{Camera, Lens};
 
 /// A camera at one time, with a picture size.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,6 +37,15 @@ impl ViewRate {
         focal: 0.0,
     };
 
+    /// The derivative of `view`, the camera's at `time` (frames), just before that time.
+    pub fn before(camera: &Camera, time: f64, view: &View) -> Self {
+        let fov_rate = camera.vertical_fov_rate_before(time);
+        Self {
+            to_world: camera.motion.rate_before(time),
+            focal: -view.focal * fov_rate / camera.vertical_fov_at(time).sin(),
+        }
+    }
+
     pub fn is_still(&self) -> bool {
         *self == Self::STILL
     }
@@ -52,76 +60,20 @@ pub(crate) enum Target {
     Infinity(DVec3),
 }
 
-impl Camera {
-    /// Vertical field of view at `time` (frames), in radians.
-    pub fn vertical_fov_at(&self, time: f64) -> f64 {
-        let (start, curve) = self.vertical_fov_curve(time);
-        curve.at(time - start)
-    }
-
-    /// Returns true if it has one place, one direction and one field of view.
-    pub(crate) fn stands_still(&self) -> bool {
-        self.motion.keys.len() <= 1 && self.vertical_fov.len() <= 1
-    }
-
-    /// Times within `[from, to]` at which the field of view may be greatest or least: the ends,
-    /// keys and turning points.
-    pub(crate) fn vertical_fov_extremes(&self, from: f64, to: f64) -> Vec<f64> {
-        let keys = self.vertical_fov.iter().map(|(time, _)| *time);
-        let turns = keys.clone().flat_map(|key| {
-            let (start, curve) = self.vertical_fov_curve(key);
-            curve.turning_points().map(move |since| start + since)
-        });
-        let inside = keys.chain(turns).filter(|time| from < *time && *time < to);
-        inside.chain([from, to]).collect()
-    }
-
-    fn keyed_fov(&self) -> Keyed<'_, (f64, f64)> {
-        Keyed {
-            keys: &self.vertical_fov,
-            time: |(time, _): &(f64, f64)| *time,
-            interpolation: self.motion.interpolation,
-        }
-    }
-
-    /// The curve of the field of view around `time`, and the time that it counts from.
-    fn vertical_fov_curve(&self, time: f64) -> (f64, Cubic<f64>) {
-        self.fov_curve_at(self.keyed_fov().segment(time))
-    }
-
-    fn fov_curve_at(&self, segment: usize) -> (f64, Cubic<f64>) {
-        let keyed = self.keyed_fov();
-        let keys = keyed.keys;
-        let chord = |from: usize| (keys[from + 1].1 - keys[from].1) / keyed.duration(from);
-        let curve = keyed.curve(segment, |key| keys[key].1, chord);
-        (keys[keyed.anchor(segment)].0, curve)
-    }
-
-    /// The view at `time` (frames) of a picture of `width` x `height` pixels.
-    pub fn view(&self, time: f64, width: u32, height: u32) -> View {
-        let to_world = self.motion.at(time);
+impl View {
+    /// The view of a camera at `time` (frames), for a picture of `width` x `height` pixels.
+    pub fn new(camera: &Camera, time: f64, width: u32, height: u32) -> Self {
+        let to_world = camera.motion.at(time);
         let half = [0.5 * f64::from(width), 0.5 * f64::from(height)];
-        View {
+        Self {
             to_world,
             to_camera: to_world.inverse(),
-            focal: half[1] / (0.5 * self.vertical_fov_at(time)).tan(),
+            focal: half[1] / (0.5 * camera.vertical_fov_at(time)).tan(),
             half,
-            lens: self.lens,
+            lens: camera.lens,
         }
     }
 
-    /// The derivative of `view`, this camera's at `time` (frames), just before that time.
-    pub(crate) fn view_rate_before(&self, time: f64, view: &View) -> ViewRate {
-        let (start, fov) = self.fov_curve_at(self.keyed_fov().segment_before(time));
-        let fov_rate = fov.slope(time - start);
-        ViewRate {
-            to_world: self.motion.rate_before(time),
-            focal: -view.focal * fov_rate / self.vertical_fov_at(time).sin(),
-        }
-    }
-}
-
-impl View {
     /// The ray through a point of the picture, in pixels from the top left, and the centre of the
     /// lens.
     pub fn ray(&self, x: f64, y: f64) -> Ray {

@@ -1,7 +1,7 @@
 //! Times of a sealed variant.
 
 use super::Seal;
-use crate::scene::{Mesh, Motion, Scene, Turn};
+use crate::model::{Mesh, Motion, Scene, Turn};
 
 impl Seal {
     /// Changes all times: events at `t` move to `delay + t / speed`, or to `delay - t / speed`.

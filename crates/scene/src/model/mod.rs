@@ -1,9 +1,11 @@
 //! A scene in memory: the checked content of `scenes/<name>/scene.toml` and its meshes.
 
+mod environment;
 mod light;
 mod material;
 mod mesh;
 mod motion;
+mod texture;
 
 use frame::ShutterProfile;
 pub use frame::{Display, FlipExposures};
@@ -197,24 +199,5 @@ impl Scene {
             .chain(shapes.map(|shape| &mut shape.time))
             .chain(views.map(|(time, _)| time))
             .for_each(|time| *time = change(*time));
-    }
-
-    /// Motions from the object outwards to the world.
-    pub(crate) fn motion_chain(&self, object: usize) -> Vec<&Motion> {
-        let mut motions = vec![&self.objects[object].motion];
-        let mut parent = self.objects[object].parent;
-        loop {
-            match parent {
-                Parent::World => return motions,
-                Parent::Camera => {
-                    motions.push(&self.camera.motion);
-                    return motions;
-                }
-                Parent::Object(index) => {
-                    motions.push(&self.objects[index].motion);
-                    parent = self.objects[index].parent;
-                }
-            }
-        }
     }
 }

@@ -2,9 +2,27 @@
 
 use glam::DVec3;
 
-use crate::error::TraceError;
 use crate::frame_rate::FrameRate;
-use crate::scene::{Motion, Scene};
+use crate::model::{Motion, Scene};
+
+/// A time at which the scene is not defined, of a later frame or at another frame rate than its
+/// file's.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "scene {scene}: needs {what} at frame {time}, and the keys {edge}; allowed: motions of two keys, which go on steadily, and \
+     others from their first key or shape to their last; take fewer frames, a higher frame rate or a shorter shutter, leave the \
+     scene out, or give it more keys"
+)]
+pub struct UndefinedTime {
+    /// The scene's name, with the frame rate and the frame.
+    pub scene: String,
+    /// What is not defined.
+    pub what: String,
+    /// Where the keys begin or end: `end at frame 3`.
+    pub edge: String,
+    /// Time that was asked for, in frames.
+    pub time: f64,
+}
 
 impl Scene {
     /// Makes the scene as it is `frame` frames later: that time becomes time 0 of the result, for
@@ -13,7 +31,7 @@ impl Scene {
     /// the scene itself.
     ///
     /// Renders of a later frame refuse times at which the scene is not defined; see
-    /// [`TraceError::Undefined`].
+    /// [`UndefinedTime`].
     pub fn at_frame(&self, frame: u32) -> Self {
         assert_eq!(self.id.frame, 0, "frames are counted from the scene's own");
         if frame == 0 {
@@ -46,13 +64,13 @@ impl Scene {
     /// Refuses times at which the scene is not defined, `open` to `close` in frames after the
     /// instant: for a later frame those beyond the end of its keys, and at another frame rate those
     /// before their beginning as well.
-    pub(crate) fn check_defined(&self, open: f64, close: f64) -> Result<(), TraceError> {
+    pub fn check_defined(&self, open: f64, close: f64) -> Result<(), UndefinedTime> {
         let is_own_rate = self.rate() == FrameRate::WRITTEN;
         if is_own_rate && self.id.frame == 0 {
             return Ok(());
         }
         let refuse = |what: String, time: f64, edge: String| {
-            Err(TraceError::Undefined {
+            Err(UndefinedTime {
                 scene: self.id.to_string(),
                 what,
                 edge,
@@ -127,12 +145,7 @@ fn end_of_scale(motion: &Motion, time: f64) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use crate::load_scene;
     use crate::test_scene::load_test_scene;
-    use crate::{Motion, RenderSettings};
-    use frame::Alignment;
-
-    use super::*;
 
     /// Compares two poses. Coordinates of some 100 m are rounded to 1e-14 of their size.
     fn assert_same(pose: glam::DAffine3, expected: glam::DAffine3, what: &str) {
@@ -172,58 +185,5 @@ mod tests {
                 assert_eq!(later.id.to_string(), format!("{name}/{frame:04}"));
             }
         }
-    }
-
-    #[test]
-    fn frame_0_is_the_scene_itself() {
-        let scene = load_test_scene("fan");
-        let settings = RenderSettings::default();
-        let hash = |scene: &Scene| crate::truth_hash(scene, &settings, Alignment::Trailing);
-        let first = scene.at_frame(0);
-        assert_eq!(hash(&first), hash(&scene));
-        assert_eq!(first.id, scene.id);
-        assert_ne!(hash(&scene.at_frame(1)), hash(&scene));
-        assert_ne!(hash(&scene.at_frame(1)), hash(&scene.at_frame(2)));
-    }
-
-    #[test]
-    fn a_scale_does_not_pass_zero() {
-        let mut scene = load_test_scene("fan");
-        let shrink = |time: f64, scale: f64| crate::Key {
-            time,
-            scale: DVec3::splat(scale),
-            ..crate::Key::REST
-        };
-        scene.objects[0].motion = Motion {
-            keys: vec![shrink(0.0, 1.0), shrink(1.0, 0.75)],
-            ..Motion::default()
-        };
-        let check = |frame: u32| {
-            RenderSettings::default().check_truth(&scene.at_frame(frame), Alignment::Trailing)
-        };
-        assert_eq!(check(3).err(), None);
-        assert!(
-            check(4)
-                .unwrap_err()
-                .to_string()
-                .contains("the scale of object")
-        );
-    }
-
-    #[test]
-    fn most_shipped_scenes_go_on_and_the_others_say_where_they_end() {
-        let folder = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes"));
-        let mut ending = Vec::new();
-        for listing in crate::list_scenes(folder).unwrap() {
-            let scene = load_scene(folder.join(&listing.name), None).unwrap();
-            let settings = RenderSettings::default();
-            if settings
-                .check_truth(&scene.at_frame(24), Alignment::Centred)
-                .is_err()
-            {
-                ending.push(scene.id.name);
-            }
-        }
-        assert_eq!(ending, ["flag", "reversal"]);
     }
 }

@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec4};
 
-use crate::scene::Texture;
+use crate::model::Texture;
 
 impl Texture {
     /// The texture's linear RGBA at texture coordinates `uv`, v up: (0, 0) is the image's bottom

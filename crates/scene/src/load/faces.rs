@@ -16,7 +16,7 @@ use std::path::Path;
 use glam::Vec3;
 
 use super::error::SceneError;
-use crate::scene::{Mesh, Object};
+use crate::model::{Mesh, Object};
 
 /// Most faces of a mesh with the same three corners.
 const MAX_COINCIDENT: usize = 256;
