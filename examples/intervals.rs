@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use filters::{Filter, Gpu};
+use measure::{Error, FilterChoice, Monitor, RunPlan, measure_scenes, open_gpu};
 use metrics::{Ideal, Interval, Metric};
 use scene::load_scene;
-use suite::{Error, FilterChoice, Monitor, RunPlan, measure_scenes, open_gpu};
 use tracer::RenderSettings;
 
 /// One filter per shutter: trailing and centred.
@@ -121,7 +121,7 @@ fn run(
     choices: &[FilterChoice],
     (samples_per_pixel, seed): (u32, u64),
     gpu: Option<&Gpu>,
-) -> Result<suite::Run, Error> {
+) -> Result<measure::Run, Error> {
     let [width, height] = SIZE;
     let plan = RunPlan {
         scenes: vec![load_scene(Path::new("scenes").join(scene), None)?],

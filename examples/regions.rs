@@ -7,11 +7,11 @@ use std::process::ExitCode;
 
 use frame::{Alignment, Frame, Image, Picture, Raster, Truth};
 use judge::make_wrong_pictures;
+use measure::Error;
 use metrics::scatter_oracle;
 use metrics::{MeasureError, Reference};
 use rayon::prelude::*;
 use scene::{Scene, list_scenes, load_scene};
-use suite::Error;
 use tracer::{Progress, RenderSettings, trace_frame, trace_truth};
 
 /// FLIP over *moving* and over *support*.

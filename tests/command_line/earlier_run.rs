@@ -38,7 +38,13 @@ fn a_narrower_run_keeps_the_cases_of_a_wider_one() {
     assert!(page.contains("mcguire"));
 
     let more = "--scenes slow --filters identity --seed 2";
-    let parts = "out/run.json | 5 cases | seed was 1, now 2 | --out | --no-cache";
+    let parts = [
+        "out/run.json",
+        "5 cases",
+        "seed was 1, now 2",
+        "--out",
+        "--no-cache",
+    ];
     assert_refused(&sandbox.run(&split(more)), 2, &parts);
     assert_eq!(sorted_names(&sandbox), before);
     sandbox.measure(&format!("{more} --no-cache"));
@@ -66,7 +72,7 @@ fn runs_of_two_sizes_lie_side_by_side() {
     assert_contains(&stderr(&check), &[note]);
     assert_contains(&stdout(&check), &["report: out/48x24/report.html"]);
     assert!(contents() == before, "the run was changed");
-    let run: suite::Run = sandbox.read_json("out/48x24/run.json");
+    let run: measure::Run = sandbox.read_json("out/48x24/run.json");
     assert_eq!((run.render.width, run.render.height), (48, 24));
     // Both runs are read back.
     assert_eq!(stdout(&sandbox.outside_ci(&few)), stdout(&check));
@@ -82,8 +88,13 @@ fn an_earlier_run_that_cannot_be_read_is_not_replaced() {
     bytes.truncate(bytes.len() / 2);
     fs::write(&run, &bytes).unwrap();
     let words = [&quick_command("run", "16")[..], &IDENTITY].concat();
-    let parts =
-        "out/run.json: no run of this program | EOF | repair or remove it | --out | --no-cache";
+    let parts = [
+        "out/run.json: no run of this program",
+        "EOF",
+        "repair or remove it",
+        "--out",
+        "--no-cache",
+    ];
     sandbox.refuse(&words.join(" "), &parts);
     assert_eq!(fs::read(&run).unwrap(), bytes);
     sandbox.measure("--filters identity --no-cache");

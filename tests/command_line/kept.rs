@@ -105,19 +105,22 @@ fn remove_support(path: &Path) {
 #[test]
 fn damaged_replicates_are_rendered_again_and_never_merged() {
     type Damage = fn(&Path);
-    let old = "holds no support | make it anew with `shuttertruth truths render`";
-    let rows: [(Damage, &str); 4] = [
-        (|path| damage(path, "altered"), REPLICATE),
-        (|path| damage(path, "cut"), REPLICATE),
-        (replace_by_another, REPLICATE),
-        (remove_support, old),
+    let old = [
+        "holds no support",
+        "make it anew with `shuttertruth truths render`",
+    ];
+    let rows: [(Damage, &[&str]); 4] = [
+        (|path| damage(path, "altered"), &[REPLICATE]),
+        (|path| damage(path, "cut"), &[REPLICATE]),
+        (replace_by_another, &[REPLICATE]),
+        (remove_support, &old),
     ];
     for (damage, complaint) in rows {
         let sandbox = rendered();
         fs::remove_file(sandbox.path("out/plate/truth_trailing.exr")).unwrap();
         damage(&sandbox.path("out").join(REPLICATE));
         let merged = sandbox.shuttertruth(&split("truths merge out --out joined"));
-        assert_refused(&merged, 2, REPLICATE);
+        assert_refused(&merged, 2, &[REPLICATE]);
         assert_refused(&merged, 2, complaint);
         assert!(!sandbox.path("joined").exists());
         sandbox.execute(&render("out", &[]));
@@ -147,6 +150,32 @@ fn more_replicates_reuse_the_kept_ones() {
     assert_whole(&sandbox, "out");
 }
 
+/// Folders to merge, and parts of the message.
+const INCOMPLETE: [(&str, &[&str]); 6] = [
+    (
+        "start gap",
+        &["3, 4", "replicates 3..4", "plate/truth_trailing"],
+    ),
+    ("start", &["replicates 3 are missing", "truth of 4"]),
+    (
+        "start other",
+        &["start/plate/frame.exr", "other/plate/frame.exr", "differ"],
+    ),
+    (
+        "start rest",
+        &["replicate 3", "other inputs", "content hash"],
+    ),
+    (
+        "start empty",
+        &[
+            "empty",
+            "holds no replicates",
+            "a part A..B of the replicates",
+        ],
+    ),
+    ("nowhere", &["nowhere", "cannot read"]),
+];
+
 #[test]
 fn incomplete_parts_are_refused() {
     let sandbox = Sandbox::new();
@@ -157,7 +186,7 @@ fn incomplete_parts_are_refused() {
         sandbox.execute(&render(out, &["--replicates", part, "--seed", "2"]));
     }
     fs::create_dir(sandbox.path("empty")).unwrap();
-    sandbox.refuse_table("truths merge --out joined", "ranges of replicates");
+    sandbox.refuse_each("truths merge --out joined", &INCOMPLETE);
     assert!(!sandbox.path("joined").exists(), "nothing is written");
 }
 
@@ -196,7 +225,13 @@ fn a_noise_target_adds_replicates_until_it_is_reached_or_reports_a_failure() {
     let more = split("--replicates 2 --noise 1e-9 --most-replicates 5");
     let short = sandbox.shuttertruth(&render("short", &more));
     assert_eq!(short.status.code(), Some(4));
-    let parts = "plate trailing | moving | 4 replicates | --most-replicates | --samples-per-pixel";
+    let parts = [
+        "plate trailing",
+        "moving",
+        "4 replicates",
+        "--most-replicates",
+        "--samples-per-pixel",
+    ];
     assert_contains(&stderr(&short), &parts);
     assert!(sandbox.path("short/plate/truth_trailing.exr").is_file());
 }

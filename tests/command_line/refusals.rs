@@ -2,6 +2,7 @@
 
 use std::fs;
 
+use serde::Deserialize;
 use tests::filter_folder::write_manifest;
 
 use crate::child::{assert_ends_at_ctrl_c, wait_until_busy};
@@ -18,6 +19,20 @@ fn a_missing_adapter_gives_exit_code_3_and_the_way_out() {
     }
 }
 
+/// Rows of refusals.toml.
+#[derive(Deserialize)]
+struct Refusals {
+    writing: Vec<Refusal>,
+    others: Vec<Refusal>,
+}
+
+/// Words of a command line, and parts of the message.
+#[derive(Deserialize)]
+struct Refusal {
+    words: String,
+    message: Vec<String>,
+}
+
 #[test]
 fn bad_arguments_are_refused_with_the_allowed_values_and_leave_nothing_behind() {
     let sandbox = Sandbox::two_scenes();
@@ -25,12 +40,16 @@ fn bad_arguments_are_refused_with_the_allowed_values_and_leave_nothing_behind() 
     let program = "command = ['cp', '{frame}', '{out}']";
     write_manifest(&sandbox.path("outside"), "outside", program);
     let before = files_below(&sandbox.path(""));
-    for (table, more) in [("writing", " --quiet --out out"), ("others", "")] {
-        for row in rows(include_str!("refusals.toml"), table) {
-            sandbox.refuse(&format!("{}{more}", row[0]), &row[1..]);
-            assert_eq!(files_below(&sandbox.path("")), before, "{}", row[0]);
-            assert!(!sandbox.path("out").exists(), "{}", row[0]);
-        }
+    let refusals: Refusals = toml::from_str(include_str!("refusals.toml")).unwrap();
+    let writing = refusals
+        .writing
+        .iter()
+        .map(|row| (row, " --quiet --out out"));
+    let others = refusals.others.iter().map(|row| (row, ""));
+    for (Refusal { words, message }, more) in writing.chain(others) {
+        sandbox.refuse(&format!("{words}{more}"), message);
+        assert_eq!(files_below(&sandbox.path("")), before, "{words}");
+        assert!(!sandbox.path("out").exists(), "{words}");
     }
 }
 
@@ -105,7 +124,11 @@ fn names_that_no_folder_can_have_are_refused_before_anything_is_rendered() {
         format!("check --filter identity --scenes {long}"),
         format!("truths render --scenes {long}"),
     ] {
-        let parts = "folder \"nnnnnn | allowed: up to 240 | give them shorter ones";
+        let parts = [
+            "folder \"nnnnnn",
+            "allowed: up to 240",
+            "give them shorter ones",
+        ];
         assert_refused(&sandbox.outside_ci(&split(&line)), 2, &parts);
         assert!(!sandbox.path("out").exists(), "{line}");
     }

@@ -11,7 +11,7 @@ use std::time::SystemTime;
 use serde::de::DeserializeOwned;
 use tests::filter_folder;
 pub use tests::plate::{MTL, OBJ};
-use tests::text::{Parts, assert_contains, read_rows};
+use tests::text::assert_contains;
 use walkdir::WalkDir;
 
 /// Scene of a plate. The vertical field of view is 60 degrees from 4 m away, so 0.4 m is about 2.7
@@ -181,7 +181,7 @@ impl Sandbox {
 
     /// Runs a line that must be refused with exit code 2 and these words.
     #[track_caller]
-    pub fn refuse(&self, line: &str, parts: &(impl Parts + ?Sized)) {
+    pub fn refuse<T: AsRef<str>>(&self, line: &str, parts: &[T]) {
         println!("{line}");
         assert_refused(&self.shuttertruth(&split(line)), 2, parts);
     }
@@ -192,12 +192,11 @@ impl Sandbox {
         assert!(status.unwrap().success(), "git {line}");
     }
 
-    /// Does the same for a table in tables.txt: more words of the command, and the parts of the
-    /// message.
+    /// Does the same for rows of more words of the command, and the parts of the message.
     #[track_caller]
-    pub fn refuse_table(&self, command: &str, name: &str) {
-        for (words, parts) in read_table(name) {
-            self.refuse(&format!("{command} {words}"), &parts);
+    pub fn refuse_each(&self, command: &str, rows: &[(&str, &[&str])]) {
+        for (words, parts) in rows {
+            self.refuse(&format!("{command} {words}"), parts);
         }
     }
 
@@ -248,7 +247,7 @@ impl Sandbox {
     }
 
     /// Reads run.json of the last run.
-    pub fn read_run(&self) -> suite::Run {
+    pub fn read_run(&self) -> measure::Run {
         self.read_json("out/run.json")
     }
 
@@ -287,7 +286,7 @@ impl Sandbox {
     }
 
     /// Returns the last run's cases without the references.
-    pub fn read_filter_cases(&self) -> Vec<suite::Case> {
+    pub fn read_filter_cases(&self) -> Vec<measure::Case> {
         let cases = self.read_run().cases.into_iter();
         cases.filter(|case| !case.is_reference).collect()
     }
@@ -316,7 +315,7 @@ pub fn assert_done(output: &Output) {
 }
 
 #[track_caller]
-pub fn assert_refused(output: &Output, code: i32, parts: &(impl Parts + ?Sized)) {
+pub fn assert_refused<T: AsRef<str>>(output: &Output, code: i32, parts: &[T]) {
     let message = stderr(output);
     assert_eq!(output.status.code(), Some(code), "{message}");
     assert_contains(&message, parts);
@@ -383,20 +382,4 @@ pub fn python_with(packages: &[&str]) -> String {
     let way_out = "`make test` installs them; or pip install them, and set PYTHON to the Python that has them";
     assert!(is_there, "{python} lacks one of {packages:?}: {way_out}");
     python
-}
-
-/// Reads a table of tables.txt.
-pub fn read_table(name: &str) -> Vec<(&'static str, Vec<&'static str>)> {
-    let begin = format!("\n## {name}\n");
-    let (_, table) = include_str!("tables.txt").split_once(&begin).expect(name);
-    read_rows(table.split("\n## ").next().unwrap_or_default())
-}
-
-/// Reads the rows of a table, with a static lifetime.
-pub fn rows(toml: &str, table: &str) -> Vec<Vec<&'static str>> {
-    let tables: toml::Table = toml.parse().unwrap();
-    let rows: Vec<Vec<String>> = tables[table].clone().try_into().unwrap();
-    assert!(!rows.is_empty(), "{table} has no rows");
-    let leak = |row: Vec<String>| row.into_iter().map(|text| &*text.leak());
-    rows.into_iter().map(|row| leak(row).collect()).collect()
 }

@@ -173,6 +173,42 @@ fn a_guard_band_is_cropped_from_the_picture() {
     assert_contains(&score(&sandbox, "b.exr"), &[note]);
 }
 
+/// Words of `score`, and parts of the message.
+const OTHER_RENDERS: [(&str, &[&str]); 8] = [
+    (
+        "--image b.exr --frame out/plate/frame.exr --truth out/plate/truth_centred.exr",
+        &["b.exr: was made for the shutter alignment trailing, the truth has centred"],
+    ),
+    (
+        "--image b.exr --frame out/plate/frame.exr --truth short/plate/truth_trailing.exr",
+        &["b.exr: was made for an exposure of 0.5, the truth has 0.25"],
+    ),
+    (
+        "--image b.exr --frame short/plate/frame.exr --truth out/plate/truth_trailing.exr",
+        &["the frame's exposure has 0.25, the truth has 0.5"],
+    ),
+    (
+        "--image b.exr --frame out/plate/frame.exr --truth small/plate/truth_trailing.exr",
+        &["b.exr: has 64x32 pixels, the truth has 32x16"],
+    ),
+    (
+        "--image b.exr --frame out/other/frame.exr --truth out/plate/truth_trailing.exr",
+        &["out/other/frame.exr: was rendered from the scene other, the truth from plate"],
+    ),
+    (
+        "--image b.exr --frame out/plate/frame.exr --truth out/plate/frame.exr",
+        &["frame.exr: is a frame; a truth is needed"],
+    ),
+    (
+        "--image b.exr --frame b.exr --truth out/plate/truth_trailing.exr",
+        &["b.exr: is a output; a frame is needed"],
+    ),
+    (
+        "--image short.exr --frame out/plate/frame.exr --truth out/plate/truth_trailing.exr",
+        &["short.exr: was made for an exposure of 0.25, the truth has 0.5"],
+    ),
+];
+
 #[test]
 fn mismatched_files_are_refused() {
     let sandbox = Sandbox::new();
@@ -191,8 +227,29 @@ fn mismatched_files_are_refused() {
     };
     blur("b.exr");
     blur("short.exr --exposure 0.25");
-    sandbox.refuse_table("score", "files of other renders");
+    sandbox.refuse_each("score", &OTHER_RENDERS);
 }
+
+/// Pictures to score, and parts of the message.
+const BAD_PICTURES: [(&str, &[&str]); 8] = [
+    ("nowhere.exr", &["nowhere.exr", "cannot read"]),
+    ("nowhere.png", &["nowhere.png", "cannot read"]),
+    (
+        "scenes/plate/plate.obj",
+        &["plate.obj", "allowed: a name that ends with .exr or .png"],
+    ),
+    ("no.png", &["no.png", "not a PNG that can be read"]),
+    ("no.exr", &["no.exr", "not a complete OpenEXR file"]),
+    (
+        "odd.png",
+        &["odd.png", "has 5x4 pixels, the truth has 64x32"],
+    ),
+    (
+        "part.exr",
+        &["part.exr", r#"lacks the channel "coverage.plate""#],
+    ),
+    ("nan.exr", &["nan.exr", "NaN at pixel (9, 3)"]),
+];
 
 #[test]
 fn bad_pictures_are_refused_with_their_name() {
@@ -207,11 +264,14 @@ fn bad_pictures_are_refused_with_their_name() {
     pixels.pixels[3 * 64 + 9] = [f32::NAN; 3];
     file.push_color("", &pixels);
     write_exr(&sandbox.path("nan.exr"), &file).unwrap();
-    sandbox.refuse_table(&words(""), "bad pictures");
+    sandbox.refuse_each(&words(""), &BAD_PICTURES);
     // A truth of an older version.
     copy_without(&sandbox, "support.", TRUTH, "old.exr");
-    let parts = "old.exr: holds no support | make it anew with `shuttertruth truths render`";
-    sandbox.refuse(&words(OUTPUT).replace(TRUTH, "old.exr"), parts);
+    let parts = [
+        "old.exr: holds no support",
+        "make it anew with `shuttertruth truths render`",
+    ];
+    sandbox.refuse(&words(OUTPUT).replace(TRUTH, "old.exr"), &parts);
 }
 
 #[test]

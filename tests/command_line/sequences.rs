@@ -6,9 +6,9 @@ use std::fs;
 use std::time::SystemTime;
 
 use judge::{RANKED_BY, RankedSequence, rank_sequences, rank_sequences_on};
+use measure::{Run, Sequence};
 use metrics::{Measured, PERFECT_JOD, SequenceMetric};
 use scene::SceneId;
-use suite::{Run, Sequence};
 use tests::text::assert_contains;
 
 use crate::sandbox::{
@@ -85,22 +85,35 @@ fn a_sequence_begins_with_the_frame_without_one_and_goes_on_where_it_ended() {
     assert_page(&sandbox, &printed);
     // JOD depends on the rate: sequences of two rates cannot be one run.
     let other = "--filters velocity_gather:fine --frames 3 --fps 24";
-    let parts = "number of frames was 3 at 60 per second, now 3 at 24 per second | --out";
+    let parts = [
+        "number of frames was 3 at 60 per second, now 3 at 24 per second",
+        "--out",
+    ];
     assert_refused(&sandbox.run(&split(other)), 2, &parts);
 }
 
 /// Three frames have a page, and an animation for each case.
 fn assert_page(sandbox: &Sandbox, printed: &str) {
-    let parts = "3 frames | plate, trailing shutter | flick | along | dirt | identity:default | \
-        out/sequences.html";
+    let parts = [
+        "3 frames",
+        "plate, trailing shutter",
+        "flick",
+        "along",
+        "dirt",
+        "identity:default",
+        "out/sequences.html",
+    ];
     assert_contains(printed, &parts);
     let mut lines = printed.lines();
     assert!(lines.all(|line| line.chars().count() <= 80), "{printed}");
     let page = sandbox.text("out/sequences.html");
-    let paths =
-        "plate/0001/frame.png | plate/0002/identity_default/change.png | plate/truth_trailing.png";
-    assert_contains(&page, paths);
-    for path in paths.split(" | ") {
+    let paths = [
+        "plate/0001/frame.png",
+        "plate/0002/identity_default/change.png",
+        "plate/truth_trailing.png",
+    ];
+    assert_contains(&page, &paths);
+    for path in paths {
         assert!(sandbox.path("out").join(path).is_file(), "{path}");
     }
     assert!(page.contains("img-src data: 'self' file:"));
@@ -152,8 +165,12 @@ fn frames_at_which_a_scene_is_not_defined_are_refused() {
     );
     sandbox.write("scene.toml", &path);
     let refused = sandbox.run(&[&IDENTITY[..], &["--frames", "4"]].concat());
-    let parts =
-        "scene plate/0003 | the motion of object plate at frame 3 | end at frame 2.5 | two keys";
+    let parts = [
+        "scene plate/0003",
+        "the motion of object plate at frame 3",
+        "end at frame 2.5",
+        "two keys",
+    ];
     assert_refused(&refused, 2, &parts);
     assert!(!sandbox.path("out/plate").exists(), "nothing was rendered");
     sandbox.measure(THREE);

@@ -5,6 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use filters::{Blur, Filter, FilterError};
+use serde::Deserialize;
 use tests::text::assert_contains;
 use tests::{root, shared_gpu};
 
@@ -12,6 +13,14 @@ use tests::{root, shared_gpu};
 pub fn ready(filter: &Filter, (width, height): (u32, u32)) -> Result<Blur<'static>, FilterError> {
     let settings = filter.settings(None).unwrap();
     Blur::new(shared_gpu(), filter, &settings, width, height)
+}
+
+/// A row of refusals.toml: a text, its replacement, and parts of the message.
+#[derive(Deserialize)]
+struct Change {
+    from: String,
+    to: String,
+    message: Vec<String>,
 }
 
 /// Files of a filter folder, by name.
@@ -67,16 +76,13 @@ impl FilterFiles {
     #[track_caller]
     pub fn assert_refused(&self, table: &str) {
         let tables: toml::Table = include_str!("refusals.toml").parse().unwrap();
-        let files: BTreeMap<String, Vec<Vec<String>>> = tables[table].clone().try_into().unwrap();
-        for (name, rows) in &files {
-            for row in rows {
-                let [from, to, parts @ ..] = &row[..] else {
-                    panic!("{table}: {row:?} lacks a text or its replacement");
-                };
+        let files: BTreeMap<String, Vec<Change>> = tables[table].clone().try_into().unwrap();
+        for (name, changes) in &files {
+            for Change { from, to, message } in changes {
                 let Err(error) = self.changed(name, from, to).load() else {
                     panic!("\"{from}\" -> \"{to}\" was accepted");
                 };
-                assert_contains(&format!("\"{from}\" -> \"{to}\": {error}"), parts);
+                assert_contains(&format!("\"{from}\" -> \"{to}\": {error}"), message);
             }
         }
     }

@@ -1,9 +1,9 @@
 //! Intervals of filters' scores: they contain the score of a frame and a truth without noise.
 
 use filters::{Filter, Gpu};
+use measure::{FilterChoice, Monitor, RunPlan, measure_scenes};
 use metrics::Interval;
 use scene::load_scene;
-use suite::{FilterChoice, Monitor, RunPlan, measure_scenes};
 use tests::{open_gpu, settings};
 use tracer::RenderSettings;
 

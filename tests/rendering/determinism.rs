@@ -6,7 +6,6 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use frame::{Alignment, Efficiency, Frame, Ladder, Picture, Truth, VelocityKind};
 use glam::{DVec3, Vec3};
 use scene::{Background, Lens, Scene};
-use tests::text::read_rows;
 use tracer::{
     PixelGrid, Progress, RenderSettings, TraceError, frame_hash, ladder_hash, replicate_hash,
     trace_frame_part, trace_ladder, trace_truth, truth_hash,
@@ -228,6 +227,34 @@ fn progress_rises_to_the_whole_and_break_cancels() {
     assert!(calls.into_inner() < 20, "work went on after the break");
 }
 
+/// Changes of settings, and the end of the message.
+const BAD_SETTINGS: [(fn(&mut RenderSettings), &str); 6] = [
+    (
+        |settings| settings.samples_per_pixel = 100,
+        "is 100 over 8 replicates; allowed: 8 times a power of two up to 65536, such as 128",
+    ),
+    (
+        |settings| settings.samples_per_pixel = 4,
+        "is 4 over 8 replicates; allowed: 8 times a power of two up to 65536, such as 8",
+    ),
+    (
+        |settings| settings.replicates = 3,
+        "replicates is 3; allowed: even numbers from 2, such as 8",
+    ),
+    (
+        |settings| settings.replicates = 0,
+        "replicates is 0; allowed: even numbers from 2, such as 8",
+    ),
+    (
+        |settings| settings.height = 0,
+        "size is 33x0; allowed: 1 to 16384 pixels on either side, 67108864 in all",
+    ),
+    (
+        |settings| settings.exposure = Some(-0.5),
+        "exposure is -0.5 frames; allowed: above 0 and finite (0.5 frames = 180 degrees)",
+    ),
+];
+
 #[test]
 fn bad_settings_are_refused_with_the_allowed_values() {
     let scene = busy_scene();
@@ -236,17 +263,11 @@ fn bad_settings_are_refused_with_the_allowed_values() {
         let refused = trace_truth(scene, &settings, alignment, &unwatched);
         refused.expect_err("refused").to_string()
     };
-    for (change, expected) in read_rows(include_str!("refused_settings.txt")) {
-        let (mut settings, (name, number)) = (settings, change.split_once(' ').unwrap());
-        let number: f64 = number.parse().unwrap();
-        match name {
-            "samples" => settings.samples_per_pixel = number as u32,
-            "replicates" => settings.replicates = number as u32,
-            "height" => settings.height = number as u32,
-            _ => settings.exposure = Some(number),
-        }
+    for (change, expected) in BAD_SETTINGS {
+        let mut settings = settings;
+        change(&mut settings);
         let refused = refusal(&scene, settings, Alignment::Centred);
-        assert!(refused.ends_with(expected[0]), "{refused}");
+        assert!(refused.ends_with(expected), "{refused}");
     }
     let mut zoom = scene.clone();
     zoom.camera.vertical_fov = vec![(0.0, 1.0), (0.1, 2.0)];

@@ -2,7 +2,7 @@
 
 use frame::{ColorSampling, Frame, VelocityKind};
 use glam::{DVec3, Vec3};
-use scene::{Background, Key, Scene};
+use scene::{Background, Key, Scene, SizeError};
 use tracer::{
     PixelGrid, PointMotion, RenderSettings, TraceError, frame_hash, trace_frame_part,
     trace_motion_on,
@@ -143,5 +143,8 @@ fn a_grid_without_pixels_is_refused() {
     let grid = PixelGrid::of_picture(0, 4);
     let settings = settings([WIDTH, HEIGHT]);
     let refused = trace_frame_part(&drifting_sphere(), &settings, &grid, None, &unwatched);
-    assert!(matches!(refused, Err(TraceError::Size { width: 0, .. })));
+    assert!(matches!(
+        refused,
+        Err(TraceError::Size(SizeError { width: 0, .. }))
+    ));
 }

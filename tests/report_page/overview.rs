@@ -112,7 +112,14 @@ fn a_cell_shows_its_worst_place_and_a_name_leads_to_the_filter(browser: &mut Bro
     browser.until("location.hash === '#filter:velocity_gather:fine'");
     assert!(!browser.shows("#overview"));
     let text = browser.text("$('article.open').innerText");
-    let parts = "velocity_gather:fine | published | limits | Parameters | Scenes, the weakest first | plate";
+    let parts = [
+        "velocity_gather:fine",
+        "published",
+        "limits",
+        "Parameters",
+        "Scenes, the weakest first",
+        "plate",
+    ];
     assert_contains(&text, &parts);
     browser.click("article.open a.scene");
     browser.until("location.hash.startsWith('#plate/velocity_gather:fine')");

@@ -1,10 +1,10 @@
 //! Intervals of scores, counted over many noisy truths: they contain the score's limit.
 
 use frame::{Alignment, Frame, Picture, Raster, Replicate, Truth};
+use measure::{Groups, Intervals, intervals};
 use metrics::{Metric, Reference, Scores, scatter_oracle};
 use rayon::prelude::*;
 use scene::load_scene;
-use suite::{Groups, Intervals, intervals};
 use tests::synthetic::{Blur, Object, Scene, Shape};
 use tests::unwatched;
 use tracer::{RenderSettings, TruthTracer, trace_frame, trace_ladder, trace_truth};
@@ -22,7 +22,10 @@ fn measure_scores(picture: &Picture, frame: &Frame, truth: &Truth) -> Scores {
 }
 
 /// Intervals of a blur's scores per noisy truth, and the converged scores.
-type Found = (Vec<Intervals>, Scores);
+struct Converged {
+    intervals: Vec<Intervals>,
+    scores: Scores,
+}
 
 /// Computes the intervals of pictures' scores from the replicates of one noisy truth.
 fn intervals_of(pictures: &[&Picture], frame: &Frame, replicates: &[Replicate]) -> Vec<Intervals> {
@@ -45,21 +48,21 @@ fn intervals_of(pictures: &[&Picture], frame: &Frame, replicates: &[Replicate]) 
     pictures.iter().map(of_picture).collect()
 }
 
-fn measure_intervals(scene: &Scene, blur: &Blur) -> Found {
+fn measure_intervals(scene: &Scene, blur: &Blur) -> Converged {
     let frame = scene.frame();
     let converged = scene.truth([noisy(8192, 1), noisy(8192, 2)]);
     let picture = scene.render(blur, noisy(4096, 3));
-    let intervals_by_seed = (0..SEEDS)
+    let intervals_by_seed: Vec<Intervals> = (0..SEEDS)
         .into_par_iter()
         .map(|seed| {
             let samplings = (0..REPLICATES).map(|index| noisy(16, 100 + REPLICATES * seed + index));
             intervals_of(&[&picture], &frame, &scene.replicates(samplings)).remove(0)
         })
         .collect();
-    (
-        intervals_by_seed,
-        measure_scores(&picture, &frame, &converged),
-    )
+    Converged {
+        intervals: intervals_by_seed,
+        scores: measure_scores(&picture, &frame, &converged),
+    }
 }
 
 /// Does the same for a shipped scene, with truths traced as for users, and for several pictures.
@@ -70,7 +73,7 @@ fn trace_intervals(
     size: [u32; 2],
     samples_of_converged: u32,
     seeds: u64,
-) -> [(&'static str, Found); 4] {
+) -> [(&'static str, Converged); 4] {
     let scene = load_scene(tests::scenes().join(name), None).unwrap();
     let settings = |samples_per_pixel, seed| {
         let settings = tests::settings(size, samples_per_pixel);
@@ -103,17 +106,12 @@ fn trace_intervals(
         .collect();
     std::array::from_fn(|at| {
         let (name, picture) = &pictures[at];
-        let intervals_of_picture = intervals_by_seed
-            .iter()
-            .map(|intervals| intervals[at].clone())
-            .collect();
-        (
-            *name,
-            (
-                intervals_of_picture,
-                measure_scores(picture, &frame, &truth),
-            ),
-        )
+        let intervals = intervals_by_seed.iter();
+        let measured = Converged {
+            intervals: intervals.map(|intervals| intervals[at].clone()).collect(),
+            scores: measure_scores(picture, &frame, &truth),
+        };
+        (*name, measured)
     })
 }
 
@@ -127,12 +125,15 @@ fn shift(picture: &Picture) -> Picture {
 }
 
 /// Counts the intervals of a metric that contain its converged score.
-fn count_holding(metric: &str, (all_intervals, converged): &Found) -> usize {
+fn count_holding(metric: &str, measured: &Converged) -> usize {
     let metric = metric.parse().unwrap();
-    let expected = converged.get(metric).value().unwrap();
-    (all_intervals.iter().map(|intervals| &intervals[&metric]))
-        .filter(|interval| (interval.low..=interval.high).contains(&expected))
-        .count()
+    let expected = measured.scores.get(metric).value().unwrap();
+    (measured
+        .intervals
+        .iter()
+        .map(|intervals| &intervals[&metric]))
+    .filter(|interval| (interval.low..=interval.high).contains(&expected))
+    .count()
 }
 
 /// Expects that about 95 % of the intervals of a blur's scores contain the converged score.
@@ -189,7 +190,7 @@ fn assert_traced(scene: &str, size: [u32; 2], seeds: u64, of_moved: &str) {
     // Four standard deviations below the mean: of 48 intervals 45.6, with one of 1.5.
     let seeds = seeds as f64;
     let least = (0.95 * seeds - 4.0 * (0.95 * 0.05 * seeds).sqrt()).ceil() as usize;
-    let assert_held = |picture: &str, metric: &str, measured: &Found| {
+    let assert_held = |picture: &str, metric: &str, measured: &Converged| {
         let held = count_holding(metric, measured);
         let what = format!("{scene}, {picture}, {metric}");
         assert!(held >= least, "{what}: {held} of {seeds}");

@@ -2,11 +2,10 @@
 //! ladder are.
 
 use frame::{Alignment, Frame, Image, Ladder, Picture, Region, Replicate, Truth, regions};
+use measure::{Groups, LADDER};
 use metrics::{Equivalent, EquivalentMetric, EquivalentScores, Errors, Reference, Subframes};
 use rayon::prelude::*;
 use scene::{Scene, list_scenes, load_scene};
-use store::LADDER;
-use suite::Groups;
 use tests::unwatched;
 use tracer::{LadderTracer, RenderSettings, TruthTracer, trace_frame, trace_ladder};
 

@@ -2,10 +2,11 @@
 
 use std::fs;
 
-use judge::{SceneBounds, calibrate, read_bounds_file};
+use gate::calibrate;
+use judge::{SceneBounds, read_bounds_file};
+use measure::Run;
 use metrics::Metric;
 use scene::SceneId;
-use suite::Run;
 
 /// Makes the bounds of a scene that `calibrate` proposes after several runs of sound filters.
 pub fn calibrate_scene(runs: &[Run], metrics: &[Metric], scene: &SceneId) -> SceneBounds {

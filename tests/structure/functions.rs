@@ -9,7 +9,6 @@ const MAX_LINES: usize = 60;
 
 /// Longer functions that read better whole.
 const EXCEPTIONS: &[(&str, &str)] = &[
-    ("crates/cli/src/commands/check.rs", "execute"),
     ("crates/metrics/src/sequence/reference.rs", "measure"),
     ("crates/bvh/src/tree.rs", "traverse"),
     ("crates/scene/src/load/mod.rs", "load_scene_and_files"),

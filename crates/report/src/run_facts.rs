@@ -5,8 +5,8 @@ use std::collections::HashSet;
 use filters::AdapterDescription;
 use frame::Alignment;
 use maud::{Markup, html};
+use measure::{Case, Run};
 use scene::SceneId;
-use suite::{Case, Run};
 
 use crate::case_table::CaseTable;
 use crate::table::Column::{Plain, Text};

@@ -21,7 +21,7 @@ fn junit_has_a_case_for_every_bound() {
         "bounds.toml",
         &(bound("misplacement", 1.0, "report") + &bounds.concat()),
     );
-    check(&sandbox, "--junit x/junit.xml", 1, "FAIL");
+    check(&sandbox, "--junit x/junit.xml", 1, &["FAIL"]);
     let text = sandbox.text("x/junit.xml");
     let report = Report::deserialize_from_str(&text).unwrap();
     assert_eq!(report.test_suites.len(), 1, "one scene: {text}");
@@ -46,7 +46,7 @@ fn annotations(sandbox: &Sandbox, filters: &str, part: &str) -> Vec<String> {
     let more = ["--github", "--junit", "junit.xml", "--filters", filters];
     let mut command = sandbox.command(&[&quick_command("check", "64")[..], &more].concat());
     command.env("GITHUB_STEP_SUMMARY", sandbox.path("summary.md"));
-    let text = assert_ends(&command.output().unwrap(), 1, part);
+    let text = assert_ends(&command.output().unwrap(), 1, &[part]);
     let lines = text.lines().filter(|line| line.starts_with("::"));
     lines.map(str::to_owned).collect()
 }

@@ -37,7 +37,7 @@ fn a_broken_bound_gives_exit_code_1_and_its_evidence() {
     assert!(sandbox.path(picture).is_file());
     // JSON has the same verdict.
     let verdict = json(&sandbox, "--filters identity");
-    assert_eq!(verdict["format"], judge::CHECK_FORMAT);
+    assert_eq!(verdict["format"], gate::CHECK_FORMAT);
     assert_eq!(verdict["decision"], "broken");
     let finding = &verdict["findings"][0];
     for (key, value) in [
@@ -92,7 +92,11 @@ fn a_limit_inside_the_interval_gives_exit_code_4_and_the_samples_to_decide() {
     // times the samples halve the width twice.
     let limit = 0.5 * (low + high) + 0.26 * 0.5 * (high - low);
     sandbox.write("bounds.toml", &bound("flip_moving", limit, "required"));
-    let parts = "UNDECIDED flip_moving | 1024 samples per pixel would settle it | raise the samples per pixel";
+    let parts = [
+        "UNDECIDED flip_moving",
+        "1024 samples per pixel would settle it",
+        "raise the samples per pixel",
+    ];
     check(&sandbox, "", 4, &parts);
     let value = finding["value"].as_f64().unwrap();
     write_target(&sandbox, value.min(limit));
@@ -113,9 +117,9 @@ fn an_undecided_bound_within_three_floors_gives_exit_code_2_and_the_strictest_bo
     sandbox.write("bounds.toml", &bound("flip_moving", middle, "required"));
     let allowed = format!("the noise floor of {floor:.5}");
     let within = "LIMIT WITHIN NOISE flip_moving";
-    let words = "at the strictest | stricter than three noise floors";
+    let words = ["at the strictest", "stricter than three noise floors"];
     check(&sandbox, "", 2, &[within, &allowed[..20]]);
-    check(&sandbox, "", 2, words);
+    check(&sandbox, "", 2, &words);
     // A target fails nothing.
     write_target(&sandbox, middle);
     check(&sandbox, "-v", 0, &["target within noise flip_moving"]);
@@ -187,7 +191,7 @@ fn an_error_map_that_no_file_holds_is_measured_again() {
     let out = sandbox.path("out");
     let errors = read_exr(&out.join(&case.folder).join("errors.exr")).unwrap();
     assert!(errors.plane("absolute_error").is_err(), "it is not kept");
-    let maps = suite::ErrorMaps::read(case, &out).unwrap();
+    let maps = measure::ErrorMaps::read(case, &out).unwrap();
     let map = maps.map("absolute_error").unwrap();
     let frame = Frame::read(&out.join("plate/frame.exr")).unwrap();
     let truth = Truth::read(&out.join("plate/truth_trailing.exr")).unwrap();
@@ -259,6 +263,10 @@ fn a_judgement_of_another_run_is_refused() {
     let run = sandbox.path("out/run.json");
     let text = fs::read_to_string(&run).unwrap();
     fs::write(&run, text.replace("\"seed\": 1,", "\"seed\": 2,")).unwrap();
-    let parts = "judgement.json | about another run.json | shuttertruth check out/run.json";
-    sandbox.refuse("report out --html page.html", parts);
+    let parts = [
+        "judgement.json",
+        "about another run.json",
+        "shuttertruth check out/run.json",
+    ];
+    sandbox.refuse("report out --html page.html", &parts);
 }

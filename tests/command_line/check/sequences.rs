@@ -1,8 +1,8 @@
 //! Limits on scores of sequences.
 
 use judge::Outcome;
+use measure::Run;
 use metrics::{Metric, SequenceMetric};
-use suite::Run;
 use tests::text::assert_contains;
 
 use super::{assert_ends, assert_limits, calibrate, check, json};
@@ -43,10 +43,18 @@ fn a_check_judges_the_sequence_and_the_first_frame_as_without_it() {
     let alone = text(&sandbox.read_run());
 
     // With frames, the first one is judged as without them.
-    let broken = "plate / identity:default | BROKEN flicker over 3 frames 0.0 | white^2 (95 % CI  | ; limit 0.0001000, floor  | \
-        scenes/plate/bounds.toml:4: a hundredth of white | worst in frame  | 3 required bounds: 2 met, 1 broken | \
-        1 target: 1 met | FAIL";
-    let printed = check(&sandbox, "--frames 3 --junit junit.xml", 1, broken);
+    let broken = [
+        "plate / identity:default",
+        "BROKEN flicker over 3 frames 0.0",
+        "white^2 (95 % CI ",
+        "; limit 0.0001000, floor ",
+        "scenes/plate/bounds.toml:4: a hundredth of white",
+        "worst in frame ",
+        "3 required bounds: 2 met, 1 broken",
+        "1 target: 1 met",
+        "FAIL",
+    ];
+    let printed = check(&sandbox, "--frames 3 --junit junit.xml", 1, &broken);
     assert!(!printed.contains("not judged"), "{printed}");
     assert_eq!(text(&sandbox.read_run()), alone, "bit for bit");
     assert_eq!(sandbox.read_findings()[0], findings[0]);

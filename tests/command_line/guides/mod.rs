@@ -6,11 +6,13 @@ mod reader;
 mod tables;
 
 use std::fs;
+use std::sync::LazyLock;
 use std::time::Instant;
 
 use page::{Step, find_steps};
 use quick::shorten;
 use reader::Reader;
+use serde::Deserialize;
 use tests::root;
 
 use crate::links::find_pages;
@@ -19,24 +21,25 @@ use crate::sandbox::{stderr, stdout};
 /// Commands that are not run, each below the reason.
 const NOT_RUN: &str = include_str!("not_run.txt");
 
-/// Prerequisites of a page's command: the page and the beginning of the command, and a line of
-/// shell that makes them. The engine of docs/engine-frames.md draws a still picture: a frame file
-/// has all channels that a capture needs.
-const PREPARED: &str = include_str!("prepared.txt");
+/// Prerequisites of a page's command.
+#[derive(Clone, Deserialize)]
+struct Prepared {
+    page: String,
+    /// The beginning of the command.
+    command: String,
+    /// The line of shell that makes what the command needs.
+    shell: String,
+}
+
+static PREPARED: LazyLock<Vec<Prepared>> = LazyLock::new(|| {
+    let mut table: toml::Table = include_str!("prepared.toml").parse().unwrap();
+    let rows = table.remove("prepared").unwrap();
+    rows.try_into().unwrap()
+});
 
 fn list_not_run() -> impl Iterator<Item = &'static str> {
     let lines = NOT_RUN.lines();
     lines.filter(|line| !line.is_empty() && !line.starts_with('#'))
-}
-
-/// Lists pages, beginnings of commands, and lines of shell.
-fn list_prepared() -> Vec<(&'static str, &'static str, &'static str)> {
-    let lines: Vec<&str> = PREPARED.lines().collect();
-    let pairs = lines.chunks(2).map(|pair| {
-        let (page, beginning) = pair[0].split_once(": ").unwrap();
-        (page, beginning, pair[1].trim())
-    });
-    pairs.collect()
 }
 
 /// Lists the pages, by their paths in the repository, with their readers' steps.
@@ -50,9 +53,10 @@ fn read_pages() -> Vec<(String, Vec<Step>)> {
 
 /// Finds the line of shell that makes a command's prerequisites.
 fn find_prepared(page: &str, command: &str) -> Option<&'static str> {
-    let mut all = list_prepared().into_iter();
-    let prepared = all.find(|(of, beginning, _)| *of == page && command.starts_with(beginning));
-    prepared.map(|(_, _, line)| line)
+    let is_needed =
+        |prepared: &&Prepared| prepared.page == page && command.starts_with(&prepared.command);
+    let prepared = PREPARED.iter().find(is_needed);
+    prepared.map(|prepared| prepared.shell.as_str())
 }
 
 fn is_left_out(command: &str) -> bool {
@@ -78,9 +82,14 @@ fn every_exception_is_a_command_of_a_page() {
         let shown = (commands.iter()).any(|(_, command)| command.starts_with(beginning));
         assert!(shown, "no page shows a command \"{beginning} ..\"");
     }
-    for (page, beginning, _) in list_prepared() {
+    for Prepared {
+        page,
+        command: beginning,
+        ..
+    } in PREPARED.iter()
+    {
         let shown =
-            (commands.iter()).any(|(of, command)| *of == page && command.starts_with(beginning));
+            (commands.iter()).any(|(of, command)| of == page && command.starts_with(beginning));
         assert!(shown, "{page} has no command \"{beginning} ..\"");
     }
 }

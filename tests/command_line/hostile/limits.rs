@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use frame::{ExrFile, Raster, write_exr};
+use serde::Deserialize;
 use serde_json::Value;
 use tests::root;
 use tests::text::assert_contains;
@@ -120,15 +121,35 @@ fn use_sky(sandbox: &Sandbox, content: &str) {
     sandbox.write("sky.hdr", content);
 }
 
+/// A row of texts.toml.
+#[derive(Deserialize)]
+struct Text {
+    file: String,
+    before: String,
+    #[serde(default)]
+    insert: String,
+    #[serde(default)]
+    repeat: String,
+    #[serde(default)]
+    count: usize,
+    message: Vec<String>,
+}
+
+#[derive(Deserialize)]
+struct Texts {
+    text: Vec<Text>,
+}
+
 #[test]
 fn text_beyond_a_limit_is_refused_with_its_file() {
-    for row in rows(include_str!("refusals.toml"), "texts") {
-        let count: usize = row[4].parse().unwrap();
-        let pieces = (0..count).map(|at| row[3].replace("{}", &at.to_string()));
-        let more = row[2].to_owned() + &pieces.collect::<String>() + row[1];
+    let texts: Texts = toml::from_str(include_str!("texts.toml")).unwrap();
+    for text in texts.text {
+        let repeat = |at: usize| text.repeat.replace("{}", &at.to_string());
+        let pieces: String = (0..text.count).map(repeat).collect();
+        let more = format!("{}{pieces}{}", text.insert, text.before);
         let sandbox = with_mine();
-        sandbox.edit(row[0], row[1], &more);
-        sandbox.refuse(RUN, row[5]);
+        sandbox.edit(&text.file, &text.before, &more);
+        sandbox.refuse(RUN, &text.message);
     }
 }
 
@@ -137,12 +158,12 @@ fn pictures_and_records_beyond_a_limit_are_refused_before_allocation() {
     let sandbox = with_mine();
     let sky = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 30000 +X 60000\n";
     use_sky(&sandbox, sky);
-    sandbox.refuse(RUN, "scene.toml:12: | 1800000000 texels; allowed: 1 to");
+    sandbox.refuse(RUN, &["scene.toml:12:", "1800000000 texels; allowed: 1 to"]);
     // A sparse file takes no disk space.
     let file = fs::File::create(sandbox.path("scenes/plate/plate.obj")).unwrap();
     file.set_len(scene::limits::LARGEST_MESH_FILE + 1).unwrap();
     sandbox.write("scene.toml", SCENE);
-    sandbox.refuse(RUN, "scene.toml:15: mesh | at most 2147483648 are read");
+    sandbox.refuse(RUN, &["scene.toml:15: mesh", "at most 2147483648 are read"]);
 
     let refuse_score = |name: &str, bytes: Vec<u8>, claim: &str| {
         sandbox.put(name, bytes);
@@ -158,8 +179,8 @@ fn pictures_and_records_beyond_a_limit_are_refused_before_allocation() {
     let mut run: Value = sandbox.read_json("out/run.json");
     run["replicates"] = 4_000_000_000_u64.into();
     sandbox.put("out/run.json", run.to_string());
-    let parts = "out/run.json | 4000000000 replicates; allowed: 1 to 4096";
-    sandbox.refuse("report out --html page.html", parts);
+    let parts = ["out/run.json", "4000000000 replicates; allowed: 1 to 4096"];
+    sandbox.refuse("report out --html page.html", &parts);
 }
 
 /// The test hangs if a file is opened after all.
@@ -201,7 +222,7 @@ fn control_characters_in_names_are_never_printed() {
     assert_contains(&table, &["a\\n::error::b\\u001b[2J"]);
     let name = "a\n::error::b\u{1b}[2J";
     let output = sandbox.shuttertruth(&["run", "--out", "o", "--scenes-dir", name]);
-    assert_refused(&output, 2, "::error::b");
+    assert_refused(&output, 2, &["::error::b"]);
     for text in [table, stderr(&output)] {
         let obeyed = |letter: char| letter.is_control() && letter != '\n';
         assert!(!text.contains(obeyed), "{text:?}");

@@ -9,7 +9,7 @@ use tests::text::assert_contains;
 
 use super::capture::{Capture, DESCRIPTION, HEIGHT, WIDTH};
 use super::{OUT, ingest};
-use crate::sandbox::{Sandbox, read_table, split, stderr};
+use crate::sandbox::{Sandbox, split, stderr};
 
 const INGEST: &str = "engine ingest capture -o out/engine/mine";
 /// Names of the buffers' files, and of Blender's passes.
@@ -94,7 +94,10 @@ fn one_file_of_blender_s_passes_gives_the_same_frame() {
     assert_eq!(show(&sandbox), expected);
     file.push_plane("Other.Depth.Z", &expected.2);
     write_exr(&capture.path("buffers.exr"), &file).unwrap();
-    let parts = "buffers.exr: has the channels Other.Depth.Z and ViewLayer.Depth.Z, which differ | allowed: one of them";
+    let parts = [
+        "buffers.exr: has the channels Other.Depth.Z and ViewLayer.Depth.Z, which differ",
+        "allowed: one of them",
+    ];
     sandbox.refuse(INGEST, &parts);
 }
 
@@ -116,6 +119,41 @@ fn dump(planes: &[Plane], is_half: bool) -> Vec<u8> {
     bytes
 }
 
+/// Texts of a capture.toml, their replacements, and parts of the message.
+const BAD_LAYOUTS: [(&str, &str, &[&str]); 5] = [
+    (
+        "height = 54",
+        "height = 53",
+        &[
+            "color.raw: has 31104 bytes; 96x53 pixels of 3 f16 have 30528",
+            "its layout in capture.toml",
+        ],
+    ),
+    (
+        "components = 2",
+        "components = 5",
+        &[
+            "[raw.velocity] 96x54 pixels of 5 components; allowed: 16 to 16384",
+            "1 to 4",
+        ],
+    ),
+    (
+        "raw.depth",
+        "raw.normal",
+        &["[raw.normal]; allowed: color, velocity, velocity_next, velocity_z, depth, object"],
+    ),
+    (
+        "raw.color",
+        "extra.color",
+        &["capture.toml:5: unknown field `extra`"],
+    ),
+    (
+        r#""f32""#,
+        r#""f64""#,
+        &["capture.toml:", "unknown variant `f64`"],
+    ),
+];
+
 #[test]
 fn raw_dumps_give_the_same_frame_and_need_their_layout() {
     let sandbox = Sandbox::new();
@@ -136,10 +174,9 @@ fn raw_dumps_give_the_same_frame_and_need_their_layout() {
     }
     capture.write("capture.toml", &described);
     assert_eq!(show(&sandbox), expected);
-    for (change, parts) in read_table("raw pictures") {
-        let (from, to) = change.split_once('/').unwrap();
+    for (from, to, parts) in BAD_LAYOUTS {
         capture.write("capture.toml", described.replace(from, to));
-        sandbox.refuse(INGEST, &parts);
+        sandbox.refuse(INGEST, parts);
     }
     capture.write("capture.toml", &described);
     for (name, each) in [("color", 2), ("velocity", 4), ("depth", 4)] {
@@ -149,13 +186,19 @@ fn raw_dumps_give_the_same_frame_and_need_their_layout() {
             .chunks(each)
             .flat_map(|bytes| bytes.iter().rev().copied());
         fs::write(&path, big.collect::<Vec<u8>>()).unwrap();
-        let parts =
-            format!("{name}.raw: holds | big-endian; allowed: little-endian | capture.toml");
-        sandbox.refuse(INGEST, &*parts);
+        let parts = [
+            &*format!("{name}.raw: holds "),
+            "big-endian; allowed: little-endian",
+            "capture.toml",
+        ];
+        sandbox.refuse(INGEST, &parts);
         fs::write(&path, little).unwrap();
     }
     capture.write("capture.toml", DESCRIPTION);
-    let parts = "color.raw: is a raw dump without a layout | add [raw.color]";
+    let parts = [
+        "color.raw: is a raw dump without a layout",
+        "add [raw.color]",
+    ];
     sandbox.refuse(INGEST, &parts);
 }
 
@@ -169,18 +212,56 @@ fn a_capture_without_sub_frames_has_no_truth_to_run_against() {
     sandbox.refuse(words, &["drew no sub-frames", "score"]);
 }
 
+/// Commands that ask an engine's picture for what it has not, and parts of the message.
+const OTHER_SETTINGS: [(&str, &[&str]); 8] = [
+    (
+        "run --scenes out/engine/mine --size 64x32",
+        &["was drawn at 96x54", "at its own size"],
+    ),
+    (
+        "run --scenes out/engine/mine --exposure 1",
+        &["--exposure", "as Test Engine 1.2 drew it"],
+    ),
+    (
+        "run --scenes out/engine/mine --guard-band 8",
+        &["--guard-band", "leave the option out"],
+    ),
+    (
+        "run --scenes out/engine/mine,./out/engine/mine",
+        &["is named twice", "rename"],
+    ),
+    (
+        "run --scenes out/engine/mine --filter mcguire",
+        &["no filter is left", "trailing shutter"],
+    ),
+    (
+        "run --scenes out/engine/mine --input defect=half,lag",
+        &[
+            "defect=lag: needs the scene's own motion",
+            "zero, double, half, flip_y, jittered",
+        ],
+    ),
+    (
+        "truths render --scenes out/engine/mine",
+        &["holds what an engine drew", "`run` and `check`"],
+    ),
+    (
+        "limits calibrate --scenes out/engine/mine",
+        &["does not change from run to run", "bounds.toml"],
+    ),
+];
+
 #[test]
 fn what_an_engine_drew_is_not_rendered_otherwise() {
     let sandbox = Sandbox::new();
     Capture::new(&sandbox).with_subframes(4);
     ingest(&sandbox);
-    for (words, parts) in read_table("settings of captures") {
-        let words = words.replace("MINE", "out/engine/mine");
-        let output = sandbox.shuttertruth(&split(&words));
+    for (words, parts) in OTHER_SETTINGS {
+        let output = sandbox.shuttertruth(&split(words));
         // Notes about omitted filters may come before the refusal.
         let message = stderr(&output);
         assert_eq!(output.status.code(), Some(2), "{message}");
-        assert_contains(&message, &parts);
+        assert_contains(&message, parts);
     }
     let begun = sandbox.path("out/mine@Test_Engine_1.2");
     assert!(!begun.exists(), "a run began before it was refused");
@@ -205,9 +286,18 @@ fn files_of_two_captures_are_not_mixed() {
         fs::write(&path, before).unwrap();
     }
     sandbox.done(words);
-    sandbox.put("out/engine/mine/ingested.json", "{}");
-    let parts = ["ingested.json: no ingested capture", "make the folder anew"];
-    sandbox.refuse(words, &parts);
+    let record = sandbox.text("out/engine/mine/ingested.json");
+    let altered = record.replace("\"exposure\": 0.5", "\"exposure\": 0.25");
+    assert_ne!(altered, record);
+    for (text, reason) in [
+        ("{}", "no ingested capture"),
+        (&*altered, "an altered one"),
+        ("{\"format\": 2}", "has format 2; allowed: 3"),
+    ] {
+        sandbox.put("out/engine/mine/ingested.json", text);
+        let parts = ["ingested.json: ", reason, "make the folder anew"];
+        sandbox.refuse(words, &parts);
+    }
 }
 
 #[test]
@@ -215,7 +305,11 @@ fn frames_of_a_run_are_not_overwritten() {
     let sandbox = Sandbox::new();
     Capture::new(&sandbox);
     sandbox.done("truths render --quiet --scenes plate --size 64x32 --samples-per-pixel 16");
-    let parts = "out/plate: holds | a frame that was not ingested | new folder";
+    let parts = [
+        "out/plate: holds",
+        "a frame that was not ingested",
+        "new folder",
+    ];
     sandbox.refuse("engine ingest capture -o out/plate", &parts);
     let parts = ["holds a scene"];
     sandbox.refuse("engine ingest capture -o scenes/plate", &parts);

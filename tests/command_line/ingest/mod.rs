@@ -9,8 +9,8 @@ use std::fs;
 
 use capture::Capture;
 use frame::{FAR_DEPTH, Frame, Truth, VelocityKind};
+use measure::{Case, Run};
 use metrics::{Measured, Metric};
-use suite::{Case, Run};
 use tests::text::assert_contains;
 
 use crate::sandbox::{SCENE, Sandbox, split, stderr, stdout};
@@ -61,10 +61,14 @@ fn the_mean_of_sub_frames_is_our_truth_within_its_limit() {
     let sandbox = Sandbox::new();
     Capture::new(&sandbox).with_subframes(16);
     let told = ingest(&sandbox);
-    let parts = "drawn by Test Engine 1.2 | \
-        mean of 16 sub-frames, trailing shutter, open for 0.5 frames; not path traced | 0.58 px between two sub-frames | \
-        equivalent sub-frames are told up to 4 | advice: 20 sub-frames would have steps of half a pixel | \
-        next: shuttertruth run --scenes plate,./out/engine/mine";
+    let parts = [
+        "drawn by Test Engine 1.2",
+        "mean of 16 sub-frames, trailing shutter, open for 0.5 frames; not path traced",
+        "0.58 px between two sub-frames",
+        "equivalent sub-frames are told up to 4",
+        "advice: 20 sub-frames would have steps of half a pixel",
+        "next: shuttertruth run --scenes plate,./out/engine/mine",
+    ];
     assert_contains(&told, &parts);
     sandbox.done("truths render --quiet --scenes plate --size 96x54 --samples-per-pixel 64");
     let read = |path: &str| Truth::read(&sandbox.path(path)).unwrap();
@@ -216,10 +220,15 @@ fn an_engine_s_truth_and_picture_are_named_wherever_they_are_scored() {
         "run --quiet --scenes plate,out/engine/mine --samples-per-pixel 16 --filter identity",
     );
     let page = sandbox.text("out/report.html");
-    let parts = "<td class=\"text\">mean of 8 sub-frames that Test Engine 1.2 drew</td> | traced_truth: | \
-        <td class=\"text\">path traced</td> | frame and truth are not ours | &quot;Engine's truth&quot; | \
-        Our own, path traced, is <strong>plate</strong>";
-    assert_contains(&page, parts);
+    let parts = [
+        "<td class=\"text\">mean of 8 sub-frames that Test Engine 1.2 drew</td>",
+        "traced_truth:",
+        "<td class=\"text\">path traced</td>",
+        "frame and truth are not ours",
+        "&quot;Engine's truth&quot;",
+        "Our own, path traced, is <strong>plate</strong>",
+    ];
+    assert_contains(&page, &parts);
 }
 
 #[test]

@@ -9,67 +9,55 @@ mod rendered_scene;
 use std::collections::BTreeMap;
 
 use rendered_scene::{RenderedScene, small_settings};
+use serde::Deserialize;
 
-/// A row of `proofs.txt`.
-#[derive(Clone, Copy)]
-struct Proof<'a> {
-    row: &'a str,
-    scene: &'a str,
-    filter: &'a str,
-    score: &'a str,
-    is_more: bool,
-    number: f64,
-    /// Variant or filter whose score is multiplied by the number; `-` for none.
-    than: &'a str,
+/// A row of `proofs.toml`.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Proof {
+    scene: String,
+    filter: String,
+    score: String,
+    above: Option<f64>,
+    below: Option<f64>,
+    /// Variant or filter whose score is the unit.
+    of: Option<String>,
+    /// Score that was measured, in the same unit.
+    measured: f64,
 }
 
-impl<'a> Proof<'a> {
-    fn read(row: &'a str) -> Option<Self> {
-        let columns: Vec<&str> = row.split_whitespace().collect();
-        let [
-            scene,
-            filter,
-            score,
-            sign @ (">" | "<"),
-            number,
-            than,
-            _measured,
-        ] = columns[..]
-        else {
-            return None;
-        };
-        Some(Self {
-            row,
-            scene,
-            filter,
-            score,
-            is_more: sign == ">",
-            number: number.parse().expect(row),
-            than,
-        })
-    }
+#[derive(Deserialize)]
+struct Proofs {
+    proof: Vec<Proof>,
+}
 
+impl Proof {
     /// Name of the scene without variants.
-    fn base(&self) -> &'a str {
+    fn base(&self) -> &str {
         self.scene.split('@').next().expect("a first part")
     }
 
     fn assert_holds(&self, scenes: &mut BTreeMap<String, RenderedScene>) {
         let mut score = |scene: String, filter: &str| {
             let rendered = (scenes.entry(scene)).or_insert_with_key(|name| render(name));
-            rendered.score(filter, self.score)
+            rendered.score(filter, &self.score)
         };
-        let value = score(self.scene.to_owned(), self.filter);
-        let unit = match self.than {
-            "-" => 1.0,
-            variant if variant.starts_with('@') => {
-                score(format!("{}{variant}", self.base()), self.filter)
+        let value = score(self.scene.clone(), &self.filter);
+        let unit = match self.of.as_deref() {
+            None => 1.0,
+            Some(variant) if variant.starts_with('@') => {
+                score(format!("{}{variant}", self.base()), &self.filter)
             }
-            filter => score(self.scene.to_owned(), filter),
+            Some(filter) => score(self.scene.clone(), filter),
         };
-        let (row, times) = (self.row, value / unit);
-        println!("{row}: {value:.4}, {times:.2}");
-        assert!((times > self.number) == self.is_more, "{row}: {times}");
+        let times = value / unit;
+        println!("{self:?}: {value:.4}, {times:.2}; once {}", self.measured);
+        let holds = match (self.above, self.below) {
+            (Some(least), None) => times > least,
+            (None, Some(most)) => times < most,
+            _ => panic!("{self:?}: needs one of above and below"),
+        };
+        assert!(holds, "{self:?}: {times}");
     }
 }
 
@@ -84,9 +72,8 @@ fn render(name: &str) -> RenderedScene {
 
 /// Proves all rows of the scenes with chosen names.
 fn prove_scenes(is_chosen: impl Fn(&str) -> bool) {
-    let rows = include_str!("proofs.txt").lines();
-    let mut proofs: Vec<Proof> = rows.filter_map(Proof::read).collect();
-    assert_eq!(proofs.len(), 53);
+    let proofs: Proofs = toml::from_str(include_str!("proofs.toml")).unwrap();
+    let mut proofs = proofs.proof;
     proofs.retain(|proof| is_chosen(proof.base()));
     for rows in proofs.chunk_by(|one, other| one.base() == other.base()) {
         let mut scenes = BTreeMap::new();

@@ -5,56 +5,40 @@
 
 use image::{ImageBuffer, Rgb32FImage};
 use scene::{SceneError, list_scenes, load_scene};
+use serde::Deserialize;
 
 use crate::appearance::{counting_image, folder_with_background};
 use crate::{Folder, OBJ, SCENE};
 
 /// A mistake in a file of a scene.
-struct Slip<'a> {
-    name: &'a str,
+#[derive(Deserialize)]
+struct Slip {
+    name: String,
     from: String,
-    to: String,
-    message: &'a str,
+    /// The text in its place; nothing if the lines are removed.
+    to: Option<String>,
+    message: String,
 }
 
-/// Reads slips: blocks of a `# name`, lines `- from`, lines `+ to` and a `= message`.
-fn read_slips(text: &str) -> Vec<Slip<'_>> {
-    let blocks = text.split("\n\n").filter(|block| block.starts_with("# "));
-    let read = |block| {
-        let lines = |mark: char| -> Vec<&str> {
-            let lines = str::lines(block).filter_map(|line| line.strip_prefix(mark));
-            (lines.map(|line| line.strip_prefix(' ').unwrap_or(line))).collect()
-        };
-        let ([name], [message]) = (&*lines('#'), &*lines('=')) else {
-            panic!("a slip has one name and one message: {block}");
-        };
-        let (mut from, to) = (lines('-').join("\n"), lines('+').join("\n"));
-        if to.is_empty() {
-            from.push('\n');
-        }
-        let to = to.replace("<ESC>", "\u{1b}").replace("<CSI>", "\u{9b}");
-        Slip {
-            name,
-            from,
-            to: to.replace("<CR>", "\r"),
-            message,
-        }
-    };
-    blocks.map(read).collect()
+#[derive(Deserialize)]
+struct Slips {
+    slip: Vec<Slip>,
 }
 
 /// Puts each slip into a new folder, in the first of the files that contains its text, and compares
 /// the messages.
-fn check_slips(slips: &str, count: usize, files: &[&str], prepare: impl Fn(&Folder)) {
-    let slips = read_slips(slips);
-    assert_eq!(slips.len(), count);
-    for slip in slips {
+fn check_slips(slips: &str, files: &[&str], prepare: impl Fn(&Folder)) {
+    let slips: Slips = toml::from_str(slips).unwrap();
+    for slip in slips.slip {
         let folder = Folder::new();
         prepare(&folder);
-        let holds = |file: &&&str| folder.read(file).contains(&slip.from);
-        let file = files.iter().find(holds);
-        folder.edit(file.expect(slip.name), &slip.from, &slip.to);
-        assert_refused(&folder, slip.name, slip.message);
+        let (from, to) = match slip.to {
+            Some(to) => (slip.from, to),
+            None => (slip.from + "\n", String::new()),
+        };
+        let file = files.iter().find(|file| folder.read(file).contains(&from));
+        folder.edit(file.expect(&slip.name), &from, &to);
+        assert_refused(&folder, &slip.name, &slip.message);
     }
 }
 
@@ -74,17 +58,12 @@ fn relative_message(folder: &Folder, error: &SceneError) -> String {
 
 #[test]
 fn slips_in_each_file_are_refused() {
-    check_slips(
-        include_str!("slips/scene.txt"),
-        135,
-        &["scene.toml"],
-        |_| {},
-    );
-    let materials = include_str!("slips/materials.txt");
-    check_slips(materials, 33, &["mesh.mtl"], |_| {});
-    check_slips(include_str!("slips/meshes.txt"), 32, &["mesh.obj"], |_| {});
-    let slips = include_str!("slips/shapes.txt");
-    check_slips(slips, 12, &["scene.toml", "bent.obj"], |folder| {
+    let keep = |_: &Folder| {};
+    check_slips(include_str!("slips/scene.toml"), &["scene.toml"], keep);
+    check_slips(include_str!("slips/materials.toml"), &["mesh.mtl"], keep);
+    check_slips(include_str!("slips/meshes.toml"), &["mesh.obj"], keep);
+    let slips = include_str!("slips/shapes.toml");
+    check_slips(slips, &["scene.toml", "bent.obj"], |folder| {
         let shapes =
             "shapes = [\n{ time = 0, mesh = \"mesh.obj\" },\n{ time = 1, mesh = \"bent.obj\" },\n]";
         let mesh = "mesh = \"mesh.obj\"\nkeys";

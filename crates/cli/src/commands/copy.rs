@@ -4,9 +4,8 @@ use std::path::Path;
 use terminal::refuse;
 
 use frame::{FileError, write_atomically};
+use measure::{Error, printable_path};
 use scene::{Location, list_scenes};
-use store::printable_path;
-use suite::Error;
 
 use terminal::output::{count_text, print};
 use terminal::selection::choose_names;

@@ -7,9 +7,8 @@ use frame::{
     ExrFile, FAR_DEPTH, FileError, Image, Plane, Raster, Samples, Vectors, read_passes, read_png,
     scene_linear,
 };
+use measure::{Error, SIDES, printable};
 use scene::limits::BRIGHTEST;
-use store::printable;
-use suite::{Error, SIDES};
 
 use crate::capture::description::{CAPTURE_FILE, CaptureDescription};
 use crate::files::{name_of, refuse};

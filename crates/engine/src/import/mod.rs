@@ -10,8 +10,8 @@ use std::fs;
 use std::path::Path;
 
 use frame::{FileError, write_atomically};
+use measure::Error;
 use scene::load_scene;
-use suite::Error;
 
 use self::model::Model;
 pub use self::model::Up;

@@ -6,8 +6,8 @@ use std::path::{Component, Path, PathBuf};
 
 use frame::{FileError, read_bounded, write_atomically};
 use glam::DVec3;
+use measure::{Error, named};
 use scene::{Mesh, Scene, SceneError, limits::LARGEST_MESH_FILE, load_scene_and_files};
-use suite::{Error, named};
 
 use crate::files::refuse;
 

@@ -1,10 +1,10 @@
 //! Change of one score of one case between two runs.
 
+use measure::FilterId;
 use metrics::{Ideal, Measured, Metric};
 use scene::SceneId;
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
-use suite::FilterId;
 
 use crate::compare::pairing::Pair;
 use crate::groups::group_by;

@@ -3,9 +3,9 @@
 use std::cmp::Ordering;
 
 use frame::Alignment;
+use measure::{Case, IDENTITY, InputFormat, TWO_SIDED, plain_mean};
 use metrics::Metric;
 use scene::{FrameRate, SceneId};
-use suite::{Case, IDENTITY, InputFormat, TWO_SIDED, plain_mean};
 
 use crate::groups::group_by;
 use crate::ranking::side_effects::SideEffects;

@@ -1,8 +1,8 @@
 //! Lag: the error of a frame that is not the middle of its shutter.
 
 use frame::Alignment;
+use measure::{Case, IDENTITY};
 use metrics::Metric;
-use suite::{Case, IDENTITY};
 
 use crate::ranking::filters::list_summarized;
 

@@ -4,8 +4,8 @@ use std::collections::HashSet;
 
 use frame::Alignment;
 use maud::{Markup, html};
+use measure::{Case, Run, StoredRun};
 use scene::SceneId;
-use suite::{Case, Run, StoredRun};
 
 use crate::run_facts::facts;
 use crate::table::Column::{Plain, Text};

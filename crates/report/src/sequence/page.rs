@@ -4,10 +4,9 @@ use std::path::Path;
 
 use judge::{Finding, RANKED_BY};
 use maud::{Markup, html};
+use measure::{CHANGE_PICTURE, RenderFile, Run, Sequence, SequenceFrame};
 use scene::SceneId;
 use serde_json::{Value, json};
-use store::RenderFile;
-use suite::{CHANGE_PICTURE, Run, Sequence, SequenceFrame};
 
 use super::ranking::ranking_tables;
 use super::scores::score_tables;

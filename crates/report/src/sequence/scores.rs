@@ -3,9 +3,9 @@
 use frame::Alignment;
 use judge::{Finding, RankedSequence, rank_sequences_on};
 use maud::{Markup, html};
+use measure::{Run, Sequence};
 use metrics::{Measured, Metric, SequenceMetric};
 use scene::SceneId;
-use suite::{Run, Sequence};
 
 use super::ranking::metric_table;
 use crate::finding_text::{Status, limit_text};

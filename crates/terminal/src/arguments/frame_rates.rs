@@ -1,9 +1,11 @@
 //! Arguments for the frame rates of scenes.
 
 use clap::Args;
-use scene::FrameRate;
-use suite::Error;
-use tracer::limits::{FASTEST_RATE, FASTEST_SHUTTER, SLOWEST_RATE, SLOWEST_SHUTTER};
+use measure::Error;
+use scene::{
+    FrameRate,
+    limits::{FASTEST_RATE, FASTEST_SHUTTER, SLOWEST_RATE, SLOWEST_SHUTTER},
+};
 
 use super::parse_number;
 use crate::selection::{find_twin, split_scene};

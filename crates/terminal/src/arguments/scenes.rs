@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use frame::{ColorSampling, FrameOptions, VelocityKind};
+use measure::Error;
 use scene::SceneId;
-use suite::Error;
 use tracer::RenderSettings;
 
 use super::{FrameRateArgs, RootArgs, parse_exposure, parse_samples, thread_count};

@@ -3,9 +3,8 @@
 use std::collections::BTreeSet;
 use std::io::{ErrorKind, IsTerminal, Write};
 
+use measure::{Error, printable, printable_lines};
 use scene::Scene;
-use store::{printable, printable_lines};
-use suite::Error;
 
 use super::{terminal_text, wrap_lines};
 
