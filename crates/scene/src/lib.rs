@@ -15,6 +15,9 @@ mod sequence;
 #[cfg(test)]
 mod test_scene;
 
+/// Hash of the sources.
+pub const SOURCE_HASH: &str = env!("SOURCE_HASH");
+
 pub use frame_rate::FrameRate;
 pub use load::{
     SceneError, SceneListing, list_scene, list_scenes, load_scene, load_scene_and_files,
