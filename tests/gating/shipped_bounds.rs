@@ -58,7 +58,7 @@ fn guarded() -> Vec<FilterChoice> {
 /// Judges the instant itself, and the mean of 64 sub-frames.
 fn judge_bars(scene: &Scene, bounds: &SceneBounds, out: &Path) -> [Vec<JudgedScore>; 2] {
     let rendering = Rendering {
-        scene,
+        scene: scene.into(),
         settings: settings(SIZE.into(), 256),
         out,
         monitor: Monitor::SILENT,

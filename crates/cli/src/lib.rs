@@ -1,17 +1,13 @@
 //! The program `shuttertruth`: its arguments, its commands, and what they print.
 
-mod arguments;
 mod commands;
-mod environment;
 #[cfg(test)]
 mod guides;
 mod program;
 mod tables;
 
-use std::ffi::OsString;
 use std::process::ExitCode;
 
-use environment::set_environment;
 use filters::FilterError;
 use frame::TruthError;
 use measure::{Error, printable};
@@ -24,15 +20,13 @@ use tracer::TraceError;
 
 pub use gate::{annotations, check_text, junit, summary};
 pub use run::{ranking_text, run_table, score_table};
-pub use tables::{compare_table, paired_table};
+pub use tables::compare_table;
 pub use terminal::output::terminal_text;
 pub use terminal::selection::{Programs, SceneChoice, select_filters, select_scenes};
 pub use terminal::table::{list_once, markdown_table, range_text};
 
 /// Runs the command of the command line and returns its exit code.
 pub fn run_program() -> ExitCode {
-    let is_verbose = |argument: OsString| argument == "-v" || argument == "--verbose";
-    set_environment(std::env::args_os().any(is_verbose));
     catch_interrupts();
     let arguments =
         Cli::parse_words(std::env::args_os()).unwrap_or_else(|error| refuse_arguments(&error));

@@ -2,7 +2,6 @@
 //! results are data, and progress goes to a [`Monitor`].
 
 mod colors;
-mod engine_scene;
 mod error;
 mod files;
 mod filter_choice;
@@ -21,9 +20,6 @@ mod stats;
 mod text;
 
 pub use colors::{magma, velocity_wheel};
-pub use engine_scene::{
-    BLURRED, EngineScene, INGESTED_FILE, INGESTED_FORMAT, engine_name, name_in_one_word,
-};
 pub use error::Error;
 pub use files::clear::clear_scene;
 pub use files::folder::{is_below, refuse_long_names, refuse_scene, scene_folder};
@@ -32,11 +28,11 @@ pub use files::json::{MAX_JSON_BYTES, MAX_RUN_BYTES, read_text, read_text_within
 pub use files::json_lines::to_lines;
 pub use files::place::{MAX_TAKEN_BYTES, is_one_file, place_file};
 pub use files::record::{
-    CASE_RECORD, hash_inputs, hash_program, look_up, look_up_alone, put, remove_altered_files,
+    CASE_RECORD, hash_inputs, hash_program, look_up, look_up_alone, put, read_record,
+    remove_altered_files,
 };
 pub use files::render_file::{
-    LADDER, MAX_REPLICATES, RenderFile, RenderPath, Wanted, ladder_folder, list_files,
-    list_renders, take,
+    LADDER, MAX_REPLICATES, RenderFile, RenderPath, SHARP, ladder_folder, list_files, list_renders,
 };
 pub use files::tracked::refuse_tracked;
 pub use filter_choice::FilterChoice;
@@ -65,12 +61,16 @@ pub use measuring::sequence::{CHANGE_PICTURE, SEQUENCE_PICTURE};
 pub use monitor::{Monitor, Step};
 pub use random::Random;
 pub use render::exclusion::{EXCLUSION_FILE, FilterFrame, read_exclusion};
-pub use render::ladders::{SHARP, sharp_picture};
+pub use render::ingested_scene::{
+    BLURRED, Drawn, INGESTED_FORMAT, IngestedScene, engine_name, name_in_one_word,
+};
+pub use render::ladders::sharp_picture;
 pub use render::rendering::Rendering;
+pub use render::run_scene::RunScene;
 pub use render::settings::{SIDES, list_settings};
 pub use render::truths::deciding_floor;
 pub use render::velocities::read_further_velocities;
-pub use run::case::{ACCUMULATE, Case, Drawn, IDENTITY, Intervals};
+pub use run::case::{ACCUMULATE, Case, IDENTITY, Intervals};
 pub use run::error_maps::ErrorMaps;
 pub use run::failure::{Failure, refuse_failures};
 pub use run::layers::write_layers;

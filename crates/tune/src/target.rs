@@ -35,7 +35,7 @@ pub fn render_scenes(
 ) -> Result<Vec<RenderedScene>, Error> {
     let render_scene = |(scene, bounds): &(Scene, SceneBounds)| {
         let rendering = Rendering {
-            scene,
+            scene: scene.into(),
             settings: *render,
             out,
             monitor,

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use frame::{Display, Region, Truth};
-use measure::{EngineScene, Error, printable_path};
+use measure::{Error, IngestedScene, printable_path};
 use terminal::arguments::RootArgs;
 use terminal::output::{make_monitor, print, print_note};
 use terminal::refuse;
@@ -12,7 +12,7 @@ use tracer::{Location, Scene};
 
 use super::capture::{load_drawn_scene, name_folder};
 use crate::capture::folder::Capture;
-use crate::ingest::{Ingested, ingest};
+use crate::ingest::{IngestPlan, Ingested, ingest};
 
 /// Arguments of `engine ingest`.
 #[derive(Debug, Args)]
@@ -54,9 +54,13 @@ pub fn execute(args: &IngestArgs) -> Result<(), Error> {
         .map_or_else(Display::default, |scene| scene.display);
     display.stops = capture.description.stops.unwrap_or(display.stops);
     let names = traced.as_ref().map(Scene::object_names);
-    let ingested = make_monitor().watch("sub-frames", |watch| {
-        ingest(&capture, (display, names), &out, watch)
-    })?;
+    let plan = IngestPlan {
+        capture: &capture,
+        display,
+        names,
+        out: &out,
+    };
+    let ingested = make_monitor().watch("sub-frames", |watch| ingest(plan, watch))?;
     print(&describe(&ingested, &out, traced.as_ref()))
 }
 
@@ -150,7 +154,7 @@ fn describe(ingested: &Ingested, out: &Path, traced: Option<&Scene>) -> String {
 }
 
 /// Adds the kind of truth, and how far it can be trusted.
-fn push_truth(lines: &mut Vec<String>, scene: &EngineScene, truth: &Truth) {
+fn push_truth(lines: &mut Vec<String>, scene: &IngestedScene, truth: &Truth) {
     let length = scene.step * f64::from(scene.subframes);
     let most = scene.ladder.last().copied().unwrap_or(1);
     lines.push(format!(

@@ -40,7 +40,8 @@ pub struct EngineTruth {
 /// ones into the other.
 pub fn average_subframes(
     capture: &Capture,
-    (shutter, alignment): (Shutter, Alignment),
+    shutter: Shutter,
+    alignment: Alignment,
     objects: &[String],
     provenance: &Provenance,
     watch: Watch,

@@ -50,7 +50,7 @@ pub struct CalibrateArgs {
 pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
     let out = &args.measure.scenes.out;
     let (mut plan, bounds) = make_plan(&args.measure, out.clone())?;
-    if let Some(scene) = plan.engine_scenes.first() {
+    if let Some(scene) = plan.ingested.first() {
         refuse!(
             "--scenes: {} was drawn by an engine, and does not change from run to run; write its bounds by hand into {}",
             scene.id,

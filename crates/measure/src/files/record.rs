@@ -63,6 +63,26 @@ pub fn look_up_alone<T: DeserializeOwned>(path: &Path, inputs: &str) -> Option<T
     read_whole::<T>(path, inputs).map(|record| record.made)
 }
 
+/// A record that was read back.
+pub struct StoredRecord<T> {
+    /// Hash of everything that determines it.
+    pub inputs: String,
+    /// Result of the work.
+    pub made: T,
+    /// Its files that are missing or altered.
+    pub altered: Vec<PathBuf>,
+}
+
+/// Reads a record of any inputs. None if there is none, or if it is broken or altered.
+pub fn read_record<T: DeserializeOwned>(path: &Path) -> Option<StoredRecord<T>> {
+    let record = read_unaltered::<T>(path)?;
+    Some(StoredRecord {
+        altered: record.altered_files(path),
+        inputs: record.inputs,
+        made: record.made,
+    })
+}
+
 /// Removes altered files of these inputs: the hash in a file may no longer fit its content.
 pub fn remove_altered_files(path: &Path, inputs: &str) {
     if let Some(record) = read_whole::<()>(path, inputs) {
@@ -73,14 +93,18 @@ pub fn remove_altered_files(path: &Path, inputs: &str) {
     }
 }
 
-/// Reads a whole record of these inputs. None if it is altered, or if it names a file outside its
-/// own folder, or beyond a link to a folder: nothing out there is read or removed.
+/// Reads a whole record of these inputs.
 fn read_whole<T: DeserializeOwned>(path: &Path, inputs: &str) -> Option<Record<T>> {
+    read_unaltered(path).filter(|record| record.inputs == inputs)
+}
+
+/// Reads a whole record. None if it is altered, or if it names a file outside its own folder, or
+/// beyond a link to a folder: nothing out there is read or removed.
+fn read_unaltered<T: DeserializeOwned>(path: &Path) -> Option<Record<T>> {
     let text = String::from_utf8(read_bounded(path, MAX_JSON_BYTES).ok()?).ok()?;
     let record: Record<T> = serde_json::from_str(&text).ok()?;
     let is_below = |name: &String| is_file_of(&path.with_file_name(""), name);
-    let is_whole = record.inputs == inputs
-        && hex(text.replacen(&record.hash, "", 1).as_bytes()) == record.hash
+    let is_whole = hex(text.replacen(&record.hash, "", 1).as_bytes()) == record.hash
         && record.files.keys().all(is_below);
     is_whole.then_some(record)
 }

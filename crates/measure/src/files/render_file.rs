@@ -12,6 +12,8 @@ use crate::files::place::place_file;
 
 /// Sub-frame counts of the ladder that N_eq is read from.
 pub const LADDER: [u32; 7] = [1, 2, 4, 8, 16, 32, 64];
+/// Rung that is the sharp picture of a shutter's middle.
+pub const SHARP: u32 = LADDER[0];
 /// Upper limit on the replicates of a truth.
 pub const MAX_REPLICATES: u32 = 4096;
 
@@ -143,41 +145,35 @@ impl fmt::Display for RenderPath {
     }
 }
 
-/// A requested rendered file.
+/// A requested rendered file of a scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Wanted {
-    /// Its path.
-    pub path: RenderPath,
+pub(crate) struct Wanted {
+    /// The file.
+    pub file: RenderFile,
     /// Hash of its inputs, which its header must have.
     pub hash: String,
 }
 
 impl Wanted {
-    /// Returns whether a folder has it, by the header of the file.
+    /// Returns whether a scene's folder has it, by the header of the file.
     pub fn is_in(&self, folder: &Path) -> bool {
-        let path = folder.join(self.path.path());
+        let path = folder.join(self.file.path());
         read_attribute(&path, "content_hash").as_ref() == Some(&self.hash)
     }
 }
 
-/// Takes files that `out` lacks from another folder that has them; returns their number.
+/// Takes files that a scene's folder lacks from another folder of the scene that has them.
 ///
 /// # Errors
 /// A file cannot be taken.
-pub fn take<'a>(
-    files: impl IntoIterator<Item = &'a Wanted>,
-    from: &Path,
-    out: &Path,
-) -> Result<usize, FileError> {
-    let mut taken = 0;
-    for file in files {
-        if !file.is_in(out) && file.is_in(from) {
-            let path = file.path.path();
-            place_file(&from.join(&path), &out.join(&path))?;
-            taken += 1;
+pub(crate) fn take(files: &[Wanted], from: &Path, folder: &Path) -> Result<(), FileError> {
+    for wanted in files {
+        if !wanted.is_in(folder) && wanted.is_in(from) {
+            let path = wanted.file.path();
+            place_file(&from.join(&path), &folder.join(&path))?;
         }
     }
-    Ok(taken)
+    Ok(())
 }
 
 /// Names the folder of the rungs of a ladder, in the folder of its scene.

@@ -1,6 +1,6 @@
 //! Content beyond the border of the picture.
 
-use frame::{Frame, Raster};
+use frame::Frame;
 
 use crate::named;
 
@@ -28,29 +28,20 @@ fn longest_smear(frame: &Frame) -> f64 {
     f64::from(speeds.fold(0.0, f32::max)) * frame.exposure
 }
 
-/// Repeats the outermost pixels of a raster on every side.
-pub(crate) fn wide<T: Clone>(raster: &Raster<T>, margin: u32) -> Raster<T> {
-    let inside = |place: u32, side: u32| place.saturating_sub(margin).min(side - 1);
-    let [width, height] = [raster.width, raster.height];
-    Raster::from_fn(width + 2 * margin, height + 2 * margin, |x, y| {
-        raster.at(inside(x, width), inside(y, height)).clone()
-    })
-}
-
 /// Repeats the outermost pixels of a frame on every side, as part of the guard band.
 pub(crate) fn repeat_border(frame: &Frame, margin: u32) -> Frame {
     Frame {
         guard_band: frame.guard_band + margin,
-        color: wide(&frame.color, margin),
-        velocity: wide(&frame.velocity, margin),
-        velocity_next: (frame.velocity_next.as_ref()).map(|velocity| wide(velocity, margin)),
-        velocity_z: (frame.velocity_z.as_ref()).map(|velocity| wide(velocity, margin)),
-        depth: wide(&frame.depth, margin),
-        object_id: wide(&frame.object_id, margin),
+        color: frame.color.widened(margin),
+        velocity: frame.velocity.widened(margin),
+        velocity_next: (frame.velocity_next.as_ref()).map(|velocity| velocity.widened(margin)),
+        velocity_z: (frame.velocity_z.as_ref()).map(|velocity| velocity.widened(margin)),
+        depth: frame.depth.widened(margin),
+        object_id: frame.object_id.widened(margin),
         coverage: (frame.coverage.iter())
-            .map(|plane| wide(plane, margin))
+            .map(|plane| plane.widened(margin))
             .collect(),
-        samples: frame.samples.as_ref().map(|plane| wide(plane, margin)),
+        samples: frame.samples.as_ref().map(|plane| plane.widened(margin)),
         ..frame.clone()
     }
 }

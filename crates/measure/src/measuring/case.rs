@@ -14,15 +14,15 @@ use super::pictures::{PARTS_FILE, write_case, write_parts};
 use super::planned_case::{PictureSource, PlannedCase};
 use super::probes::{FilterOutput, blur_noise_frames, blur_picture, blur_with_probes};
 use super::references::TruthReferences;
-use super::run_scene::RunScene;
 use super::scene::SceneContext;
 use super::stored_frames::StoredFrame;
 use crate::Error;
-use crate::engine_scene::EngineScene;
 use crate::filter_choice::FilterChoice;
 use crate::inputs::depth_of_field::DepthOfField;
 use crate::inputs::input_format::InputFormat;
 use crate::render::exclusion::FilterFrame;
+use crate::render::ingested_scene::IngestedScene;
+use crate::render::run_scene::RunScene;
 use crate::run::case::{Case, Intervals};
 use crate::runner::Runner;
 use crate::stats::intervals::intervals;
@@ -119,7 +119,7 @@ impl CaseContext<'_> {
 
     /// Measures the engine's own picture. Its scores have no intervals: an engine's sub-frames are
     /// no random samples.
-    fn measure_engine(&self, scene: &EngineScene) -> Result<MeasuredPicture, Error> {
+    fn measure_engine(&self, scene: &IngestedScene) -> Result<MeasuredPicture, Error> {
         let picture = scene.read_picture(self.frame)?;
         let mut measurement = self.references.reference.measure(&picture)?;
         measurement.scores.take_out_mattes(NO_MATTES);

@@ -37,12 +37,12 @@ impl RunPlan {
                 }
             }
         }
-        for scene in &self.engine_scenes {
+        for scene in &self.ingested {
             scene.check_truth()?;
             scene.check_size((self.render.width, self.render.height))?;
         }
         for input in &self.inputs {
-            let has_scenes = self.engine_scenes.is_empty();
+            let has_scenes = self.ingested.is_empty();
             input.check(self.render.options.velocity, has_scenes)?;
             for scene in &self.scenes {
                 input.depth_of_field.check(scene)?;
@@ -75,7 +75,7 @@ impl RunPlan {
                 "found {per_second} frames per second; allowed: a number above 0, such as 60"
             )));
         }
-        match self.engine_scenes.first() {
+        match self.ingested.first() {
             Some(scene) if count > 1 => Err(Error::Refused(format!(
                 "{}: an engine drew one frame, and {count} are asked for; leave it out of a sequence",
                 scene.id

@@ -7,7 +7,6 @@ use std::path::{Path, PathBuf};
 use filters::AdapterDescription;
 use tracer::SceneId;
 
-use crate::Error;
 use crate::fold::fold_runs;
 use crate::identity::FilterId;
 use crate::measuring::plan::RunPlan;
@@ -15,6 +14,7 @@ use crate::measuring::planned_case::PlannedCase;
 use crate::run::Run;
 use crate::run::case::Case;
 use crate::run::stored::StoredRun;
+use crate::{Error, RenderFile};
 
 /// Cases of an earlier run that a plan does not include.
 pub struct EarlierCases {
@@ -168,5 +168,6 @@ fn read_earlier_run(path: &Path) -> Result<Option<Run>, Error> {
 fn is_outdated(plan: &RunPlan, case: &Case) -> bool {
     let mut scenes = plan.all_scenes().into_iter();
     let scene = scenes.find(|scene| *scene.id() == case.scene);
-    scene.is_some_and(|scene| scene.truth_hash(&plan.render, case.alignment) != case.truth_hash)
+    let file = RenderFile::Truth(case.alignment);
+    scene.is_some_and(|scene| plan.rendering(scene).content_hash(file) != case.truth_hash)
 }

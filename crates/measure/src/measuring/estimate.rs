@@ -74,7 +74,8 @@ pub fn estimate_run(plan: &RunPlan, gpu: Option<&Gpu>) -> RunEstimate {
         let pictures = u64::from(frame) + truths.len() as u64 * of_truth + cases as u64;
         estimate.disk += pixels as u64 * pictures * PICTURE_BYTES;
         let truths = plan.alignments().len();
-        let memory = (scene.scene).memory(&plan.render, plan.measured(truths));
+        let measured = plan.measured(scene.scene, truths);
+        let memory = (scene.scene).memory(&plan.render, measured);
         estimate.memory = estimate.memory.max(memory);
         Ok(())
     });

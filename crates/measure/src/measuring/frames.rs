@@ -4,7 +4,6 @@ use crate::hash_program;
 use filters::Gpu;
 
 use super::plan::RunPlan;
-use super::run_scene::RunScene;
 use super::scene::SceneContext;
 
 /// Visits every scene of a plan and, after each, its later frames, with one frame at a time in
@@ -18,13 +17,13 @@ pub(super) fn visit_frames<E>(
     let program = program.as_deref();
     for scene in plan.all_scenes() {
         visit(&SceneContext::new(plan, gpu, program, scene))?;
+        // An engine's scene has one frame; plans with more are refused.
+        let Some(scene) = scene.traced() else {
+            continue;
+        };
         for frame in 1..plan.frames.count {
-            // An engine's scene has one frame; plans with more are refused.
-            if let RunScene::Traced(scene) = scene {
-                let later = scene.at_frame(frame);
-                let later = RunScene::Traced(&later);
-                visit(&SceneContext::new(plan, gpu, program, later))?;
-            }
+            let later = scene.at_frame(frame);
+            visit(&SceneContext::new(plan, gpu, program, (&later).into()))?;
         }
     }
     Ok(())
@@ -32,5 +31,5 @@ pub(super) fn visit_frames<E>(
 
 /// Counts the frames of all scenes.
 pub(super) fn count_frames(plan: &RunPlan) -> usize {
-    plan.scenes.len() * plan.frames.count as usize + plan.engine_scenes.len()
+    plan.scenes.len() * plan.frames.count as usize + plan.ingested.len()
 }

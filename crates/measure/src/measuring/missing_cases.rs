@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::{Error, put};
+use crate::{Error, SHARP, put};
 use filters::FilterError;
 use frame::{Alignment, Frame, Ladder, Picture, Truth};
 use metrics::{ColorReference, Reference};
@@ -11,12 +11,10 @@ use tracer::{Defocus, Progress, TraceError, Watch};
 use super::case::{CaseContext, CommonTruth};
 use super::planned_case::PlannedCase;
 use super::references::{TruthPart, TruthReferences};
-use super::run_scene::RunScene;
 use super::scene::SceneContext;
 use super::stored_frames::{read_replicates, store_frames};
 use crate::inputs::depth_of_field::DepthOfField;
 use crate::inputs::input_format::InputFormat;
-use crate::render::ladders::{SHARP, needed_rungs};
 use crate::run::case::Case;
 use crate::run::failure::Failure;
 use crate::stats::parts::Groups;
@@ -94,7 +92,7 @@ impl SceneContext<'_> {
     /// Returns the alignments of the scene's truths; the common one comes first, since its colours
     /// stay in memory.
     fn common_first(&self) -> Vec<Alignment> {
-        let mut alignments = self.scene.alignments(self.plan.alignments());
+        let mut alignments = self.alignments();
         alignments.sort_by_key(|alignment| *alignment != self.plan.common_alignment());
         alignments
     }
@@ -155,41 +153,25 @@ impl SceneContext<'_> {
         }
     }
 
-    /// Reads a truth, or renders it; copies an engine's.
+    /// Reads a truth, or renders it.
     pub(super) fn read_truth(&self, alignment: Alignment) -> Result<Truth, Error> {
-        match self.scene {
-            RunScene::Traced(scene) => self.plan.rendering(scene).truth(alignment),
-            RunScene::Drawn(scene) => scene.copy_truth(&self.folder()),
-        }
+        self.rendering().truth(alignment)
     }
 
-    /// Renders the missing rungs of a truth's ladder that the plan needs; an engine's are copied
-    /// with its truth.
+    /// Renders the missing rungs of a truth's ladder that the plan needs.
     pub(super) fn ensure_ladder(&self, truth: &Truth) -> Result<(), Error> {
-        match self.scene {
-            RunScene::Traced(scene) => {
-                let rungs = needed_rungs(truth.alignment, self.plan.ladders);
-                self.plan.rendering(scene).ladder(truth).ensure(rungs)
-            }
-            RunScene::Drawn(_) => Ok(()),
-        }
+        let rungs = (self.scene).needed_rungs(truth.alignment, self.plan.ladders);
+        self.rendering().ladder(truth).ensure(rungs)
     }
 
     /// Reads a rung of a truth's ladder, or renders it.
     fn read_rung(&self, truth: &Truth, subframes: u32) -> Result<Ladder, Error> {
-        match self.scene {
-            RunScene::Traced(scene) => {
-                let ladder = self.plan.rendering(scene).ladder(truth);
-                ladder.read_or_render(subframes)
-            }
-            RunScene::Drawn(scene) => scene.read_rung(&self.folder(), subframes),
-        }
+        self.rendering().ladder(truth).read_or_render(subframes)
     }
 
     /// Makes the parts of the frame, given by its replicates, and of an alignment's truth. Filters'
     /// intervals need them and, with a ladder, so do counts of equivalent sub-frames; otherwise
-    /// there are none. An engine's scene has none either: sub-frames are no random samples, and a
-    /// truth without some of them has holes.
+    /// there are none.
     fn truth_parts(
         &self,
         alignment: Alignment,
@@ -197,14 +179,11 @@ impl SceneContext<'_> {
         frames: &[Picture],
     ) -> Result<Vec<TruthPart>, Error> {
         let has_filters = cases.iter().any(|(_, case)| !case.id.is_reference);
-        let RunScene::Traced(scene) = self.scene else {
-            return Ok(Vec::new());
-        };
-        if !has_filters || !self.plan.measures_parts() {
+        if !has_filters || !self.plan.measures_parts(self.scene) {
             return Ok(Vec::new());
         }
         let count = self.plan.render.replicates;
-        let files = self.plan.rendering(scene).files(alignment);
+        let files = self.rendering().files(alignment);
         let truths = files.replicates(0..count)?;
         let groups = Groups::of(count);
         let without = |group| {

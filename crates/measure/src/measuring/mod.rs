@@ -16,7 +16,6 @@ pub mod planned_case;
 pub(crate) mod points_of_frame;
 pub mod probes;
 pub mod references;
-pub(crate) mod run_scene;
 pub mod scene;
 mod scene_keys;
 pub mod scenes;

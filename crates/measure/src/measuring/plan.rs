@@ -7,12 +7,12 @@ use frame::Alignment;
 use tracer::{RenderSettings, Scene};
 
 use super::part::Part;
-use super::run_scene::RunScene;
-use crate::engine_scene::EngineScene;
 use crate::filter_choice::FilterChoice;
 use crate::inputs::input_format::InputFormat;
+use crate::render::ingested_scene::IngestedScene;
 use crate::render::memory::Measured;
 use crate::render::rendering::Rendering;
+use crate::render::run_scene::RunScene;
 use crate::run::sequence::Frames;
 use crate::run::{FORMAT, Run};
 use crate::stats::parts::{Groups, MIN_REPLICATES};
@@ -23,7 +23,7 @@ pub struct RunPlan {
     /// Loaded scenes.
     pub scenes: Vec<Scene>,
     /// Scenes that engines drew, in the plan's picture size.
-    pub engine_scenes: Vec<EngineScene>,
+    pub ingested: Vec<IngestedScene>,
     /// Loaded filters.
     pub filters: Vec<FilterChoice>,
     /// Forms of the frame that every filter gets.
@@ -64,7 +64,7 @@ impl Default for RunPlan {
     fn default() -> Self {
         Self {
             scenes: Vec::new(),
-            engine_scenes: Vec::new(),
+            ingested: Vec::new(),
             filters: Vec::new(),
             inputs: vec![InputFormat::default()],
             jitter_frames: 0,
@@ -102,10 +102,10 @@ impl RunPlan {
     }
 
     /// Returns the rendering of a scene of the plan.
-    pub(crate) fn rendering<'a>(&'a self, scene: &'a Scene) -> Rendering<'a> {
+    pub(crate) fn rendering<'a>(&'a self, scene: RunScene<'a>) -> Rendering<'a> {
         Rendering {
             scene,
-            settings: self.render,
+            settings: scene.settings(self.render),
             out: &self.out,
             monitor: self.monitor,
         }
@@ -113,14 +113,14 @@ impl RunPlan {
 
     /// Tells whether filters are measured on parts of the frame's replicates, for intervals of
     /// scores or of counts of sub-frames.
-    pub(crate) fn measures_parts(&self) -> bool {
+    pub(crate) fn measures_parts(&self, scene: RunScene) -> bool {
         let is_needed = self.intervals || self.ladders;
-        is_needed && self.render.replicates >= MIN_REPLICATES
+        is_needed && scene.settings(self.render).replicates >= MIN_REPLICATES
     }
 
     /// Counts what a scene is measured with, against this many truths.
-    pub(crate) fn measured(&self, truths: usize) -> Measured {
-        let parts = if self.measures_parts() {
+    pub(crate) fn measured(&self, scene: RunScene, truths: usize) -> Measured {
+        let parts = if self.measures_parts(scene) {
             Groups::of(self.render.replicates).list().len()
         } else {
             0
@@ -148,7 +148,7 @@ impl RunPlan {
     pub(crate) fn all_scenes(&self) -> Vec<RunScene<'_>> {
         let traced = self.scenes.iter().map(RunScene::Traced);
         traced
-            .chain(self.engine_scenes.iter().map(RunScene::Drawn))
+            .chain(self.ingested.iter().map(RunScene::Ingested))
             .collect()
     }
 

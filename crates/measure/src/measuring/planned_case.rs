@@ -5,11 +5,11 @@ use filters::AdapterDescription;
 use frame::Alignment;
 
 use super::plan::RunPlan;
-use super::run_scene::RunScene;
-use crate::engine_scene::EngineScene;
 use crate::filter_choice::FilterChoice;
 use crate::identity::CaseId;
 use crate::inputs::input_format::InputFormat;
+use crate::render::ingested_scene::IngestedScene;
+use crate::render::run_scene::RunScene;
 use crate::run::case::{ACCUMULATE, IDENTITY, SCATTER_ORACLE};
 
 /// Numbers of sub-frames in the accumulations that filters are compared with, rungs of the ladder.
@@ -34,7 +34,7 @@ pub(crate) enum PictureSource<'a> {
     /// A filter, for the picture width at which it gets the frame, and the form of the frame.
     Filter(Box<FilterChoice>, InputFormat),
     /// The engine that drew the frame.
-    Engine(&'a EngineScene),
+    Engine(&'a IngestedScene),
 }
 
 impl<'a> PlannedCase<'a> {
@@ -52,19 +52,13 @@ impl<'a> PlannedCase<'a> {
                 .chain(accumulations)
                 .map(|source| Self::new(scene, *alignment, source))
         });
-        let engine_case = match scene {
-            RunScene::Drawn(capture) if capture.has_picture => {
-                let source = PictureSource::Engine(capture);
-                Some(Self::new(scene, capture.alignment, source))
-            }
-            _ => None,
-        };
+        let engine = scene.ingested().filter(|engine| engine.has_picture);
+        let engine_case =
+            engine.map(|engine| Self::new(scene, engine.alignment, PictureSource::Engine(engine)));
         let is_measured = |choice: &&FilterChoice| {
+            let is_left_out = |scene: &IngestedScene| scene.leaves_out(choice).is_some();
             alignments.contains(&choice.filter.alignment)
-                && match scene {
-                    RunScene::Traced(_) => true,
-                    RunScene::Drawn(scene) => scene.find_lacking(choice).is_none(),
-                }
+                && !scene.ingested().is_some_and(is_left_out)
         };
         let picture = [plan.render.width, plan.render.height];
         let filters = plan.filters.iter().filter(is_measured).flat_map(|choice| {

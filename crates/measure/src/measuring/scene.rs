@@ -2,19 +2,20 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::files::render_file::take;
 use crate::{
     CASE_RECORD, Error, RenderFile, clear_scene, look_up, put, refuse_scene, remove_altered_files,
-    take,
 };
 use filters::Gpu;
-use frame::Frame;
+use frame::{Alignment, Frame};
 
 use super::missing_cases::Attempt;
 use super::pictures::{PARTS_FILE, write_frame, write_truth};
 use super::plan::RunPlan;
 use super::planned_case::PlannedCase;
-use super::run_scene::RunScene;
 use crate::measuring::scene_keys::SceneKeys;
+use crate::render::rendering::Rendering;
+use crate::render::run_scene::RunScene;
 use crate::run::case::Case;
 use crate::run::failure::Failure;
 
@@ -43,7 +44,10 @@ impl<'a> SceneContext<'a> {
             plan,
             gpu,
             scene,
-            keys: program.map(|program| SceneKeys::new(program, scene, &plan.render, alignments)),
+            keys: program.map(|program| {
+                let settings = scene.settings(plan.render);
+                SceneKeys::new(program, scene, &settings, alignments)
+            }),
         }
     }
 }
@@ -78,7 +82,7 @@ impl SceneContext<'_> {
             });
         }
         let truths = self.plan.alignments().len();
-        (self.scene).check(&self.plan.render, self.plan.measured(truths))?;
+        (self.scene).check(&self.plan.render, self.plan.measured(self.scene, truths))?;
         let frame = self.render(advance)?;
         let missing = (planned.iter().zip(&stored_cases)).filter(|(_, stored)| stored.is_none());
         let missing: Vec<&PlannedCase> = missing.map(|(case, _)| case).collect();
@@ -105,8 +109,8 @@ impl SceneContext<'_> {
         })
     }
 
-    /// Renders the scene's frame and one truth per alignment that a filter of the plan declares, or
-    /// copies an engine's, and writes their pictures.
+    /// Renders the scene's frame and one truth per alignment that a filter of the plan declares,
+    /// and writes their pictures. Finished files are copied instead.
     fn render(&self, advance: &dyn Fn(u64)) -> Result<Frame, Error> {
         for (record, key) in self.render_records() {
             remove_altered_files(&record, &key);
@@ -115,8 +119,7 @@ impl SceneContext<'_> {
         let folder = self.folder();
         let frame = self.render_first(advance)?;
         let mut files = vec![write_frame(&folder, &frame)?];
-        let alignments = self.scene.alignments(self.plan.alignments());
-        for (alignment, done) in alignments.into_iter().zip(0..) {
+        for (alignment, done) in self.alignments().into_iter().zip(0..) {
             advance(1 + done * self.truth_steps());
             let truth = self.read_truth(alignment)?;
             self.ensure_ladder(&truth)?;
@@ -128,29 +131,33 @@ impl SceneContext<'_> {
         Ok(frame)
     }
 
-    /// Copies what it can from the plan's folder of truths.
+    /// Copies finished files from the folder that has them: the plan's truths, or an ingested one.
     fn take_renders(&self) -> Result<(), Error> {
-        let plan = self.plan;
-        if let (Some(truths), RunScene::Traced(scene)) = (&plan.truths, self.scene) {
-            let files = plan
-                .rendering(scene)
-                .list_wanted(&plan.alignments(), plan.ladders);
-            refuse_scene(&self.folder())?;
-            take(&files, truths, &plan.out)?;
-        }
-        Ok(())
+        let Some(source) = self.scene.source(self.plan.truths.as_deref()) else {
+            return Ok(());
+        };
+        let files = (self.rendering()).list_wanted(&self.alignments(), self.plan.ladders);
+        refuse_scene(&self.folder())?;
+        Ok(take(&files, &source, &self.folder())?)
     }
 
-    /// Renders the frame, and what its truths share; copies an engine's frame.
+    /// Renders the frame, and what its truths share.
     fn render_first(&self, advance: &dyn Fn(u64)) -> Result<Frame, Error> {
-        let rendering = match self.scene {
-            RunScene::Traced(scene) => self.plan.rendering(scene),
-            RunScene::Drawn(scene) => return scene.copy_frame(&self.folder()),
-        };
+        let rendering = self.rendering();
         let frame = rendering.frame()?;
         advance(1);
-        rendering.shared(&self.plan.alignments(), 0..self.plan.render.replicates)?;
+        rendering.shared(&self.alignments(), 0..rendering.settings.replicates)?;
         Ok(frame)
+    }
+
+    /// Returns the rendering of the scene.
+    pub(super) fn rendering(&self) -> Rendering<'_> {
+        self.plan.rendering(self.scene)
+    }
+
+    /// Lists the alignments of the scene's truths.
+    pub(super) fn alignments(&self) -> Vec<Alignment> {
+        self.scene.alignments(self.plan.alignments())
     }
 
     /// Names the folder of the scene's files.
@@ -188,7 +195,7 @@ impl SceneContext<'_> {
             case.intervals.clear();
             return Some(case);
         }
-        let has_none = case.is_reference || case.drawn.is_some();
+        let has_none = case.is_reference || !self.plan.measures_parts(self.scene);
         (has_none || self.has_intervals(&case)).then_some(case)
     }
 
@@ -199,20 +206,15 @@ impl SceneContext<'_> {
         !case.intervals.is_empty() && (self.plan.frames.is_one() || parts.is_file())
     }
 
-    /// Lists the frame and the truths that must be rendered, by the headers of files. Copying an
-    /// engine's counts as no time.
+    /// Lists the frame and the truths that must be rendered, by the headers of files.
     pub fn find_missing(&self) -> Vec<RenderFile> {
         let plan = self.plan;
-        let folders = plan
-            .truths
-            .iter()
-            .chain([&plan.out])
-            .filter(|_| !plan.no_cache);
-        let folders: Vec<&Path> = folders.map(|folder| &**folder).collect();
-        let alignments = plan.alignments();
-        (self.scene.traced()).map_or(Vec::new(), |scene| {
-            (plan.rendering(scene)).find_missing(&alignments, plan.ladders, &folders)
-        })
+        let source = self.scene.source(plan.truths.as_deref());
+        let is_there = |_: &PathBuf| !plan.no_cache || self.scene.ingested().is_some();
+        let folders: Vec<PathBuf> = (source.into_iter().chain([self.folder()]))
+            .filter(is_there)
+            .collect();
+        (self.rendering()).find_missing(&self.alignments(), plan.ladders, &folders)
     }
 
     /// Lists the keys of cases that the plan accepts, first the one for its own records: a plan
@@ -252,8 +254,7 @@ impl SceneContext<'_> {
         let folder = self.folder();
         let record = |file: RenderFile| folder.join(file.path().with_extension("json"));
         let mut records = vec![(record(RenderFile::Frame), keys.frame())];
-        let alignments = self.scene.alignments(self.plan.alignments());
-        records.extend(alignments.into_iter().map(|alignment| {
+        records.extend(self.alignments().into_iter().map(|alignment| {
             let record = record(RenderFile::Truth(alignment));
             (record, keys.truth(alignment))
         }));

@@ -2,12 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use crate::hash_inputs;
+use crate::{RenderFile, SHARP, hash_inputs};
 use frame::Alignment;
 use tracer::RenderSettings;
 
-use crate::measuring::run_scene::RunScene;
-use crate::render::ladders::ladder_hash;
+use crate::render::run_scene::RunScene;
 
 /// Hashes of the inputs of one scene's frame and truths.
 #[derive(Clone, Debug)]
@@ -28,24 +27,14 @@ impl SceneKeys {
         settings: &RenderSettings,
         alignments: impl IntoIterator<Item = Alignment>,
     ) -> Self {
-        let (description, frame) = match scene {
-            RunScene::Traced(scene) => (
-                hash_inputs(&(&scene.exposes, scene.family, &scene.display)),
-                tracer::frame_hash(scene, settings),
-            ),
-            RunScene::Drawn(scene) => (hash_inputs(scene), scene.hash.clone()),
-        };
-        let ladder = |alignment| match scene {
-            RunScene::Traced(scene) => ladder_hash(scene, settings, alignment),
-            RunScene::Drawn(scene) => scene.hash.clone(),
-        };
+        let hash = |file| scene.content_hash(file, settings);
         Self {
-            scene: hash_inputs(&(program, scene.id(), description)),
-            frame,
+            scene: hash_inputs(&(program, scene.id(), scene.description_hash())),
+            frame: hash(RenderFile::Frame),
             truths: (alignments.into_iter())
                 .map(|alignment| {
-                    let truth = scene.truth_hash(settings, alignment);
-                    (alignment, [truth, ladder(alignment)])
+                    let ladder = hash(RenderFile::Rung(alignment, SHARP));
+                    (alignment, [hash(RenderFile::Truth(alignment)), ladder])
                 })
                 .collect(),
         }

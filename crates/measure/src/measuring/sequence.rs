@@ -126,7 +126,7 @@ impl SequenceTruths<'_> {
     /// Makes the truths of all frames without one group of their replicates.
     fn without(&self, groups: Groups, group: usize) -> Result<SequenceReference, Error> {
         self.reference(|scene| {
-            let files = self.plan.rendering(scene).files(self.alignment);
+            let files = self.plan.rendering(scene.into()).files(self.alignment);
             let replicates = files.replicates(0..self.plan.render.replicates)?;
             Ok(groups.truth_without(group, &replicates)?)
         })

@@ -4,10 +4,10 @@ use frame::{Frame, Picture};
 use tracer::Scene;
 
 use super::plan::RunPlan;
-use super::run_scene::RunScene;
 use crate::Error;
 use crate::inputs::input_format::InputFormat;
-use crate::render::exclusion::{FilterFrame, draw_exclusion, write_exclusion};
+use crate::render::exclusion::{FilterFrame, write_exclusion};
+use crate::render::run_scene::RunScene;
 use crate::render::velocities::write_further_velocities;
 use crate::stats::parts::Groups;
 
@@ -38,7 +38,7 @@ pub(super) fn store_frames(
     let frame = whole.as_ref().unwrap_or(frame);
     let before = read_frame_before(plan, scene)?;
     let replicates_before = match &before {
-        Some((scene, _)) => read_replicates(plan, RunScene::Traced(scene))?,
+        Some((scene, _)) => read_replicates(plan, scene.into())?,
         None => Vec::new(),
     };
     let groups = Groups::of(plan.render.replicates);
@@ -51,19 +51,18 @@ pub(super) fn store_frames(
                 .map(|group| groups.picture_without(group, &replicates))
                 .collect()
         };
-        let mask = plan.reads_exclusion().then(|| match scene {
-            RunScene::Traced(scene) => Ok(Some(draw_exclusion(&frame, scene))),
-            RunScene::Drawn(scene) => scene.read_exclusion(&frame),
-        });
-        let exclusion = mask.transpose()?.flatten();
+        let exclusion = if plan.reads_exclusion() {
+            plan.rendering(scene).exclusion(&frame)?
+        } else {
+            None
+        };
         Ok::<_, Error>((FilterFrame { frame, exclusion }, parts))
     };
     let stored: Vec<StoredFrame> = (formats.iter())
         .map(|format| {
             let before = before.as_ref();
-            let before = before.map(|(scene, frame)| {
-                store(format, frame, &replicates_before, RunScene::Traced(scene))
-            });
+            let before =
+                before.map(|(scene, frame)| store(format, frame, &replicates_before, scene.into()));
             let (before, parts_before) = before.transpose()?.unzip();
             let (frame, parts) = store(format, frame, replicates, scene)?;
             Ok(StoredFrame {
@@ -86,21 +85,22 @@ pub(super) fn store_frames(
     Ok(stored)
 }
 
-/// Reads the replicates of a scene's frame if filters are measured on parts of them; none of an
-/// engine's.
+/// Reads the replicates of a scene's frame if filters are measured on parts of them.
 pub(super) fn read_replicates(plan: &RunPlan, scene: RunScene) -> Result<Vec<Picture>, Error> {
-    let scene = scene.traced().filter(|_| plan.measures_parts());
-    scene.map_or(Ok(Vec::new()), |scene| {
+    if plan.measures_parts(scene) {
         plan.rendering(scene).frame_replicates()
-    })
+    } else {
+        Ok(Vec::new())
+    }
 }
 
 /// Reads the frame with the velocities that few filters read; none if no filter of the plan does,
-/// and of an engine's scene.
+/// or if an engine gave them with the frame.
 fn read_further_velocities(plan: &RunPlan, scene: RunScene) -> Result<Option<Frame>, Error> {
-    let scene = (scene.traced()).filter(|_| plan.reads_further_velocities());
-    let read = |scene| plan.rendering(scene).frame_with_further_velocities();
-    scene.map(read).transpose()
+    let is_read = plan.reads_further_velocities() && scene.traced().is_some();
+    is_read
+        .then(|| plan.rendering(scene).frame_with_further_velocities())
+        .transpose()
 }
 
 /// Reads the frame before a later frame, with its scene.
@@ -116,9 +116,9 @@ fn read_frame_before(plan: &RunPlan, scene: RunScene) -> Result<Option<(Scene, F
     let is_own = |scene: &&Scene| scene.id == later.id.at_frame(0);
     let first = plan.scenes.iter().find(is_own).expect("it is in the plan");
     let before = first.at_frame(later.id.frame - 1);
-    let frame = match read_further_velocities(plan, RunScene::Traced(&before))? {
+    let frame = match read_further_velocities(plan, (&before).into())? {
         Some(whole) => whole,
-        None => plan.rendering(&before).frame()?,
+        None => plan.rendering((&before).into()).frame()?,
     };
     Ok(Some((before, frame)))
 }

@@ -1,69 +1,65 @@
 //! Rendered files of a scene, for finding those that need not be rendered again.
 
-use std::path::Path;
+use std::path::PathBuf;
 
-use crate::{RenderFile, RenderPath, Wanted};
+use crate::SHARP;
+use crate::files::render_file::{RenderFile, Wanted};
 use frame::Alignment;
 
-use super::ladders::{ladder_hash, needed_rungs};
 use super::rendering::Rendering;
 
-/// Lists a truth, its replicates, and the rungs of its ladder that measuring needs: all if ladders
-/// are requested.
-pub(crate) fn truth_files(
-    alignment: Alignment,
-    replicates: u32,
-    ladders: bool,
-) -> impl Iterator<Item = RenderFile> {
-    let replicates = (0..replicates).map(move |index| RenderFile::Replicate(alignment, index));
-    let rungs = needed_rungs(alignment, ladders).iter();
-    let rungs = rungs.map(move |rung| RenderFile::Rung(alignment, *rung));
-    std::iter::once(RenderFile::Truth(alignment))
-        .chain(replicates)
-        .chain(rungs)
-}
-
 impl Rendering<'_> {
-    /// Lists the scene's frame, and each alignment's [`truth_files`], with the hashes of their
-    /// inputs.
+    /// Lists the scene's frame, and each alignment's files, with the hashes of their inputs.
     pub(crate) fn list_wanted(&self, alignments: &[Alignment], ladders: bool) -> Vec<Wanted> {
-        let (scene, settings) = (self.scene, &self.settings);
-        let wanted = |file, hash: &str| Wanted {
-            path: RenderPath {
-                scene: scene.id.clone(),
-                file,
-            },
-            hash: hash.to_owned(),
+        let frame = Wanted {
+            file: RenderFile::Frame,
+            hash: self.content_hash(RenderFile::Frame),
         };
-        let frame = tracer::frame_hash(scene, settings);
-        let mut files = vec![wanted(RenderFile::Frame, &frame)];
+        let mut files = vec![frame];
         for &alignment in alignments {
-            let truth = tracer::truth_hash(scene, settings, alignment);
-            let replicate = tracer::replicate_hash(scene, settings, alignment);
-            let ladder = ladder_hash(scene, settings, alignment);
-            let truth_files = truth_files(alignment, settings.replicates, ladders);
-            files.extend(truth_files.map(|file| match file {
-                RenderFile::Replicate(..) => wanted(file, &replicate),
-                RenderFile::Rung(..) => wanted(file, &ladder),
-                RenderFile::Frame | RenderFile::Truth(_) => wanted(file, &truth),
-            }));
+            files.extend(self.list_truth(alignment, ladders));
         }
         files
     }
 
-    /// Lists the frame and the truths that all given folders lack. Headers of files decide: for
-    /// each truth, those of its own file, its last replicate and its last rung.
+    /// Lists a truth, its replicates, and the rungs of its ladder that measuring needs: all if
+    /// ladders are requested.
+    fn list_truth(&self, alignment: Alignment, ladders: bool) -> Vec<Wanted> {
+        let truth = RenderFile::Truth(alignment);
+        let [replicate, rung] = [
+            RenderFile::Replicate(alignment, 0),
+            RenderFile::Rung(alignment, SHARP),
+        ]
+        .map(|file| self.content_hash(file));
+        let mut files = vec![Wanted {
+            file: truth,
+            hash: self.content_hash(truth),
+        }];
+        files.extend((0..self.settings.replicates).map(|index| Wanted {
+            file: RenderFile::Replicate(alignment, index),
+            hash: replicate.clone(),
+        }));
+        let rungs = self.scene.needed_rungs(alignment, ladders).iter();
+        files.extend(rungs.map(|subframes| Wanted {
+            file: RenderFile::Rung(alignment, *subframes),
+            hash: rung.clone(),
+        }));
+        files
+    }
+
+    /// Lists the frame and the truths that all given folders of the scene lack. Headers of files
+    /// decide: for each truth, those of its own file, its last replicate and its last rung.
     pub(crate) fn find_missing(
         &self,
         alignments: &[Alignment],
         ladders: bool,
-        folders: &[&Path],
+        folders: &[PathBuf],
     ) -> Vec<RenderFile> {
         let lacks = |file: &Wanted| !folders.iter().any(|folder| file.is_in(folder));
         self.list_wanted(alignments, ladders)
-            .chunk_by(|one, next| one.path.file.alignment() == next.path.file.alignment())
+            .chunk_by(|one, next| one.file.alignment() == next.file.alignment())
             .filter(|group| lacks(&group[0]) || group.last().is_some_and(lacks))
-            .map(|group| group[0].path.file)
+            .map(|group| group[0].file)
             .collect()
     }
 }

@@ -3,15 +3,12 @@
 use std::cell::OnceCell;
 use std::path::PathBuf;
 
-use crate::{Error, LADDER, RenderFile};
+use crate::{Error, LADDER, RenderFile, SHARP};
 use frame::{Accumulation, Alignment, Frame, Ladder, Truth, read_attribute};
 use metrics::Sharp;
-use tracer::{LadderTracer, RenderSettings, Scene};
+use tracer::LadderTracer;
 
 use super::rendering::Rendering;
-
-/// Rung that is the sharp picture of a shutter's middle.
-pub const SHARP: u32 = LADDER[0];
 
 /// Lists the rungs that measuring against a truth needs: all if ladders are requested. Otherwise
 /// only the sharp picture of the shutter's middle, the zero of skill, unless that is the frame
@@ -53,7 +50,7 @@ impl<'a> Rendering<'a> {
     pub fn ladder(&self, truth: &'a Truth) -> LadderFiles<'a> {
         LadderFiles {
             rendering: *self,
-            hash: ladder_hash(self.scene, &self.settings, truth.alignment),
+            hash: self.content_hash(RenderFile::Rung(truth.alignment, SHARP)),
             truth,
             tracer: OnceCell::new(),
         }
@@ -76,7 +73,7 @@ impl<'a> LadderFiles<'a> {
     pub fn read_or_render(&self, subframes: u32) -> Result<Ladder, Error> {
         let path = self.path(subframes);
         if let Ok(ladder) = Ladder::read_rung(&path, subframes)
-            && ladder.provenance.is_rendered_of(&self.hash)
+            && self.rendering.is_made(&ladder.provenance, &self.hash)
         {
             return Ok(ladder);
         }
@@ -89,12 +86,14 @@ impl<'a> LadderFiles<'a> {
     }
 
     fn render(&self, subframes: u32) -> Result<(), Error> {
-        let Rendering { scene, monitor, .. } = self.rendering;
         let label = format!(
             "{} {subframes} sub-frames, {}",
-            scene.id, self.truth.alignment
+            self.rendering.scene.id(),
+            self.truth.alignment
         );
-        let rung = monitor.watch(&label, |watch| self.tracer()?.trace(subframes, watch))?;
+        let rung = (self.rendering.monitor).watch(&label, |watch| {
+            Ok::<_, Error>(self.tracer()?.trace(subframes, watch)?)
+        })?;
         assert_eq!(
             rung.provenance.content_hash, self.hash,
             "{label}: the hash must not depend on the render"
@@ -102,24 +101,15 @@ impl<'a> LadderFiles<'a> {
         Ok(rung.write(&self.path(subframes))?)
     }
 
-    fn tracer(&self) -> Result<&LadderTracer<'a>, tracer::TraceError> {
+    fn tracer(&self) -> Result<&LadderTracer<'a>, Error> {
         if self.tracer.get().is_none() {
-            let Rendering {
-                scene, settings, ..
-            } = self.rendering;
-            let made = LadderTracer::new(scene, &settings, self.truth, &LADDER)?;
+            let settings = &self.rendering.settings;
+            let file = RenderFile::Rung(self.truth.alignment, SHARP);
+            let scene = self.rendering.traced(file)?;
+            let made = LadderTracer::new(scene, settings, self.truth, &LADDER)?;
             // It was empty, and no other thread can see it.
             let _ = self.tracer.set(made);
         }
         Ok(self.tracer.get().expect("it was made"))
     }
-}
-
-/// Hashes the inputs of a truth's ladder with these settings.
-pub(crate) fn ladder_hash(
-    scene: &Scene,
-    settings: &RenderSettings,
-    alignment: Alignment,
-) -> String {
-    tracer::ladder_hash(scene, settings, alignment, &LADDER)
 }

@@ -2,10 +2,12 @@
 
 pub mod exclusion;
 pub mod files;
+pub mod ingested_scene;
 pub mod ladders;
 pub mod memory;
 pub mod rendering;
 pub mod replicates;
+pub mod run_scene;
 pub mod settings;
 pub mod truths;
 pub mod velocities;

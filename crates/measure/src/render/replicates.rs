@@ -32,7 +32,7 @@ impl<'a> Rendering<'a> {
         TruthFiles {
             rendering: *self,
             alignment,
-            hash: tracer::replicate_hash(self.scene, &self.settings, alignment),
+            hash: self.content_hash(RenderFile::Replicate(alignment, 0)),
         }
     }
 
@@ -81,7 +81,7 @@ impl<'a> TruthFiles<'a> {
         let path = self.rendering.path(RenderFile::Truth(self.alignment));
         let truth = (self.has_truth(count)).then(|| Truth::read(&path))?;
         let hash = truth_hash(&self.hash, count);
-        (truth.ok()).filter(|truth| truth.provenance.is_rendered_of(&hash))
+        (truth.ok()).filter(|truth| self.rendering.is_made(&truth.provenance, &hash))
     }
 
     /// Averages the replicates, and renders missing ones.
@@ -144,8 +144,8 @@ impl<'a> TruthFiles<'a> {
     fn read(&self, index: u32) -> Option<Replicate> {
         let file = RenderFile::Replicate(self.alignment, index);
         let replicate = Replicate::read(&self.rendering.path(file)).ok()?;
-        let is_own = replicate.provenance.is_rendered_of(&self.hash) && replicate.index == index;
-        is_own.then_some(replicate)
+        let is_made = self.rendering.is_made(&replicate.provenance, &self.hash);
+        (is_made && replicate.index == index).then_some(replicate)
     }
 }
 
@@ -161,7 +161,8 @@ impl<'a> Tracers<'a> {
         let at = match tracers.iter().position(|(of, _)| of == alignments) {
             Some(at) => at,
             None => {
-                let made = TruthTracer::new(rendering.scene, &rendering.settings, alignments)?;
+                let scene = rendering.traced(RenderFile::Truth(alignments[0]))?;
+                let made = TruthTracer::new(scene, &rendering.settings, alignments)?;
                 tracers.push((alignments.to_vec(), made));
                 tracers.len() - 1
             }
@@ -184,7 +185,7 @@ fn render_replicate<'a>(
     let rendering = files[0].rendering;
     let tracer = tracers.of(&rendering, &alignments)?;
     let names = names.join(" and ");
-    let label = format!("{} {names}, replicate {index}", rendering.scene.id);
+    let label = format!("{} {names}, replicate {index}", rendering.scene.id());
     let replicates = (rendering.monitor).watch(&label, |watch| tracer.trace(index, watch))?;
     replicates.par_iter().try_for_each(|replicate| {
         let file = RenderFile::Replicate(replicate.alignment, index);

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::{Error, MAX_REPLICATES, refuse_scene, scene_folder};
+use crate::{Error, MAX_REPLICATES, refuse_scene};
 use frame::{Alignment, Region, Truth};
 
 use super::rendering::Rendering;
@@ -63,7 +63,7 @@ impl<'a> Rendering<'a> {
 
     /// Renders some replicates of a truth and writes them.
     pub fn part(&self, alignment: Alignment, indices: Range<u32>) -> Result<(), Error> {
-        refuse_scene(&scene_folder(self.out, self.scene))?;
+        refuse_scene(&self.folder())?;
         self.check_memory(indices.len() as u32)?;
         self.files(alignment).replicates(indices).map(drop)
     }

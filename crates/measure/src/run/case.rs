@@ -4,16 +4,15 @@ use std::collections::BTreeMap;
 use std::ops::Deref;
 use std::path::{Path, PathBuf};
 
-use crate::RenderFile;
+use crate::{RenderFile, SHARP};
 use filters::{Convention, Value};
 use frame::{FileError, Frame, Truth};
 use metrics::{ImageScores, Interval, Jitter, Metric, Scores};
 use serde::{Deserialize, Serialize};
-use tracer::{Family, FrameRate, SceneId};
+use tracer::{Family, FrameRate};
 
-use crate::engine_scene::engine_name;
 use crate::identity::CaseId;
-use crate::render::ladders::SHARP;
+use crate::render::ingested_scene::Drawn;
 
 /// Confidence intervals of scores.
 pub type Intervals = BTreeMap<Metric, Interval>;
@@ -68,30 +67,6 @@ pub struct Case {
     pub jitter: Option<Jitter>,
     /// Folder of the case's pictures, relative to `run.json`.
     pub folder: PathBuf,
-}
-
-/// Engine that drew a frame and a truth.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Drawn {
-    /// Engine and version.
-    pub engine: String,
-    /// Scene of the suite that it drew.
-    pub scene: Option<SceneId>,
-    /// Number of sub-frames in the truth's mean.
-    pub subframes: u32,
-    /// 99th percentile of the moving pixels' motion between two of them, in pixels.
-    pub step: f64,
-}
-
-impl Drawn {
-    /// Describes the truth: `mean of 32 sub-frames that three.js 0.187.0 drew`.
-    pub fn truth_text(&self) -> String {
-        format!(
-            "mean of {} sub-frames that {} drew",
-            self.subframes,
-            engine_name(&self.engine)
-        )
-    }
 }
 
 impl Case {

@@ -4,7 +4,8 @@ use frame::{Frame, Image, Ladder, Picture, Truth, display_srgb, scene_linear};
 use metrics::{ImageScores, MeasureError, Measured, Metric, Reference, Scores};
 
 use super::finished_picture::FinishedPicture;
-use crate::render::ladders::{SHARP, sharp_picture};
+use crate::SHARP;
+use crate::render::ladders::sharp_picture;
 use metrics::make_oracle;
 
 const NO_MATTES: &str = "the picture has no mattes, channels coverage.<object> that say which share of a pixel it gives \
