@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use filters::{AdapterDescription, Layer};
 use frame::Alignment;
-use tracer::{RenderSettings, Scene};
+use scene::Scene;
+use tracer::RenderSettings;
 
 use super::part::Part;
 use crate::filter_choice::FilterChoice;

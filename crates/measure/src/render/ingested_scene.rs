@@ -5,11 +5,13 @@
 
 use std::path::{Path, PathBuf};
 
+use scene::SceneId;
+
 use crate::{Error, FilterChoice, RenderFile, hash_inputs, put, read_record, read_text};
 use filters::{EXCLUSION, Layer};
 use frame::{Alignment, Frame, Picture, Plane, read_exr};
 use serde::{Deserialize, Serialize};
-use tracer::{RenderSettings, SceneId};
+use tracer::RenderSettings;
 
 use super::exclusion::EXCLUSION_FILE;
 

@@ -2,13 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
+use scene::Scene;
+
 use crate::{Error, Monitor, RenderFile, refuse_scene};
 use filters::{EXCLUSION, Filter, Layer};
 use frame::{
     Alignment, Frame, Picture, Plane, Provenance, TracedFrame, read_attribute,
     read_frame_replicates, write_small_exr,
 };
-use tracer::{PixelGrid, RenderSettings, Scene};
+use tracer::{PixelGrid, RenderSettings};
 
 use super::exclusion::{FilterFrame, draw_exclusion};
 use super::ingested_scene::refuse_file;
