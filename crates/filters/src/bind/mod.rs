@@ -20,7 +20,7 @@ use shader_import::{
 use wgpu::naga::{ResourceBinding, StorageFormat};
 
 use crate::filter::{BindingPlace, PassShader, VerticalDirection};
-use crate::shader::{Shader, guard, try_each, written_texture};
+use crate::shader::{Shader, guard, hash_code, try_each, written_texture};
 use crate::{Filter, FilterError, Settings};
 use binder::bind;
 use places::check_places;
@@ -113,6 +113,7 @@ fn import_with(
     let is_open = (shader.constants.iter()).any(|(_, value)| value.reads_any(&|_| true));
     let bound = stages.iter().zip(made).map(|(stage, (compiled, open))| {
         Ok(Shader {
+            code_hash: hash_code(&compiled),
             compiled: is_open.then(|| Arc::new(compiled)),
             ..bind(filter, &stage.shader, &stage.path, open, &constants)?
         })
@@ -191,6 +192,7 @@ pub(crate) fn specialise(
             .expect("these formats worked with other constants"))
     })?;
     Ok(Shader {
+        code_hash: made.code_hash.clone(),
         compiled: made.compiled.clone(),
         compiled_by: made.compiled_by.clone(),
         ..specialised

@@ -58,6 +58,9 @@ pub struct Filter {
     pub convention: Convention,
     /// Kernels: those of its WGSL file, and one shader for each pass that names its own.
     pub(crate) shaders: Vec<Shader>,
+    /// Hash of filter.toml and of its kernels, as their compilers left them: equal hashes mean equal
+    /// pictures on one adapter.
+    pub content_hash: String,
     /// Lines of filter.toml that declare it all.
     pub(crate) lines: Lines,
 }

@@ -91,6 +91,7 @@ pub(crate) fn parse(path: &Path, text: &str) -> Result<Filter, FilterError> {
         textures: Vec::new(),
         passes: Vec::new(),
         shaders: Vec::new(),
+        content_hash: String::new(),
         lines,
     };
     if let Some(reach_by) = &manifest.reach_by {

@@ -63,6 +63,13 @@ pub struct IngestedScene {
     pub folder: PathBuf,
 }
 
+/// What a case or a picture takes from an ingested scene, wherever its folder is.
+#[derive(Serialize)]
+struct DrawnDescription<'a> {
+    capture: &'a str,
+    scene: &'a IngestedScene,
+}
+
 /// Engine that drew a frame and a truth, as a case names it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Drawn {
@@ -192,9 +199,9 @@ impl IngestedScene {
 
     /// Hashes the description, wherever the folder is.
     pub(crate) fn description_hash(&self) -> String {
-        hash_inputs(&Self {
-            folder: PathBuf::new(),
-            ..self.clone()
+        hash_inputs(&DrawnDescription {
+            capture: &self.hash,
+            scene: self,
         })
     }
 

@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 use scene::{Family, Scene, SceneId};
 
 use crate::{Error, LADDER, RenderFile, hash_inputs};
-use frame::Alignment;
+use frame::{Alignment, Display};
+use serde::Serialize;
 use tracer::RenderSettings;
 
 use super::ingested_scene::{Drawn, IngestedScene};
@@ -20,6 +21,14 @@ pub enum RunScene<'a> {
     Traced(&'a Scene),
     /// Frame and truth are copied from the folder that `ingest` wrote.
     Ingested(&'a IngestedScene),
+}
+
+/// What a case or a picture takes from a scene that rays are traced in.
+#[derive(Serialize)]
+struct TracedDescription<'a> {
+    exposes: &'a str,
+    family: Family,
+    display: &'a Display,
 }
 
 impl<'a> From<&'a Scene> for RunScene<'a> {
@@ -132,7 +141,11 @@ impl<'a> RunScene<'a> {
     /// Hashes what a case or a picture takes from the scene itself.
     pub(crate) fn description_hash(self) -> String {
         match self {
-            Self::Traced(scene) => hash_inputs(&(&scene.exposes, scene.family, &scene.display)),
+            Self::Traced(scene) => hash_inputs(&TracedDescription {
+                exposes: &scene.exposes,
+                family: scene.family,
+                display: &scene.display,
+            }),
             Self::Ingested(scene) => scene.description_hash(),
         }
     }
