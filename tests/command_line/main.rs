@@ -62,6 +62,7 @@ mod threejs;
 mod timing;
 mod tune;
 mod variants;
+mod written_files;
 
 use std::fs;
 use std::path::Path;
