@@ -6,9 +6,8 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use judge::{Agreement, FilterAtSizes, Results, SizeComparison, compare_sizes};
+use measure::{Error, Run, escape_markdown, markdown_code};
 use metrics::Metric;
-use store::{escape_markdown, markdown_code};
-use suite::{Error, Run};
 
 fn main() -> ExitCode {
     let paths: Vec<String> = std::env::args().skip(1).collect();

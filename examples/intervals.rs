@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use filters::{Filter, Gpu};
+use measure::{Error, FilterChoice, Monitor, RunPlan, measure_scenes, open_gpu};
 use metrics::{Ideal, Interval, Metric};
-use suite::{Error, FilterChoice, Monitor, RunPlan, measure_scenes, open_gpu};
 use tracer::{RenderSettings, load_scene};
 
 /// One filter per shutter: trailing and centred.
@@ -120,7 +120,7 @@ fn run(
     choices: &[FilterChoice],
     (samples_per_pixel, seed): (u32, u64),
     gpu: Option<&Gpu>,
-) -> Result<suite::Run, Error> {
+) -> Result<measure::Run, Error> {
     let [width, height] = SIZE;
     let plan = RunPlan {
         scenes: vec![load_scene(Path::new("scenes").join(scene), None)?],

@@ -7,10 +7,10 @@ use std::process::ExitCode;
 
 use frame::{Alignment, Frame, Image, Picture, Raster, Truth};
 use judge::make_wrong_pictures;
+use measure::Error;
 use metrics::scatter_oracle;
 use metrics::{MeasureError, Reference};
 use rayon::prelude::*;
-use suite::Error;
 use tracer::{Progress, RenderSettings, Scene, list_scenes, load_scene, trace_frame, trace_truth};
 
 /// FLIP over *moving* and over *support*.

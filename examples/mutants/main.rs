@@ -6,7 +6,7 @@ mod mutant;
 mod table;
 
 use bench::Bench;
-use suite::Error;
+use measure::Error;
 use table::{format_score, format_table};
 
 /// Filters and presets with required limits.

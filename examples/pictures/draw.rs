@@ -4,9 +4,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use frame::{Image, Raster, read_png, tile_pictures, write_png};
+use measure::{Case, Error, Run};
 use metrics::Metric;
 use report::{label, write_case_strip};
-use suite::{Case, Error, Run};
 
 use super::browser::Browser;
 use super::recipe::{Picture, Screen};
@@ -53,7 +53,7 @@ fn cut(whole: &Image, middle: Option<[u32; 2]>) -> Image {
 fn open(screen: &Screen, below: &Path) -> Result<Browser, Error> {
     let page = below.join(&screen.page);
     let page = (page.canonicalize())
-        .map_err(|error| Error::Usage(format!("{}: {error}", page.display())))?;
+        .map_err(|error| Error::Refused(format!("{}: {error}", page.display())))?;
     let mut browser = Browser::new(screen.size[0], screen.size[1]);
     browser.prefer("light");
     browser.open(&page, &screen.part);
@@ -121,7 +121,7 @@ fn read_caption(folder: &Path, stem: &str) -> Option<String> {
 
 /// Finds the case of a file or folder of a run, and the run's folder.
 fn find_case(path: &Path) -> Result<(Case, PathBuf), Error> {
-    let none = || Error::Usage(format!("{} is of no case", path.display()));
+    let none = || Error::Refused(format!("{} is of no case", path.display()));
     let mut above = path.ancestors();
     let folder = above
         .find(|folder| folder.join("run.json").is_file())

@@ -14,8 +14,8 @@ use std::{env, fs};
 
 use draw::{draw, read_text};
 use image::Rgb;
+use measure::Error;
 use recipe::{Picture, PictureRun, RECORD, Recipe, Record, Shown, hash, is_picture, read_record};
-use suite::Error;
 
 /// Folder of pictures before they are compared, each at its path.
 const MADE: &str = "out/pictures/made";
@@ -50,7 +50,7 @@ fn make(names: &[String]) -> Result<usize, Error> {
     let all: Vec<&str> = recipe.run.iter().map(|run| run.name.as_str()).collect();
     if let Some(unknown) = names.iter().find(|name| !all.contains(&name.as_str())) {
         let all = all.join(", ");
-        return Err(Error::Usage(format!(
+        return Err(Error::Refused(format!(
             "no run of pictures is called \"{unknown}\"; runs are {all}"
         )));
     }
@@ -190,5 +190,5 @@ fn copy(from: &Path, to: &Path) -> Result<(), Error> {
 }
 
 fn failed(what: &str, why: impl std::fmt::Display) -> Error {
-    Error::Usage(format!("{what}: {why}"))
+    Error::Refused(format!("{what}: {why}"))
 }

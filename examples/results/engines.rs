@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use judge::RankedFilter;
+use measure::IDENTITY;
 use serde::Deserialize;
-use suite::IDENTITY;
 
 use super::change::{Change, Gain};
 

@@ -17,8 +17,8 @@ use std::process::ExitCode;
 
 use bench::Bench;
 use judge::Results;
-use report::{write_case_strip, write_report};
-use suite::{ACCUMULATE, Case, Error, Run};
+use measure::{Case, Error, ReferencePicture, Run};
+use report::{RunReport, write_case_strip, write_report};
 
 use crate::engines::list_engines;
 use crate::lengths::{Lengths, Panels};
@@ -131,7 +131,9 @@ fn write_pictures(all: &[Results], run: &Run, path: &Path) -> Result<(), Error> 
 fn write_site(folder: &Path, path: &Path) -> Result<(), Error> {
     let mut run = Run::read(path)?;
     // A scene's pictures are loaded together; live cases need no sub-frames next to them.
-    run.cases.retain(|case| case.filter != ACCUMULATE);
+    let is_accumulation =
+        |case: &Case| matches!(case.reference(), Some(ReferencePicture::Accumulation(_)));
+    run.cases.retain(|case| !is_accumulation(case));
     let names: BTreeSet<String> = (run.cases.iter())
         .map(|case| case.scene.to_string())
         .collect();
@@ -146,7 +148,15 @@ fn write_site(folder: &Path, path: &Path) -> Result<(), Error> {
         frame::write_atomically(&live.join(format!("{name}.png")), &picture)?;
     }
     // Pictures and tables are files of their own, which the page loads when someone opens a case.
-    write_report(&run, &[], None, run_folder, &live.join("report.html"), 0)?;
+    let report = RunReport {
+        run: &run,
+        folder: run_folder,
+        findings: &[],
+        verdict: None,
+        additions: &[bench::add_costs(&run, run_folder)?],
+        largest: 0,
+    };
+    write_report(&report, &live.join("report.html"))?;
     println!("{}", folder.display());
     Ok(())
 }

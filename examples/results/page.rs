@@ -8,9 +8,8 @@ use judge::{
     RANK_RULE, RankedFilter, ResultScores, Results, SIDE_EFFECTS_RULE, SideEffects, SizeComparison,
     compare_sizes,
 };
+use measure::{Error, IDENTITY, escape_markdown, markdown_code};
 use metrics::Metric;
-use store::{escape_markdown, markdown_code};
-use suite::{Error, IDENTITY};
 use tracer::SceneId;
 
 use super::change::Change;
@@ -73,7 +72,7 @@ impl<'a> Kept<'a> {
             (cards.iter()).partition(|card| card.scene.is_some());
         let longest = benches.into_iter().max_by_key(|bench| bench.cases.len());
         let results =
-            main_results(all).ok_or_else(|| Error::Usage("no file of results".to_owned()))?;
+            main_results(all).ok_or_else(|| Error::Refused("no file of results".to_owned()))?;
         let sealed = all.iter().find(|candidate| {
             candidate.seal.is_some()
                 && candidate.size == results.size
@@ -83,7 +82,7 @@ impl<'a> Kept<'a> {
             results,
             sealed,
             groups: results.ranking(),
-            bench: longest.ok_or_else(|| Error::Usage("no bench of the program".to_owned()))?,
+            bench: longest.ok_or_else(|| Error::Refused("no bench of the program".to_owned()))?,
             of_browsers,
             is_site,
         })

@@ -10,7 +10,7 @@ use bench::Bench;
 use frame::FileError;
 use judge::Results;
 use maud::html;
-use suite::Error;
+use measure::Error;
 
 use super::page::site_pages;
 

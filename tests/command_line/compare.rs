@@ -70,7 +70,7 @@ fn compare_names_a_changed_parameter_and_gives_intervals() {
         assert_eq!(change["kind"], "same", "{change}");
     }
     let [first, second] = ["out", "other"].map(|out| {
-        let run: suite::Run = sandbox.read_json(&format!("{out}/run.json"));
+        let run: measure::Run = sandbox.read_json(&format!("{out}/run.json"));
         let mut cases = run.cases.into_iter();
         let case = cases.find(|case| case.filter == "velocity_gather" && case.scene == "plate");
         case.unwrap().scores.moving.flip

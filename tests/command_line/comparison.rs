@@ -2,8 +2,8 @@
 //! coarser frames.
 
 use frame::{Alignment, Frame, Ladder, Truth};
+use measure::{Case, DepthFormat, FinishedPicture, Run, VelocityFormat};
 use metrics::Metric;
-use suite::{Case, DepthFormat, FinishedPicture, Run, VelocityFormat};
 use tests::text::assert_contains;
 
 use crate::sandbox::{SCENE, Sandbox, assert_done, quick_command, split};
@@ -88,7 +88,7 @@ fn a_sharp_sub_frame_of_the_middle_has_no_skill_under_any_shutter() {
             display_referred: false,
             notes: Vec::new(),
         };
-        let scored = suite::score(&finished, &frame, &truth, Some(&ladder)).unwrap();
+        let scored = measure::score(&finished, &frame, &truth, Some(&ladder)).unwrap();
         for metric in ["skill_flip", "skill_mse", "skill_label_tv"] {
             let skill = scored.scores.get(metric.parse().unwrap()).value().unwrap();
             // The frame and the sub-frame have different noise.

@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 use std::fs;
 
 use frame::Image;
+use measure::{Case, Run, ShutterRule};
 use metrics::{Metric, SequenceMetric};
-use suite::{Case, Run, ShutterRule};
 use tests::filter_folder::{write_manifest, write_script};
 use tests::root;
 use tests::text::{assert_contains, squeeze};

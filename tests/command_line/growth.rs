@@ -28,7 +28,7 @@ fn a_run_of_copies_is_merged_judged_and_reported() {
     let begin = "33 cases in 15 parts, 3 scenes\n";
     assert!(text.starts_with(begin), "{text}");
     assert_contains(&text, &["merge: ", "check: ", "report: ", "report.html: "]);
-    let run = suite::Run::read(&sandbox.path("grown/merged/run.json")).unwrap();
+    let run = measure::Run::read(&sandbox.path("grown/merged/run.json")).unwrap();
     let cases = run.cases.iter().filter(|case| !case.is_reference);
     let names: Vec<String> = cases
         .map(|case| format!("{} {}", case.scene, case.filter))

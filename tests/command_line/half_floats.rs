@@ -3,8 +3,8 @@
 use std::fs;
 use std::sync::OnceLock;
 
+use measure::Case;
 use metrics::Measured;
-use suite::Case;
 use tests::filter_folder::copy_folder;
 use tests::text::{assert_contains, squeeze};
 

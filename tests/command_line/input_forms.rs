@@ -1,7 +1,7 @@
 //! Forms in which engines provide a frame: sizes of buffers, samples, jitter, scale.
 
 use frame::read_exr;
-use suite::{BufferSize, CameraJitter, Case, DepthOfField, Multisampling, RenderScale, Sequence};
+use measure::{BufferSize, CameraJitter, Case, DepthOfField, Multisampling, RenderScale, Sequence};
 
 use crate::comparison::find_case;
 use crate::sandbox::{SCENE, Sandbox};

@@ -130,7 +130,7 @@ fn a_run_takes_the_truth_of_a_check_and_adds_the_ladder() {
     assert_eq!(list_rungs(&sandbox), ["ladder_trailing/n1.exr"]);
     let mut accumulations = cases.iter().filter(|case| case.filter == "accumulate");
     assert!(accumulations.all(|case| case.preset == "1"));
-    let without = |case: &suite::Case| case.scores.get(Metric::SUBFRAMES).value().is_none();
+    let without = |case: &measure::Case| case.scores.get(Metric::SUBFRAMES).value().is_none();
     assert!(cases.iter().all(without));
 
     let truth = || read_times(&sandbox)["truth_trailing.exr"];

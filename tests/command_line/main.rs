@@ -3,6 +3,8 @@
 mod arguments;
 mod audit;
 mod baseline;
+#[path = "../../crates/bench/tests/program/mod.rs"]
+mod bench;
 #[cfg(unix)]
 mod blender;
 mod changes;
@@ -16,7 +18,6 @@ mod compilers;
 mod conventions;
 mod earlier_run;
 mod empty_folder;
-mod evaluate;
 mod exclusion;
 mod failures;
 mod fidelity;
@@ -59,7 +60,7 @@ mod summary;
 mod terminal;
 #[cfg(unix)]
 mod threejs;
-mod timing;
+#[path = "../../crates/tune/tests/program/mod.rs"]
 mod tune;
 mod variants;
 mod written_files;
@@ -75,7 +76,7 @@ fn a_run_writes_scores_and_pictures_of_every_case() {
     let sandbox = Sandbox::new();
     assert_done(&sandbox.run(&["--filters", "identity,jump_flood:paper"]));
     let run = sandbox.read_run();
-    assert_eq!(run.format, suite::FORMAT);
+    assert_eq!(run.format, measure::FORMAT);
     assert_eq!((run.render.width, run.render.height), (64, 32));
     assert_eq!(run.render.samples_per_pixel, 16);
     assert!(run.cases.is_sorted_by_key(|case| !case.is_reference));

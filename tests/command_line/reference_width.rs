@@ -3,8 +3,8 @@
 use std::fs;
 
 use filters::Value;
+use measure::Case;
 use serde_json::Value as Json;
-use suite::Case;
 use tests::filter_folder::one_kernel;
 use tests::text::assert_contains;
 

@@ -247,7 +247,7 @@ impl Sandbox {
     }
 
     /// Reads run.json of the last run.
-    pub fn read_run(&self) -> suite::Run {
+    pub fn read_run(&self) -> measure::Run {
         self.read_json("out/run.json")
     }
 
@@ -286,7 +286,7 @@ impl Sandbox {
     }
 
     /// Returns the last run's cases without the references.
-    pub fn read_filter_cases(&self) -> Vec<suite::Case> {
+    pub fn read_filter_cases(&self) -> Vec<measure::Case> {
         let cases = self.read_run().cases.into_iter();
         cases.filter(|case| !case.is_reference).collect()
     }

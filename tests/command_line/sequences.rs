@@ -6,8 +6,8 @@ use std::fs;
 use std::time::SystemTime;
 
 use judge::{RANKED_BY, RankedSequence, rank_sequences, rank_sequences_on};
+use measure::{Run, Sequence};
 use metrics::{Measured, PERFECT_JOD, SequenceMetric};
-use suite::{Run, Sequence};
 use tests::text::assert_contains;
 use tracer::SceneId;
 

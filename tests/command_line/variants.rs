@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use suite::{Case, Run};
+use measure::{Case, Run};
 
 use crate::sandbox::{IDENTITY, Sandbox, assert_refused, split};
 

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 
 use cli::{Programs, select_filters};
 use judge::{Level, SceneBounds, check_names, read_bounds, size_for_bounds};
+use measure::{Error, FilterChoice, Frames};
 use metrics::{Metric, SequenceMetric};
-use suite::{Error, FilterChoice, Frames};
 use tests::text::assert_contains;
 
 /// Folder of scenes with one scene, `fan`.

@@ -1,8 +1,8 @@
 //! Intervals of filters' scores: they contain the score of a frame and a truth without noise.
 
 use filters::{Filter, Gpu};
+use measure::{FilterChoice, Monitor, RunPlan, measure_scenes};
 use metrics::Interval;
-use suite::{FilterChoice, Monitor, RunPlan, measure_scenes};
 use tests::{open_gpu, settings};
 use tracer::{RenderSettings, load_scene};
 

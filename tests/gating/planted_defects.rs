@@ -8,9 +8,10 @@ use std::path::{Path, PathBuf};
 
 use cli::{Programs, select_filters, select_scenes};
 use filters::Gpu;
-use judge::{Check, Decision, Finding, RunBounds, check, judge};
+use gate::{Check, check};
+use judge::{Decision, Finding, RunBounds, judge};
+use measure::{FilterChoice, Run, RunPlan, measure_scenes};
 use metrics::Metric;
-use suite::{FilterChoice, Run, RunPlan, measure_scenes};
 use tests::filter_folder::copy_changed_filter;
 use tests::limits::calibrate_scene;
 use tests::open_gpu;

@@ -6,12 +6,13 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use cli::{Programs, SceneChoice, select_filters, select_scenes};
 use frame::Alignment;
+use gate::check;
 use judge::{
-    Decision, JudgedScore, Level, Outcome, SceneBounds, check, judge, judge_scores, read_bounds,
+    Decision, JudgedScore, Level, Outcome, SceneBounds, judge, judge_scores, read_bounds,
     size_for_bounds,
 };
+use measure::{FilterChoice, Monitor, Rendering, RunPlan, measure_scenes};
 use metrics::Reference;
-use suite::{FilterChoice, Monitor, Rendering, RunPlan, measure_scenes};
 use tests::{open_gpu, settings};
 use tracer::Scene;
 
@@ -57,7 +58,7 @@ fn guarded() -> Vec<FilterChoice> {
 /// Judges the instant itself, and the mean of 64 sub-frames.
 fn judge_bars(scene: &Scene, bounds: &SceneBounds, out: &Path) -> [Vec<JudgedScore>; 2] {
     let rendering = Rendering {
-        scene,
+        scene: scene.into(),
         settings: settings(SIZE.into(), 256),
         out,
         monitor: Monitor::SILENT,

@@ -158,7 +158,8 @@ fn a_ladder_equals_the_truth_at_still_pixels_and_costs_no_more() {
         work.store(progress.total, Ordering::Relaxed);
         ControlFlow::Continue(())
     };
-    let ladder = trace_ladder(&scene, &settings, &truth, &store::LADDER, &watch).expect("allowed");
+    let ladder =
+        trace_ladder(&scene, &settings, &truth, &measure::LADDER, &watch).expect("allowed");
     let whole = u64::from(WIDTH * HEIGHT * settings.samples_per_pixel);
     assert!(work.into_inner() <= whole);
     // The slab sweeps 19.25 to 26.75. In the margin around it, only the still panel's edge is
@@ -227,7 +228,7 @@ fn n_subframes_are_worth_n() {
     coarse.samples_per_pixel = 64;
     let frame = render_frame(&scene, &coarse);
     let truth = render_truth(&scene, &settings, Alignment::Trailing);
-    let ladder = render_ladder(&scene, &settings, &truth, &store::LADDER);
+    let ladder = render_ladder(&scene, &settings, &truth, &measure::LADDER);
     let reference = Reference::new(&frame, &truth, Some(&ladder), &scene.display.into()).unwrap();
     // Another seed than the reference's.
     let mut again = settings;

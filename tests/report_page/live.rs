@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 
 use bench::Bench;
 use frame::{Image, Raster};
+use measure::Case;
 use metrics::Metric;
 use serde_json::{Value, json};
-use suite::Case;
 use tests::filter_folder::copy_folder;
 use tests::text::assert_contains;
 
@@ -218,7 +218,7 @@ fn a_translated_shader_can_be_changed_and_saved(browser: &mut Browser, sandbox: 
     let zip = save(browser, sandbox, "Download filter", "bevy_blur.zip");
     unpack(&fs::read(zip).unwrap(), &sandbox.path("saved"));
     sandbox.measure_into("again", "--filters ./saved/bevy_blur:tried");
-    let run: suite::Run = sandbox.read_json("again/run.json");
+    let run: measure::Run = sandbox.read_json("again/run.json");
     let case = run.cases.iter().find(|case| case.preset == "tried");
     let score = case.unwrap().measured(Metric::FLIP).value().unwrap();
     assert!((score - tried).abs() <= f64::from(APART), "{score} {tried}");
@@ -284,7 +284,7 @@ fn what_a_reader_changes_is_what_the_program_measures() {
         &mut browser,
         &format!("{field}.value = 4; {field}.dispatchEvent(new Event('change'))"),
     );
-    let run: suite::Run = sandbox.read_json("moved/run.json");
+    let run: measure::Run = sandbox.read_json("moved/run.json");
     let moved = run.cases.iter().find(|case| case.filter == "kino");
     let differences = compare(&mut browser, &sandbox, "moved", moved.unwrap());
     assert!(differences.are_small("kino"), "{differences:?}");

@@ -3,8 +3,8 @@
 use std::fs;
 
 use frame::{ExrFile, Frame, read_exr};
+use measure::Case;
 use metrics::flip_ldr;
-use suite::Case;
 
 use crate::browser::{Browser, address_of};
 use crate::sandbox::Sandbox;

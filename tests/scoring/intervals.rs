@@ -1,9 +1,9 @@
 //! Intervals of scores, counted over many noisy truths: they contain the score's limit.
 
 use frame::{Alignment, Frame, Picture, Raster, Replicate, Truth};
+use measure::{Groups, Intervals, intervals};
 use metrics::{Metric, Reference, Scores, scatter_oracle};
 use rayon::prelude::*;
-use suite::{Groups, Intervals, intervals};
 use tests::synthetic::{Blur, Object, Scene, Shape};
 use tests::unwatched;
 use tracer::{RenderSettings, TruthTracer, load_scene, trace_frame, trace_ladder, trace_truth};

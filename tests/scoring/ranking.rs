@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use cli::{run_table, terminal_text};
 use frame::Alignment;
 use judge::compare_runs;
+use measure::{Case, CaseId, FORMAT, InputFormat, Overall, Run, StoredRun, overall};
 use metrics::{Measured, Metric, Scores};
-use suite::{Case, CaseId, FORMAT, InputFormat, Overall, Run, StoredRun, overall};
 use tests::synthetic::{Blur, Object, Shape};
 use tests::text::assert_contains;
 use tests::unwatched;
@@ -90,10 +90,10 @@ fn make_run() -> Run {
         .flat_map(|scene| ENTRIES.map(|entry| make_case(scene, &scores, entry)))
         .collect();
     Run {
-        frames: suite::Frames::default(),
+        frames: measure::Frames::default(),
         sequences: Vec::new(),
         format: FORMAT,
-        program: suite::PROGRAM.to_owned(),
+        program: measure::PROGRAM.to_owned(),
         command: Vec::new(),
         adapter: None,
         render: tests::settings_of([48, 32], 16, 2),

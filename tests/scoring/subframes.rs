@@ -2,10 +2,9 @@
 //! ladder are.
 
 use frame::{Alignment, Frame, Image, Ladder, Picture, Region, Replicate, Truth, regions};
+use measure::{Groups, LADDER};
 use metrics::{Equivalent, EquivalentMetric, EquivalentScores, Errors, Reference, Subframes};
 use rayon::prelude::*;
-use store::LADDER;
-use suite::Groups;
 use tests::unwatched;
 use tracer::{
     LadderTracer, RenderSettings, Scene, TruthTracer, list_scenes, load_scene, trace_frame,

@@ -2,9 +2,10 @@
 
 use std::fs;
 
-use judge::{SceneBounds, calibrate, read_bounds_file};
+use gate::calibrate;
+use judge::{SceneBounds, read_bounds_file};
+use measure::Run;
 use metrics::Metric;
-use suite::Run;
 use tracer::SceneId;
 
 /// Makes the bounds of a scene that `calibrate` proposes after several runs of sound filters.

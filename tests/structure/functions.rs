@@ -9,7 +9,6 @@ const MAX_LINES: usize = 60;
 
 /// Longer functions that read better whole.
 const EXCEPTIONS: &[(&str, &str)] = &[
-    ("crates/cli/src/commands/check.rs", "execute"),
     ("crates/metrics/src/sequence/reference.rs", "measure"),
     ("crates/tracer/src/accel/bvh.rs", "traverse"),
     ("crates/tracer/src/load/mod.rs", "load_scene_and_files"),

@@ -3,7 +3,7 @@
 use filters::PassTime;
 
 use super::{CaseCost, CopyCost, PassCost, Spread};
-use suite::FilterChoice;
+use measure::FilterChoice;
 
 /// Times of every dispatch of one run of a filter.
 pub type Times = Vec<PassTime>;

@@ -3,10 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use filters::Clock;
-use store::read_text;
+use measure::{Error, SIDES, read_text};
 
 use super::{BENCH_FORMAT, Bench, REACHES};
-use suite::{Error, SIDES};
 
 /// Longest duration in a bench, in seconds: a day.
 const LONGEST: f64 = 86_400.0;
@@ -19,7 +18,7 @@ impl Bench {
     /// timed: charts take logarithms.
     pub fn read(path: &Path) -> Result<Self, Error> {
         Self::parse(&read_text(path)?).map_err(|reason| {
-            Error::Usage(format!(
+            Error::Refused(format!(
                 "{}: {reason}; `shuttertruth bench` writes one, and so do reports; leave it out, or delete it",
                 path.display()
             ))
@@ -28,7 +27,7 @@ impl Bench {
 
     /// Reads every file in a folder, in the order of their names.
     pub fn read_all(folder: &Path) -> Result<Vec<Self>, Error> {
-        let refuse = |error| Error::Usage(format!("{}: {error}", folder.display()));
+        let refuse = |error| Error::Refused(format!("{}: {error}", folder.display()));
         let files = folder.read_dir().map_err(refuse)?.flatten();
         let mut paths: Vec<PathBuf> = files.map(|file| file.path()).collect();
         paths.sort();
@@ -102,7 +101,7 @@ impl Bench {
     pub fn keep(mut self, folder: &Path) -> Result<PathBuf, Error> {
         let name = &self.adapter.name;
         if self.adapter.kind == "software" {
-            return Err(Error::Usage(format!(
+            return Err(Error::Refused(format!(
                 "{name} is a processor; only times of graphics cards are kept"
             )));
         }
@@ -113,7 +112,7 @@ impl Bench {
         let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
         let path = folder.join(words.join("_") + ".json");
         if path.exists() {
-            let place = |reason| Error::Usage(format!("{}: {reason}", path.display()));
+            let place = |reason| Error::Refused(format!("{}: {reason}", path.display()));
             self.join(Self::read(&path)?).map_err(place)?;
         }
         let text = serde_json::to_string(&self).expect("a bench is JSON");

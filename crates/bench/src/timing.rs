@@ -12,8 +12,7 @@ use super::{
     BASELINE, BENCH_FORMAT, Bench, CaseCost, CopyCost, EXPOSURE, GROWTH_FROM, REACHES, ReachCost,
     ReachPoint, SPEED, Spread,
 };
-use suite::FilterChoice;
-use suite::{Error, PROGRAM};
+use measure::{Error, FilterChoice, PROGRAM};
 
 /// All settings of a bench.
 pub struct BenchPlan {

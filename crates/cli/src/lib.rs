@@ -1,39 +1,32 @@
 //! The program `shuttertruth`: its arguments, its commands, and what they print.
 
-mod arguments;
 mod commands;
-mod environment;
 #[cfg(test)]
 mod guides;
 mod program;
 mod tables;
 
-use std::ffi::OsString;
 use std::process::ExitCode;
 
-use environment::set_environment;
 use filters::FilterError;
 use frame::TruthError;
+use measure::{Error, printable};
 use program::{Cli, execute, find_new_place};
-use store::printable;
-use suite::Error;
 use terminal::output::{
     INTERRUPTED_TEXT, catch_interrupts, interrupted_code, print_error, print_failure, set_output,
 };
 use terminal::result::Ending;
 use tracer::TraceError;
 
-pub use tables::{
-    annotations, check_text, compare_table, junit, list_once, markdown_table, paired_table,
-    range_text, ranking_text, run_table, score_table, summary,
-};
+pub use gate::{annotations, check_text, junit, summary};
+pub use run::{ranking_text, run_table, score_table};
+pub use tables::compare_table;
 pub use terminal::output::terminal_text;
 pub use terminal::selection::{Programs, SceneChoice, select_filters, select_scenes};
+pub use terminal::table::{list_once, markdown_table, range_text};
 
 /// Runs the command of the command line and returns its exit code.
 pub fn run_program() -> ExitCode {
-    let is_verbose = |argument: OsString| argument == "-v" || argument == "--verbose";
-    set_environment(std::env::args_os().any(is_verbose));
     catch_interrupts();
     let arguments =
         Cli::parse_words(std::env::args_os()).unwrap_or_else(|error| refuse_arguments(&error));
@@ -46,7 +39,7 @@ pub fn run_program() -> ExitCode {
                 print_error(INTERRUPTED_TEXT)
             } else {
                 match way_out(&error) {
-                    Some(way_out) => print_failure(&Error::Usage(format!("{error}; {way_out}"))),
+                    Some(way_out) => print_failure(&Error::Refused(format!("{error}; {way_out}"))),
                     None => print_failure(&error),
                 }
             }
@@ -83,7 +76,7 @@ fn way_out(error: &Error) -> Option<&'static str> {
 /// Prints an error of the command line, or the requested help.
 fn refuse_arguments(error: &clap::Error) -> ! {
     if let Some(place) = find_new_place(error) {
-        print_failure(&Error::Usage(place));
+        print_failure(&Error::Refused(place));
         std::process::exit(error.exit_code())
     }
     // Words may be file names with control codes, which the message must show as escapes.

@@ -4,9 +4,10 @@ use std::ffi::OsString;
 
 use clap::error::{ContextKind, ContextValue};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
-use suite::Error;
+use measure::Error;
 
 use crate::commands::*;
+use engine::command::{audit, export, import, ingest};
 use terminal::output::OutputArgs;
 use terminal::result::Ending;
 
@@ -35,7 +36,7 @@ pub enum Command {
     /// Prints a ranking; writes report.html, run.json, EXR and PNG.
     Run(run::RunArgs),
     /// Run, and compare every score with its bound: pass or fail
-    Check(check::CheckArgs),
+    Check(gate::CheckArgs),
     /// Measure a finished picture from any source
     Score(score::ScoreArgs),
     /// Write a finished run or tuning as one HTML page
@@ -50,7 +51,7 @@ pub enum Command {
     Bench(bench::BenchArgs),
     /// Search, study and compare the parameters of a filter
     #[command(subcommand, disable_help_subcommand = true)]
-    Tune(TuneCommand),
+    Tune(tune::TuneCommand),
     /// Exchange scenes and frames with engines
     #[command(subcommand, disable_help_subcommand = true)]
     Engine(EngineCommand),
@@ -66,26 +67,6 @@ pub enum Command {
     /// Write the pages of the manual
     #[command(hide = true)]
     Man(description::ManArgs),
-}
-
-/// The commands of `tune`.
-#[derive(Debug, Subcommand)]
-pub enum TuneCommand {
-    /// Search for parameters that bring a filter nearer to the truth
-    ///
-    /// Writes journal.jsonl and tune.json.
-    Search(tune::TuneArgs),
-    /// Estimate which parameters of a filter matter, by Sobol indices
-    ///
-    /// Writes sensitivity.json.
-    Sensitivity(sensitivity::SensitivityArgs),
-    /// Compare two presets of a filter, scene by scene
-    ///
-    /// Writes compare.json.
-    #[command(alias = "compare-presets")]
-    Compare(compare_presets::ComparePresetsArgs),
-    /// Score one set of parameters; print JSON
-    Evaluate(evaluate::EvaluateArgs),
 }
 
 /// The commands of `engine`.
@@ -119,9 +100,9 @@ pub enum TruthsCommand {
 #[derive(Debug, Subcommand)]
 pub enum LimitsCommand {
     /// Make the scores of a finished run the baseline of later checks
-    Accept(accept::AcceptArgs),
+    Accept(gate::AcceptArgs),
     /// Run several times, measure how scores scatter, and propose bounds
-    Calibrate(calibrate::CalibrateArgs),
+    Calibrate(gate::CalibrateArgs),
 }
 
 impl Cli {
@@ -186,21 +167,18 @@ pub fn execute(program: &Cli) -> Result<Ending, Error> {
         rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
             .build_global()
-            .map_err(|error| Error::Usage(format!("cannot start the threads: {error}")))?;
+            .map_err(|error| Error::Refused(format!("cannot start the threads: {error}")))?;
     }
     let done = match &program.command {
         Command::Run(args) => run::execute(args),
-        Command::Check(args) => return check::execute(args),
+        Command::Check(args) => return gate::execute_check(args),
         Command::Score(args) if args.frames > 1 => score_sequence::execute(args),
         Command::Score(args) => score::execute(args),
         Command::Report(args) => report::execute(args),
         Command::Compare(args) => compare::execute(args),
         Command::List(args) => list::execute(args),
         Command::Bench(args) => bench::execute(args),
-        Command::Tune(TuneCommand::Search(args)) => tune::execute(args),
-        Command::Tune(TuneCommand::Sensitivity(args)) => sensitivity::execute(args),
-        Command::Tune(TuneCommand::Compare(args)) => compare_presets::execute(args),
-        Command::Tune(TuneCommand::Evaluate(args)) => evaluate::execute(args),
+        Command::Tune(command) => tune::execute(command),
         Command::Engine(EngineCommand::Import(args)) => import::execute(args),
         Command::Engine(EngineCommand::Export(args)) => export::execute(args),
         Command::Engine(EngineCommand::Ingest(args)) => ingest::execute(args),
@@ -208,8 +186,8 @@ pub fn execute(program: &Cli) -> Result<Ending, Error> {
         Command::Engine(EngineCommand::Blur(args)) => blur::execute(args),
         Command::Truths(TruthsCommand::Render(args)) => render::execute(args),
         Command::Truths(TruthsCommand::Merge(args)) => merge::execute(args),
-        Command::Limits(LimitsCommand::Accept(args)) => accept::execute(args),
-        Command::Limits(LimitsCommand::Calibrate(args)) => calibrate::execute(args),
+        Command::Limits(LimitsCommand::Accept(args)) => gate::execute_accept(args),
+        Command::Limits(LimitsCommand::Calibrate(args)) => gate::execute_calibrate(args),
         Command::Completions(args) => description::print_completions(args, Cli::all_visible()),
         Command::Man(args) => description::write_manual(args, Cli::all_visible()),
     };

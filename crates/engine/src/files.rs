@@ -9,7 +9,7 @@ use serde::Serialize;
 /// is allowed.
 macro_rules! refuse {
     ($path:expr, $($reason:tt)*) => {
-        Err(Error::Usage(format!("{}: {}", $path.display(), format_args!($($reason)*))))
+        Err(Error::Refused(format!("{}: {}", $path.display(), format_args!($($reason)*))))
     };
 }
 pub(crate) use refuse;

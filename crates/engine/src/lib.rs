@@ -2,18 +2,14 @@
 
 mod audit;
 mod capture;
+pub mod command;
 mod export;
 mod files;
 mod import;
 mod ingest;
 mod statistics;
 
-pub use audit::{
-    Buffer, CaptureAudit, Cause, Defect, ObjectAudit, ObjectShown, audit_capture,
-    write_audit_picture,
-};
+pub use audit::{Buffer, CaptureAudit, Cause, Defect, audit_capture};
 pub use capture::description::CaptureDescription;
 pub use capture::folder::Capture;
-pub use export::{FRAMES_PER_SECOND, Manifest, Timeline, export_gltf};
-pub use import::{ImportPlan, Imported, Motions, Up, import};
-pub use ingest::{Ingested, check_subframe_count, ingest};
+pub use export::{FRAMES_PER_SECOND, Timeline, export_gltf};

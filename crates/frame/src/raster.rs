@@ -47,6 +47,15 @@ impl<T: Clone> Raster<T> {
         })
     }
 
+    /// Repeats the outermost pixels `margin` times on every side.
+    pub fn widened(&self, margin: u32) -> Raster<T> {
+        let inside = |place: u32, side: u32| place.saturating_sub(margin).min(side - 1);
+        let [width, height] = [self.width, self.height];
+        Raster::from_fn(width + 2 * margin, height + 2 * margin, |x, y| {
+            self.at(inside(x, width), inside(y, height)).clone()
+        })
+    }
+
     /// Enlarges each pixel to a square of `factor` pixels a side.
     pub fn enlarged(&self, factor: u32) -> Raster<T> {
         let (width, height) = (self.width * factor, self.height * factor);

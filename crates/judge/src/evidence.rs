@@ -4,9 +4,8 @@
 use std::path::Path;
 
 use frame::{Ladder, read_attribute, read_exr};
+use measure::{Case, Error, ErrorMaps, RenderFile, Run, SHARP};
 use metrics::Reference;
-use store::RenderFile;
-use suite::{Case, Error, ErrorMaps, Run, SHARP};
 
 use crate::decoys::{Decoys, FEW_SUBFRAMES};
 use crate::finding::Finding;

@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
+use measure::{Case, Run, Sequence};
 use metrics::{Interval, Measured, Metric};
 use serde::{Deserialize, Serialize};
-use suite::{Case, Run, Sequence};
 use tracer::SceneId;
 
 use crate::bounds::Level;
@@ -84,7 +84,7 @@ fn samples_to_settle(
 
 /// Doubles samples per pixel until an uncertainty, which shrinks with their root, is as small as a
 /// distance.
-pub(crate) fn settling_samples(samples_per_pixel: u32, uncertainty: f64, distance: f64) -> u64 {
+pub fn settling_samples(samples_per_pixel: u32, uncertainty: f64, distance: f64) -> u64 {
     let more = (uncertainty / distance).powi(2);
     let present = u64::from(samples_per_pixel);
     let mut samples = present;

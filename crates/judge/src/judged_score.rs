@@ -1,7 +1,7 @@
 //! Scores of one picture or one sequence, each compared with its bound.
 
+use measure::{Frames, Intervals, Sequence};
 use metrics::{Measured, Metric, Scores};
-use suite::{Frames, Intervals, Sequence};
 
 use crate::bounds::{Bound, Bounds};
 use crate::outcome::{Outcome, judge_score};

@@ -3,9 +3,8 @@
 use std::path::Path;
 
 use frame::{read_bounded, write_atomically};
+use measure::{Error, MAX_RUN_BYTES, PROGRAM, Run, is_below, read_text_within, to_lines};
 use serde::{Deserialize, Serialize};
-use store::{MAX_RUN_BYTES, is_below, read_text_within, to_lines};
-use suite::{Error, PROGRAM, Run};
 
 use crate::{Decision, Finding};
 
@@ -75,7 +74,7 @@ impl Judgement {
         }
         let text = read_text_within(&path, MAX_RUN_BYTES)?;
         let refuse = |reason: String| {
-            Error::Usage(format!(
+            Error::Refused(format!(
                 "{}: {reason}; judge the run again: shuttertruth check {}",
                 path.display(),
                 folder.join("run.json").display()

@@ -1,9 +1,6 @@
 //! Judgement of a finished run: each bounded score against its limit.
 
-mod baseline;
 mod bounds;
-mod calibrate;
-mod check;
 mod compare;
 mod decoys;
 mod evidence;
@@ -19,17 +16,11 @@ mod worst;
 
 use std::collections::BTreeMap;
 
-pub use baseline::{
-    Acceptance, Baseline, BaselineComparison, ComparisonKind, DecidedBy, accept_scores,
-    compare_with_baseline,
-};
 pub use bounds::{
     BOUNDS_FILE, Bound, Bounds, BoundsFile, FilterBounds, Length, Level, Margin, SceneBounds,
     bound_subframes, check_lengths, check_names, read_bounds, read_bounds_beside_scenes,
     read_bounds_file, require_bounds, size_for_bounds,
 };
-pub use calibrate::{Calibration, calibrate, default_metrics};
-pub use check::{CHECK_FORMAT, Check, check};
 pub use compare::{
     Agreement, Basis, Change, ChangeKind, FilterAtSizes, MeanChange, Pair, Reversal, RunComparison,
     SettingChange, SizeComparison, compare_runs, compare_sizes, pair_cases, rank_changes,
@@ -37,10 +28,11 @@ pub use compare::{
 };
 pub use decoys::{Resemblance, make_wrong_pictures};
 pub use evidence::add_evidence;
-pub use finding::{Finding, MAX_SAMPLES};
+pub use finding::{Finding, MAX_SAMPLES, settling_samples};
 use judged_score::judge_sequence;
 pub use judged_score::{JudgedScore, judge_scores};
 pub use judgement::{JUDGEMENT_FILE, Judgement, Verdict};
+use measure::{Case, Run, Sequence};
 pub use numbers::{number, round_to_digits};
 pub use outcome::{Decision, Outcome};
 pub use ranking::filters::{
@@ -51,7 +43,6 @@ pub use ranking::no_blur::no_gain_text;
 pub use ranking::sequence_ranking::{RANKED_BY, RankedSequence, rank_sequences, rank_sequences_on};
 pub use ranking::side_effects::{SIDE_EFFECTS_RULE, SideEffects};
 pub use results::{ResultScores, Results};
-use suite::{Case, Run, Sequence};
 use tracer::SceneId;
 pub use worst::{BLOCK, CROP, Worst, worst_block};
 
@@ -79,6 +70,6 @@ pub fn judge(run: &Run, bounds: &RunBounds) -> Vec<Finding> {
 }
 
 /// Finds the sequence that starts with a case.
-pub(crate) fn find_sequence<'a>(run: &'a Run, case: &Case) -> Option<&'a Sequence> {
+pub fn find_sequence<'a>(run: &'a Run, case: &Case) -> Option<&'a Sequence> {
     run.sequences.iter().find(|sequence| sequence.is_of(case))
 }

@@ -4,10 +4,9 @@ use std::collections::{BTreeMap, HashSet};
 use std::path::Path;
 
 use frame::Alignment;
+use measure::{Case, Error, IDENTITY, InputFormat, Run, read_text, refuse_failures, to_lines};
 use metrics::Metric;
 use serde::{Deserialize, Serialize};
-use store::{read_text, to_lines};
-use suite::{Case, Error, IDENTITY, InputFormat, Run, refuse_failures};
 use tracer::{Family, SceneId};
 
 use crate::groups::group_by;
@@ -72,7 +71,7 @@ impl Results {
     /// appears twice.
     pub fn from_runs(runs: &[Run]) -> Result<Self, Error> {
         let Some(first) = runs.first() else {
-            return Err(Error::Usage("no run to take results from".to_owned()));
+            return Err(Error::Refused("no run to take results from".to_owned()));
         };
         let seal = (first.cases.first()).and_then(|case| case.scene.seal);
         let mut results = Self::without_scores(first, seal);
@@ -87,7 +86,7 @@ impl Results {
                     continue;
                 }
                 if !known.insert(&case.id) {
-                    return Err(Error::Usage(format!(
+                    return Err(Error::Refused(format!(
                         "{} is in two runs; allowed: each case once",
                         case.id
                     )));
@@ -133,7 +132,7 @@ impl Results {
         let mut both = std::iter::zip(settings(other), settings(self));
         match both.find(|(value, first)| value != first) {
             None => Ok(()),
-            Some(((what, value), (_, first))) => Err(Error::Usage(format!(
+            Some(((what, value), (_, first))) => Err(Error::Refused(format!(
                 "{scene}: {what}: {value}, and the first run has {first}; allowed: runs that differ in their scenes and filters alone"
             ))),
         }
@@ -148,13 +147,13 @@ impl Results {
         let settings = |results: &Self| (results.file_name(), results.samples_per_pixel);
         let [(file, samples), (other, others)] = [settings(self), settings(&newer)];
         if (&file, samples) != (&other, others) {
-            return Err(Error::Usage(format!(
+            return Err(Error::Refused(format!(
                 "{other} with {others} samples per pixel cannot go into {file} with {samples}; measure with the same settings, or \
                  all filters anew"
             )));
         }
         if self.common_alignment != newer.common_alignment {
-            return Err(Error::Usage(format!(
+            return Err(Error::Refused(format!(
                 "FLIP* of the run is against a {} shutter and that of {file} against a {} one; measure a filter of that shutter too, in \
                  an empty folder",
                 newer.common_alignment, self.common_alignment
@@ -178,7 +177,7 @@ impl Results {
 
     /// Reads a file of results.
     pub fn read(path: &Path) -> Result<Self, Error> {
-        let refuse = |reason: String| Error::Usage(format!("{}: {reason}", path.display()));
+        let refuse = |reason: String| Error::Refused(format!("{}: {reason}", path.display()));
         let results: Self = serde_json::from_str(&read_text(path)?)
             .map_err(|error| refuse(format!("no results of this program: {error}")))?;
         match results.format {
@@ -191,7 +190,8 @@ impl Results {
 
     /// Reads every file of results in a folder, in the order of their names.
     pub fn read_all(folder: &Path) -> Result<Vec<Self>, Error> {
-        let refuse = |error: std::io::Error| Error::Usage(format!("{}: {error}", folder.display()));
+        let refuse =
+            |error: std::io::Error| Error::Refused(format!("{}: {error}", folder.display()));
         let mut files = Vec::new();
         for entry in std::fs::read_dir(folder).map_err(refuse)? {
             let path = entry.map_err(refuse)?.path();

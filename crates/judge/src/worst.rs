@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use frame::{FileError, Image, Plane, Raster, Tile, display_srgb, tile_pictures, write_png};
+use measure::magma;
 use metrics::{Metric, Regions};
 use serde::{Deserialize, Serialize};
-use suite::magma;
 
 /// Place of the largest error.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -1,6 +1,6 @@
 //! Addresses of filters and cases in a page.
 
-use suite::{CaseId, FilterId};
+use measure::{CaseId, FilterId};
 
 /// Formats a filter's unique name as a part of an address: `bevy:high`, `identity@trailing`.
 pub fn anchor(filter: &FilterId) -> String {

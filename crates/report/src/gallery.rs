@@ -4,9 +4,11 @@
 use std::path::{Path, PathBuf};
 
 use frame::{Alignment, Image, read_png, tile_pictures, write_atomically, write_jpeg, write_png};
+use measure::{
+    Case, Error, IDENTITY, RenderFile, Run, escape_markdown, markdown_code, printable,
+    printable_path,
+};
 use metrics::Metric;
-use store::{RenderFile, escape_markdown, markdown_code, printable, printable_path};
-use suite::{Case, Error, IDENTITY, Run};
 
 use crate::label::label;
 use crate::run_facts::command;
@@ -30,7 +32,7 @@ struct Extremes<'a> {
 pub fn write_gallery(run: &Run, folder: &Path, out: &Path) -> Result<PathBuf, Error> {
     let scenes = find_extremes(run);
     if scenes.is_empty() {
-        return Err(Error::Usage(
+        return Err(Error::Refused(
             "the run has no filter but identity on a scene that moves, so a gallery has no best and no worst one; run filters"
                 .to_owned(),
         ));

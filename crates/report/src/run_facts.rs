@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use filters::AdapterDescription;
 use frame::Alignment;
 use maud::{Markup, html};
-use suite::{Case, Run};
+use measure::{Case, Run};
 use tracer::SceneId;
 
 use crate::case_table::CaseTable;

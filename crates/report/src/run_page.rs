@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use maud::{Markup, PreEscaped, html};
-use suite::Run;
+use measure::Run;
 
 use crate::case::legend::colors;
 use crate::case::viewer::viewer;

@@ -3,8 +3,7 @@
 use std::path::Path;
 use std::time::Duration;
 
-use store::printable_path;
-use suite::RunEstimate;
+use measure::{RunEstimate, printable_path};
 
 use crate::output::{is_quiet, print_error};
 

@@ -5,7 +5,7 @@
 #[macro_export]
 macro_rules! refuse {
     ($($text:tt)*) => {
-        return Err(suite::Error::Usage(format!($($text)*)))
+        return Err(measure::Error::Refused(format!($($text)*)))
     };
 }
 

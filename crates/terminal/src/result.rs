@@ -2,9 +2,8 @@
 
 use std::path::Path;
 
+use measure::{Error, printable_path};
 use serde::Serialize;
-use store::printable_path;
-use suite::Error;
 
 use crate::output::print;
 

@@ -1,6 +1,6 @@
 //! Ablation of a choice: parameters without effect return to the start.
 
-use suite::Error;
+use measure::Error;
 
 use crate::evaluator::Evaluator;
 use crate::next_trial::run_trial;

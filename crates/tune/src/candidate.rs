@@ -2,7 +2,7 @@
 
 use filters::{Blur, Filter, FilterError, Kernels, Settings};
 use frame::{Image, Plane};
-use suite::{FilterFrame, Runner, filter_input, pack_planes, unpack_planes};
+use measure::{FilterFrame, Runner, filter_input, pack_planes, unpack_planes};
 
 /// A filter with settings to try, ready for pictures of one size.
 pub struct Candidate<'a> {

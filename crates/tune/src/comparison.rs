@@ -4,8 +4,8 @@ use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 use filters::Settings;
+use measure::{Error, MIN_SCENES, ONE_SIDED, plain_mean};
 use serde::{Deserialize, Serialize};
-use suite::{Error, MIN_SCENES, ONE_SIDED, plain_mean};
 use tracer::Progress;
 
 use crate::evaluator::Evaluator;

@@ -5,8 +5,8 @@ use std::sync::mpsc;
 
 use filters::{Blur, FilterError, Gpu, Kernels, Settings, Value};
 use frame::{Image, Plane};
+use measure::{Error, FilterChoice, Monitor, filter_input};
 use serde::{Deserialize, Serialize};
-use suite::{Error, FilterChoice, Monitor, filter_input};
 use tracer::TraceError;
 
 use crate::candidate::Candidate;
@@ -211,7 +211,7 @@ pub fn evaluate_candidate(
     Ok(Evaluation {
         values: settings.values.clone(),
         error: mean_log_ratio(&scores, &start, |_| true)
-            .ok_or_else(|| Error::Usage("scenes: none is named; name at least one".to_owned()))?,
+            .ok_or_else(|| Error::Refused("scenes: none is named; name at least one".to_owned()))?,
         bleed: worst_bleed(&scores),
         cost: match scenes.first() {
             Some(first) if cost => evaluator.measure_cost(settings, *first)?,
@@ -235,7 +235,7 @@ fn check_finite(scene: &str, color: &Image, mattes: Option<&[Plane]>) -> Result<
     if values.all(|value| value.is_finite()) {
         Ok(())
     } else {
-        Err(Error::Usage(format!(
+        Err(Error::Refused(format!(
             "{scene}: the filter's picture has infinite or NaN values"
         )))
     }

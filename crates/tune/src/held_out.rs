@@ -6,9 +6,8 @@ use std::path::Path;
 
 use filters::Value;
 use frame::write_atomically;
+use measure::{Error, read_text};
 use serde::{Deserialize, Serialize};
-use store::read_text;
-use suite::Error;
 
 use crate::comparison::PairedComparison;
 use crate::journal::line_of;
@@ -35,7 +34,7 @@ fn read_held_out_results(path: &Path) -> Result<Vec<HeldOutResult>, Error> {
     let text = read_text(path)?;
     let line = |(index, line): (usize, &str)| {
         serde_json::from_str(line).map_err(|error| {
-            Error::Usage(format!(
+            Error::Refused(format!(
                 "{}:{}: is no result on held-out scenes: {error}; choose another output folder",
                 path.display(),
                 index + 1

@@ -5,10 +5,9 @@ use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use frame::FileError;
+use measure::{Error, read_text};
 use serde::Serialize;
 use serde_json::Value;
-use store::read_text;
-use suite::Error;
 
 use crate::trial::{JOURNAL_FORMAT, JournalHeader, Trial};
 
@@ -75,7 +74,7 @@ impl Journal {
         let text = line_of(line);
         let written = (self.file.write_all(text.as_bytes())).and_then(|()| self.file.sync_data());
         written.map_err(|source: io::Error| {
-            Error::Usage(format!(
+            Error::Refused(format!(
                 "{}: cannot be written: {source}; its {} whole trials are safe: make room and run the same command again, \
                  which goes on after them",
                 self.path.display(),
@@ -129,7 +128,7 @@ pub fn line_of(content: &impl Serialize) -> String {
 
 /// Makes the error about a line of a journal; the first line has index 0.
 pub fn journal_error(path: &Path, index: usize, reason: &str) -> Error {
-    Error::Usage(format!(
+    Error::Refused(format!(
         "{}:{}: {reason}; choose another output folder, or delete the file to begin anew",
         path.display(),
         index + 1

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use filters::{FilterError, Settings};
-use suite::Error;
+use measure::Error;
 
 use crate::evaluator::Evaluator;
 use crate::loss::{FAILED, bounds_penalty, log_ratios, mean_log_ratio, penalty, worst_bleed};

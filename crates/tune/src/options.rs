@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use judge::SceneBounds;
-use suite::{Error, FilterChoice, Monitor};
+use measure::{Error, FilterChoice, Monitor};
 use tracer::{RenderSettings, Scene};
 
 use crate::loss::LEAST_BLEED;
@@ -62,20 +62,20 @@ impl TuneOptions {
         ];
         for (limit, objective) in limits {
             if limit.is_some() && !self.measures(objective) {
-                return Err(Error::Usage(format!(
+                return Err(Error::Refused(format!(
                     "{0} has a limit and is not measured; add it to the objectives: flip,{0}",
                     objective.name()
                 )));
             }
         }
         if self.measures(Objective::Cost) && self.choice.filter.command.is_some() {
-            return Err(Error::Usage(format!(
+            return Err(Error::Refused(format!(
                 "objective cost: filter {} is a program, which no GPU can time; leave cost out",
                 self.choice.filter.name
             )));
         }
         if self.scenes.is_empty() {
-            return Err(Error::Usage(
+            return Err(Error::Refused(
                 "no scene is left to tune on; name at least one that is not held out".to_owned(),
             ));
         }
@@ -84,7 +84,7 @@ impl TuneOptions {
         };
         let mut held_out = self.held_out.iter();
         match held_out.find(|(scene, _)| is_tuned_on(scene)) {
-            Some((scene, _)) => Err(Error::Usage(format!(
+            Some((scene, _)) => Err(Error::Refused(format!(
                 "scene {}: it is tuned on, and so proves nothing as a held-out scene; name it in one of the two lists",
                 scene.id
             ))),

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use filters::Value;
+use measure::Error;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
-use suite::Error;
 use tracer::{Progress, Watch};
 
 use crate::evaluator::Evaluator;

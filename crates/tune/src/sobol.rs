@@ -1,7 +1,7 @@
 //! Sobol indices: the share of a function's variance that each parameter causes.
 
+use measure::Random;
 use serde::{Deserialize, Serialize};
-use suite::Random;
 
 use crate::search::sobol_point;
 

@@ -2,7 +2,7 @@
 
 use filters::{Filter, Kind, Parameter, Scale, Settings, Value};
 use judge::round_to_digits;
-use suite::Error;
+use measure::Error;
 
 /// Some parameters of a filter with their ranges, around a set of values.
 #[derive(Clone, Debug)]
@@ -27,7 +27,7 @@ impl Space {
             .map(|parameter| parameter.name.as_str())
             .collect();
         if names.is_empty() {
-            return Err(Error::Usage(format!(
+            return Err(Error::Refused(format!(
                 "filter {} has no tunable parameter: there is nothing to tune",
                 filter.name
             )));
@@ -38,7 +38,7 @@ impl Space {
             read_axes(filter, &names, vary)?
         };
         match axes.iter().find(|axis| !can_vary(&axis.kind)) {
-            Some(axis) => Err(Error::Usage(format!(
+            Some(axis) => Err(Error::Refused(format!(
                 "{}.{}: its range is {}, one value alone; leave it out",
                 filter.name,
                 axis.name,
@@ -83,7 +83,7 @@ impl Space {
 fn read_axes(filter: &Filter, names: &[&str], vary: &[String]) -> Result<Vec<Parameter>, Error> {
     let mut axes: Vec<Parameter> = Vec::new();
     for word in vary {
-        let refuse = |reason: String| Error::Usage(format!("parameter {word}: {reason}"));
+        let refuse = |reason: String| Error::Refused(format!("parameter {word}: {reason}"));
         let (name, range) = match word.split_once('=') {
             Some((name, range)) => (name, Some(range)),
             None => (word.as_str(), None),

@@ -6,9 +6,9 @@ use std::path::Path;
 use filters::Filter;
 use frame::{Image, Plane, Truth};
 use judge::{Bounds, SceneBounds};
+use measure::{Error, FilterFrame, Monitor, Rendering};
 use metrics::{Metric, ObjectMetric, Reference, Viewing, flip_ldr};
 use serde::{Deserialize, Serialize};
-use suite::{Error, FilterFrame, Monitor, Rendering};
 use tracer::{RenderSettings, Scene};
 
 /// A scene, rendered once and used for hundreds of measurements.
@@ -35,7 +35,7 @@ pub fn render_scenes(
 ) -> Result<Vec<RenderedScene>, Error> {
     let render_scene = |(scene, bounds): &(Scene, SceneBounds)| {
         let rendering = Rendering {
-            scene,
+            scene: scene.into(),
             settings: *render,
             out,
             monitor,
@@ -80,7 +80,7 @@ impl<'a> Target<'a> {
         let frame = scene.frame.cropped();
         let reference = Reference::new(&frame, &scene.truth, None, &scene.viewing)?;
         if !reference.regions.moving.pixels.contains(&true) {
-            return Err(Error::Usage(format!(
+            return Err(Error::Refused(format!(
                 "scene {}: nothing moves on screen, so there is nothing to tune; leave the scene out",
                 scene.name
             )));

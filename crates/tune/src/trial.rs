@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use filters::Value;
+use measure::named;
 use serde::{Deserialize, Serialize};
-use suite::named;
 
 use crate::target::SceneScores;
 

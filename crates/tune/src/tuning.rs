@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::time::Instant;
 
 use filters::{Gpu, Parameter, Settings, Value};
+use measure::{Error, PROGRAM};
 use serde::{Deserialize, Serialize};
-use suite::{Error, PROGRAM};
 use tracer::TraceError;
 
 use crate::ablation::ablate_choice;

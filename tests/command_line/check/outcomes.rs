@@ -37,7 +37,7 @@ fn a_broken_bound_gives_exit_code_1_and_its_evidence() {
     assert!(sandbox.path(picture).is_file());
     // JSON has the same verdict.
     let verdict = json(&sandbox, "--filters identity");
-    assert_eq!(verdict["format"], judge::CHECK_FORMAT);
+    assert_eq!(verdict["format"], gate::CHECK_FORMAT);
     assert_eq!(verdict["decision"], "broken");
     let finding = &verdict["findings"][0];
     for (key, value) in [
@@ -191,7 +191,7 @@ fn an_error_map_that_no_file_holds_is_measured_again() {
     let out = sandbox.path("out");
     let errors = read_exr(&out.join(&case.folder).join("errors.exr")).unwrap();
     assert!(errors.plane("absolute_error").is_err(), "it is not kept");
-    let maps = suite::ErrorMaps::read(case, &out).unwrap();
+    let maps = measure::ErrorMaps::read(case, &out).unwrap();
     let map = maps.map("absolute_error").unwrap();
     let frame = Frame::read(&out.join("plate/frame.exr")).unwrap();
     let truth = Truth::read(&out.join("plate/truth_trailing.exr")).unwrap();

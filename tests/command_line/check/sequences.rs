@@ -1,8 +1,8 @@
 //! Limits on scores of sequences.
 
 use judge::Outcome;
+use measure::Run;
 use metrics::{Metric, SequenceMetric};
-use suite::Run;
 use tests::text::assert_contains;
 
 use super::{assert_ends, assert_limits, calibrate, check, json};

@@ -9,8 +9,8 @@ use std::fs;
 
 use capture::Capture;
 use frame::{FAR_DEPTH, Frame, Truth, VelocityKind};
+use measure::{Case, Run};
 use metrics::{Measured, Metric};
-use suite::{Case, Run};
 use tests::text::assert_contains;
 
 use crate::sandbox::{SCENE, Sandbox, split, stderr, stdout};

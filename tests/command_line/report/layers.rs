@@ -42,7 +42,7 @@ fn layers_equal_the_files_of_the_case() {
     let layers = exr("layers/plate/velocity_gather_fine.exr");
     let output = exr("out/plate/velocity_gather_fine/output.exr");
     let case = &sandbox.read_filter_cases()[0];
-    let errors = suite::ErrorMaps::read(case, &sandbox.path("out")).unwrap();
+    let errors = measure::ErrorMaps::read(case, &sandbox.path("out")).unwrap();
     let truth = Truth::read(&sandbox.path("out/plate/truth_trailing.exr")).unwrap();
     let frame = Frame::read(&sandbox.path("out/plate/frame.exr")).unwrap();
     let (truth, frame) = (truth.mean(), frame.cropped());

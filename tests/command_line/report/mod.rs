@@ -3,21 +3,20 @@
 mod bounds;
 mod layers;
 mod page;
-mod tuning;
 
 use crate::sandbox::Sandbox;
 
-const REPORT: &str = "report out/run.json --html page/report.html";
+pub const REPORT: &str = "report out/run.json --html page/report.html";
 
 /// Makes the page of the bench's last run.
-fn make_page(sandbox: &Sandbox) -> String {
+pub fn make_page(sandbox: &Sandbox) -> String {
     let printed = sandbox.done(REPORT);
     assert!(printed.contains("written: page/report.html ("), "{printed}");
     sandbox.text("page/report.html")
 }
 
 /// Finds every text between two texts.
-fn between<'a>(page: &'a str, before: &str, after: &str) -> Vec<&'a str> {
+pub fn between<'a>(page: &'a str, before: &str, after: &str) -> Vec<&'a str> {
     let rests = page.split(before).skip(1);
     rests
         .map(|rest| rest.split_once(after).expect("an end").0)
@@ -42,7 +41,7 @@ fn panel<'a>(page: &'a str, metric: &str) -> &'a str {
 }
 
 /// Returns the address of a case: `plate/bevy:high`, `plate/identity@trailing`.
-fn address(case: &suite::Case) -> String {
+fn address(case: &measure::Case) -> String {
     let reference = if case.is_reference {
         format!("@{}", case.alignment)
     } else {
@@ -52,12 +51,12 @@ fn address(case: &suite::Case) -> String {
 }
 
 /// Finds the part of a page with a case.
-fn find_article<'a>(page: &'a str, case: &suite::Case) -> &'a str {
+fn find_article<'a>(page: &'a str, case: &measure::Case) -> &'a str {
     let start = format!("<article class=\"case\" id=\"{}\"", address(case));
     between(page, &start, "</article>")[0]
 }
 
 /// Returns the only case of a filter.
-fn filter_case(sandbox: &Sandbox) -> suite::Case {
+fn filter_case(sandbox: &Sandbox) -> measure::Case {
     sandbox.read_filter_cases().remove(0)
 }

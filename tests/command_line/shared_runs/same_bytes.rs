@@ -108,7 +108,7 @@ fn a_part_holds_its_references_or_its_filters_and_has_no_report() {
     let references = "--filter identity --part references --out bars";
     sandbox.done(&format!("run {QUICK} {references}"));
     for (part, has_references) in [("bars", true), ("flood", false)] {
-        let run: suite::Run = sandbox.read_json(&format!("{part}/run.json"));
+        let run: measure::Run = sandbox.read_json(&format!("{part}/run.json"));
         assert!(!run.cases.is_empty());
         let mut cases = run.cases.iter();
         assert!(cases.all(|case| case.is_reference == has_references));

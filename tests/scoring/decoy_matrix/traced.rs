@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use frame::{Alignment, Frame, Image, Picture, Plane, Raster, Truth, regions};
-use suite::{Monitor, Rendering};
+use measure::{Monitor, Rendering};
 use tests::settings;
 use tracer::load_scene;
 
@@ -56,8 +56,9 @@ impl TracedScene {
     /// Renders the frame and the truth, or reads those that the tests of the shipped bounds keep.
     pub fn render(&self) -> (Frame, Truth) {
         let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join("truths/160x90_256/seed_1");
+        let scene = load_scene(tests::scenes().join(self.name), None).unwrap();
         let rendering = Rendering {
-            scene: &load_scene(tests::scenes().join(self.name), None).unwrap(),
+            scene: (&scene).into(),
             settings: settings([160, 90], 256),
             out: &out,
             monitor: Monitor::SILENT,

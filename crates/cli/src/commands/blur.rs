@@ -9,12 +9,13 @@ use frame::{
     Camera, ExrFile, FileError, Image, Plane, Reprojection, Vectors, read_frame_rate, read_passes,
     write_exr,
 };
-use store::printable_path;
-use suite::{Error, FilterChoice, Runner, file_at_frame, numbered_file, open_gpu};
+use measure::{
+    Error, FilterChoice, Runner, file_at_frame, numbered_file, open_gpu, printable_path,
+};
 
-use super::capture::read_convention;
+use super::convention::read_convention;
 use super::show_texture::{check_shown, show_texture};
-use crate::arguments::{AdapterArgs, ProgramArgs, frame_count, parse_exposure};
+use terminal::arguments::{AdapterArgs, ProgramArgs, frame_count, parse_exposure};
 use terminal::output::{make_monitor, print};
 use terminal::selection::select_filters;
 
@@ -103,7 +104,7 @@ pub fn execute(args: &BlurArgs) -> Result<(), Error> {
         let outputs = runner.run_after(&input, &before.input(&colors[1], index));
         let outputs = outputs.map_err(|error| match error {
             FilterError::Input { reason, .. } => {
-                Error::Usage(format!("{}: {reason}", now.path.display()))
+                Error::Refused(format!("{}: {reason}", now.path.display()))
             }
             other => other.into(),
         })?;
@@ -157,7 +158,7 @@ fn describe_picture(choice: &FilterChoice, gpu: Option<&Gpu>, size: (u32, u32)) 
     let mut file = ExrFile::new(size.0, size.1);
     file.set("kind", "output");
     file.set("filter", choice.name());
-    file.set("program", suite::PROGRAM);
+    file.set("program", measure::PROGRAM);
     if let Some(gpu) = gpu {
         file.set("adapter", &gpu.adapter.name);
     }

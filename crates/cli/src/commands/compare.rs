@@ -4,13 +4,13 @@ use std::path::PathBuf;
 
 use clap::Args;
 use judge::compare_runs;
+use measure::{Error, StoredRun};
 use report::compare_page;
-use suite::{Error, StoredRun};
 
-use super::pages::write_page;
-use super::run_plan::read_margins;
-use crate::arguments::RootArgs;
 use crate::tables::compare_table;
+use run::read_margins;
+use run::write_page;
+use terminal::arguments::RootArgs;
 use terminal::output::{make_monitor, print, print_json};
 
 #[derive(Debug, Args)]

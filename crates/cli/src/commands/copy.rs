@@ -4,8 +4,7 @@ use std::path::Path;
 use terminal::refuse;
 
 use frame::{FileError, write_atomically};
-use store::printable_path;
-use suite::Error;
+use measure::{Error, printable_path};
 use tracer::{Location, list_scenes};
 
 use terminal::output::{count_text, print};

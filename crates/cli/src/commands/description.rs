@@ -5,8 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use clap_complete::Shell;
 use frame::FileError;
-use store::printable_path;
-use suite::Error;
+use measure::{Error, printable_path};
 
 use terminal::output::{print, write_out};
 

@@ -5,12 +5,12 @@ use terminal::refuse;
 
 use clap::Args;
 use filters::{AdapterDescription, Filter, FilterError, Limits, list_adapters, try_out};
-use suite::{Error, InputFormat, open_adapter};
+use measure::{Error, InputFormat, open_adapter};
 use tracer::{SceneListing, find_coincident_surfaces, list_scenes, load_scene};
 
 use super::copy::copy_scenes;
-use crate::arguments::{AdapterArgs, RootArgs};
 use crate::tables::{details_text, filter_json, filters_text, inputs_text, scenes_text};
+use terminal::arguments::{AdapterArgs, RootArgs};
 use terminal::output::{make_monitor, print, print_json, print_note, print_scene_notes};
 use terminal::selection::{is_pattern, load_filters, match_names, suggest_names};
 

@@ -5,11 +5,13 @@ use terminal::refuse;
 
 use clap::Args;
 use frame::{Alignment, Truth};
-use store::{LADDER, MAX_REPLICATES, Sharing, lock_folder, printable_path, scene_folder};
-use suite::{Error, Rendering, deciding_floor, estimate_render_seconds};
+use measure::{
+    Error, LADDER, MAX_REPLICATES, Rendering, Sharing, deciding_floor, estimate_render_seconds,
+    lock_folder, printable_path, scene_folder,
+};
 use tracer::{RenderSettings, Scene, check_next_frame};
 
-use crate::arguments::{
+use terminal::arguments::{
     Replicates, SceneArgs, above_zero, frame_count, parse_replicates, parse_size, within,
 };
 use terminal::expected::print_expected_time;
@@ -95,7 +97,7 @@ pub fn execute(args: &RenderArgs) -> Result<(), Error> {
             let scene = scene.at_frame(frame);
             let _lock = lock_folder(&args.scenes.out, [&scene], Sharing::Together)?;
             let rendering = Rendering {
-                scene: &scene,
+                scene: (&scene).into(),
                 settings: *settings,
                 out: &args.scenes.out,
                 monitor: make_monitor(),

@@ -5,13 +5,14 @@ use terminal::refuse;
 
 use clap::Args;
 use frame::{Frame, Ladder, Provenance, Truth};
+use measure::{
+    Error, Frames, Scored, engine_name, missing_scores, printable, read_finished_picture, score,
+};
 use metrics::Metric;
-use store::printable;
-use suite::{Error, Frames, Scored, engine_name, missing_scores, read_finished_picture, score};
 
-use super::capture::read_convention;
-use crate::arguments::{RootArgs, above_zero, frame_count};
-use crate::tables::score_table;
+use super::convention::read_convention;
+use run::score_table;
+use terminal::arguments::{RootArgs, above_zero, frame_count};
 use terminal::output::{print, print_json};
 
 #[derive(Debug, Args)]
@@ -63,7 +64,7 @@ pub fn execute(args: &ScoreArgs) -> Result<(), Error> {
     let convention = read_convention(args.convention.as_deref())?;
     let picture = read_finished_picture(&args.image, &convention, &frame, &truth)?;
     let scored = score(&picture, &frame, &truth, ladder.as_ref())
-        .map_err(|error| Error::Usage(format!("{}: {error}", args.image.display())))?;
+        .map_err(|error| Error::Refused(format!("{}: {error}", args.image.display())))?;
     if args.json {
         let mut json = scored_json(args, &truth, &scored.notes, &scored.scores);
         json["truth_hash"] = truth.provenance.content_hash.as_str().into();
@@ -128,8 +129,8 @@ pub fn scored_json(
     scores: impl serde::Serialize,
 ) -> serde_json::Value {
     serde_json::json!({
-        "format": suite::FORMAT,
-        "program": suite::PROGRAM,
+        "format": measure::FORMAT,
+        "program": measure::PROGRAM,
         "image": args.image,
         "scene": truth.provenance.scene,
         "exposure": truth.shutter.exposure(),

@@ -1,18 +1,17 @@
 //! The command `score` for a sequence of pictures.
 
 use frame::{Frame, Image, Truth};
-use metrics::{Measured, SequenceMeasurement, SequenceMetric};
-use store::{printable, printable_path};
-use suite::{
-    Error, Frames, SequenceTruth, file_at_frame, find_numbered, read_finished_picture,
-    score_sequence, worst_frames,
+use measure::{
+    Error, Frames, SequenceTruth, file_at_frame, find_numbered, printable, printable_path,
+    read_finished_picture, score_sequence, worst_frames,
 };
+use metrics::{Measured, SequenceMeasurement, SequenceMetric};
 use terminal::refuse;
 use tracer::Scene;
 
-use super::capture::read_convention;
+use super::convention::read_convention;
 use super::score::{ScoreArgs, check_scene, scored_json, truth_text};
-use crate::tables::score_sequence_table;
+use run::score_sequence_table;
 use terminal::output::{print, print_json};
 use terminal::selection::select_scenes;
 
@@ -75,7 +74,7 @@ fn load_scene(args: &ScoreArgs, first: &SequenceTruth) -> Result<Scene, Error> {
     }
     let choices = select_scenes(args.root.scenes_dir.clone(), std::slice::from_ref(&name));
     let mut choices = choices.map_err(|error| {
-        Error::Usage(format!(
+        Error::Refused(format!(
             "{}: is of the scene {name}, whose motion the scores of a sequence follow; name the folder that holds it with \
              --scenes-dir: {error}",
             printable_path(&first.path)

@@ -5,8 +5,7 @@ use terminal::refuse;
 
 use filters::{EXCLUSION, Filter, Format};
 use frame::{ExrFile, Raster, write_exr, write_png};
-use store::printable_path;
-use suite::{Error, Runner};
+use measure::{Error, Runner, printable_path};
 
 use terminal::output::print;
 

@@ -1,7 +1,7 @@
 //! Listings of scenes and filters, in brief and in detail, and names of adapters.
 
-use filters::{AdapterDescription, Filter, Parameter, Preset, Unit};
-use suite::InputKind;
+use filters::{Filter, Parameter, Preset, Unit};
+use measure::InputKind;
 use tracer::SceneListing;
 
 use terminal::output::{heading, push_wrapped};
@@ -43,14 +43,6 @@ pub fn inputs_text(kinds: &[InputKind]) -> String {
         }
     }
     text
-}
-
-/// Names the adapter that kernels ran on: `llvmpipe (LLVM 19), vulkan`.
-pub fn adapter_text(adapter: &Option<AdapterDescription>) -> String {
-    match adapter {
-        Some(adapter) => format!("{}, {}", adapter.name, adapter.backend),
-        None => "none, every filter is a command".to_owned(),
-    }
 }
 
 /// Describes scenes and filters in detail.

@@ -1,7 +1,7 @@
 //! Audit of a capture.
 
+use measure::Error;
 use serde::Serialize;
-use suite::Error;
 use tracer::Scene;
 
 use crate::audit::cause::Cause;

@@ -7,8 +7,7 @@ use frame::{
     ExrFile, FAR_DEPTH, FileError, Image, Plane, Raster, Samples, Vectors, read_passes, read_png,
     scene_linear,
 };
-use store::printable;
-use suite::{Error, SIDES};
+use measure::{Error, SIDES, printable};
 use tracer::limits::BRIGHTEST;
 
 use crate::capture::description::{CAPTURE_FILE, CaptureDescription};

@@ -4,9 +4,8 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use frame::{Alignment, MAX_STOPS, is_hidden};
+use measure::{Error, read_text};
 use serde::Deserialize;
-use store::read_text;
-use suite::Error;
 use tracer::SceneId;
 
 use crate::capture::raw::RawLayout;
@@ -68,7 +67,7 @@ impl CaptureDescription {
             let before = error.span().map_or("", |span| &text[..span.start]);
             let line = 1 + before.matches('\n').count();
             let reason = error.message().replace('\n', "; ");
-            Error::Usage(format!("{}:{line}: {reason}", path.display()))
+            Error::Refused(format!("{}:{line}: {reason}", path.display()))
         })?;
         match description.check() {
             Ok(()) => Ok(description),

@@ -5,8 +5,7 @@ use std::path::{Path, PathBuf};
 
 use filters::{Convention, DepthKind, EXCLUSION, VelocityTime};
 use frame::{Alignment, FileError, Image, Plane, Raster, Vectors};
-use store::read_text;
-use suite::Error;
+use measure::{Error, read_text};
 
 use crate::capture::buffers::{
     COLOR_ENDINGS, Color, check_size, find_buffer, find_picture, read_color, read_depth,

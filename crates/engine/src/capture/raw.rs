@@ -6,8 +6,8 @@ use std::path::Path;
 
 use frame::{Channel, ExrFile, MAX_EXR_BYTES, Samples, read_bounded};
 use half::f16;
+use measure::{Error, SIDES};
 use serde::Deserialize;
-use suite::{Error, SIDES};
 
 use crate::files::refuse;
 

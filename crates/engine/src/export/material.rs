@@ -1,8 +1,8 @@
 //! Materials: metallic-roughness, emissive, with holes, translucent.
 
 use glam::Vec3;
+use measure::Error;
 use serde_json::{Value, json};
-use suite::Error;
 use tracer::{Finish, Material, Translucency};
 
 use crate::export::document::{Document, widen};
@@ -111,7 +111,7 @@ fn is_filter(translucency: Translucency) -> bool {
 /// Refuses a translucent material that is neither a film without absorption nor clear.
 fn check_translucency(material: &Material) -> Result<(), Error> {
     if material.translucency.is_some_and(is_filter) && !is_clear(material) {
-        Err(Error::Usage(format!(
+        Err(Error::Refused(format!(
             "material {}: opacity {} beside glass or a filter, which glTF 2.0 has no words for; it can say: glass or a filter of \
              opacity 0 without a texture of opacity, and a film without a filter; give the print on the glass a material of its own",
             material.name, material.opacity

@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use frame::write_atomically;
+use measure::Error;
 use serde_json::json;
-use suite::Error;
 use tracer::{Location, Parent, Scene};
 
 use crate::capture::description::CAPTURE_FILE;
@@ -71,7 +71,7 @@ fn refuse_zoom(scene: &Scene, timeline: &Timeline) -> Result<(), Error> {
     let angle = scene.camera.vertical_fov_at(0.0);
     let is_other = |time: &f64| (scene.camera.vertical_fov_at(*time) - angle).abs() > 1e-9;
     if times.iter().any(is_other) {
-        Err(Error::Usage(format!(
+        Err(Error::Refused(format!(
             "scene {}: the camera's field of view changes between frames {} and {}, which glTF 2.0 cannot animate; \
              export a scene or variant with one field of view",
             scene.id, -timeline.reach, timeline.reach
@@ -100,7 +100,8 @@ fn push_nodes(document: &mut Document, scene: &Scene, timeline: &Timeline) -> Re
         "name": "camera",
     });
     let mut channels = Channels::new(document, timeline);
-    let refuse = |what: &str, reason| Error::Usage(format!("scene {}: {what} {reason}", scene.id));
+    let refuse =
+        |what: &str, reason| Error::Refused(format!("scene {}: {what} {reason}", scene.id));
     (channels.push_node(node, &scene.camera.motion))
         .map_err(|reason| refuse("the camera", reason))?;
     for (index, (object, mesh)) in scene.objects.iter().zip(meshes).enumerate() {

@@ -10,7 +10,7 @@ use std::fs;
 use std::path::Path;
 
 use frame::{FileError, write_atomically};
-use suite::Error;
+use measure::Error;
 use tracer::load_scene;
 
 use self::model::Model;

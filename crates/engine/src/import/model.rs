@@ -6,7 +6,7 @@ use std::path::{Component, Path, PathBuf};
 
 use frame::{FileError, read_bounded, write_atomically};
 use glam::DVec3;
-use suite::{Error, named};
+use measure::{Error, named};
 use tracer::limits::LARGEST_MESH_FILE;
 use tracer::{Mesh, Scene, SceneError, load_scene_and_files};
 

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use suite::Error;
+use measure::Error;
 use tracer::Family;
 
 use crate::import::model::Up;
@@ -38,7 +38,7 @@ impl Motions {
     /// Refuses a scene without motion.
     pub fn check(&self) -> Result<(), Error> {
         match (self.spin, self.slide, self.orbit) {
-            (None, None, None) => Err(Error::Usage(
+            (None, None, None) => Err(Error::Refused(
                 "nothing would move; give one or more of a spin such as 20deg/frame, a slide such as 40px/frame, an orbit such as \
                  3deg/frame"
                     .to_owned(),

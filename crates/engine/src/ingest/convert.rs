@@ -7,18 +7,14 @@ use frame::{
     Display, ExrFile, FAR_DEPTH, Frame, FrameOptions, Image, Provenance, Raster, Reprojection,
     Truth, VelocityKind, display_srgb, read_bounded, write_exr, write_png,
 };
-use store::{
-    MAX_TAKEN_BYTES, RenderFile, Sharing, ladder_folder, lock_folder, refuse_long_names,
-    refuse_scene,
-};
-use suite::{
-    BLURRED, EXCLUSION_FILE, EngineScene, Error, INGESTED_FILE, INGESTED_FORMAT, PROGRAM,
-    engine_name, name_in_one_word, velocity_wheel,
+use measure::{
+    BLURRED, EXCLUSION_FILE, Error, INGESTED_FORMAT, IngestedScene, MAX_TAKEN_BYTES, PROGRAM,
+    RenderFile, Sharing, engine_name, ladder_folder, lock_folder, name_in_one_word,
+    refuse_long_names, refuse_scene, velocity_wheel,
 };
 use tracer::{SceneId, Watch};
 
 use crate::capture::folder::Capture;
-use crate::files::write_json;
 use crate::ingest::engine_truth::{EngineTruth, NOT_TRACED, average_subframes, part_of};
 use crate::ingest::moving::{mark_reached, usual_top_speed};
 use crate::ingest::objects::{draw_coverage, name_objects};
@@ -26,8 +22,8 @@ use crate::statistics::median;
 
 /// An ingested capture.
 pub struct Ingested {
-    /// Contents of `ingested.json`.
-    pub scene: EngineScene,
+    /// The scene, as its record describes it.
+    pub scene: IngestedScene,
     /// The truth; none if the capture has no sub-frames.
     pub truth: Option<Truth>,
     /// Part of the pixels where anything moves, by colour or velocity; none without a truth.
@@ -41,19 +37,32 @@ pub struct Ingested {
     pub gain: Option<f64>,
 }
 
-/// Writes the frame of a capture, the truth of its sub-frames and the engine's own blurred picture
-/// into the folder `out`, which names the scene. The pictures are shown and compared at the
-/// exposures of `display`; `names` are the object names of the scene that the engine drew.
-pub fn ingest(
-    capture: &Capture,
-    (display, names): (Display, Option<Vec<String>>),
-    out: &Path,
-    watch: Watch,
-) -> Result<Ingested, Error> {
+/// A capture to ingest, and what it does not say.
+pub struct IngestPlan<'a> {
+    /// The capture.
+    pub capture: &'a Capture,
+    /// Exposures at which the pictures are shown and compared.
+    pub display: Display,
+    /// Object names of the scene that the engine drew; none if there is no such scene.
+    pub names: Option<Vec<String>>,
+    /// Folder to write, which names the scene.
+    pub out: &'a Path,
+}
+
+/// Writes the frame of a capture, the truth of its sub-frames and the engine's own blurred picture.
+pub fn ingest(plan: IngestPlan, watch: Watch) -> Result<Ingested, Error> {
+    let IngestPlan {
+        capture,
+        display,
+        names,
+        out,
+    } = plan;
     refuse_scene(out)?;
     refuse_other_files(out)?;
     capture.check_subframes()?;
-    let mut scene = describe_scene(capture, out)?;
+    let objects = name_objects(capture, names)?;
+    let hash = hash_capture(capture, display, &objects)?;
+    let mut scene = describe_scene(capture, hash, out)?;
     let provenance = Provenance {
         scene: scene.id.to_string(),
         program: PROGRAM.to_owned(),
@@ -64,13 +73,11 @@ pub fn ingest(
         content_hash: scene.hash.clone(),
         engine: Some(scene.engine.clone()),
     };
-    let objects = name_objects(capture, names)?;
     let (exposure, alignment) = capture.shutter()?;
     let shutter = alignment.shutter(exposure);
     let shutter = shutter.expect("the exposure was checked when it was read");
-    let times = (shutter, alignment);
-    let averaged = average_subframes(capture, times, &objects, &provenance, watch)?;
-    let frame = make_frame(capture, &scene, (display, objects), provenance);
+    let averaged = average_subframes(capture, shutter, alignment, &objects, &provenance, watch)?;
+    let frame = make_frame(capture, &scene, display, objects, provenance);
     if let Some(averaged) = &averaged {
         let rungs = averaged.ladder.rungs.iter();
         scene.ladder = rungs.map(|rung| rung.subframes).collect();
@@ -94,7 +101,7 @@ pub fn ingest(
 /// Writes all files of an ingested capture, and pictures of them for people; returns the truth.
 fn write_files(
     capture: &Capture,
-    scene: &EngineScene,
+    scene: &IngestedScene,
     frame: &Frame,
     averaged: Option<EngineTruth>,
     out: &Path,
@@ -102,28 +109,34 @@ fn write_files(
     let _lock = lock_folder(out, [], Sharing::Alone)?;
     let stops = frame.display.stops;
     let show = |name: &str, image: &Image| write_png(&out.join(name), &display_srgb(image, stops));
+    let mut files = vec![RenderFile::Frame.to_string()];
     frame.write(&out.join(RenderFile::Frame.path()))?;
     show(&RenderFile::Frame.picture(), &frame.color)?;
     write_png(&out.join("velocity.png"), &velocity_wheel(frame))?;
     if let Some(picture) = &capture.blurred {
         write_picture(&out.join(BLURRED), picture, scene, &frame.provenance)?;
+        files.push(BLURRED.to_owned());
         show("blurred.png", picture)?;
     }
     if let Some(mask) = &capture.exclusion {
         let mut file = ExrFile::new(mask.width, mask.height);
         file.push_plane(EXCLUSION, mask);
         write_exr(&out.join(EXCLUSION_FILE), &file)?;
+        files.push(EXCLUSION_FILE.to_owned());
     }
     let mut written = None;
     if let Some(EngineTruth { truth, ladder, .. }) = averaged {
         let alignment = truth.alignment;
         ladder.write_rungs(&out.join(ladder_folder(alignment)))?;
+        let rungs = scene.ladder.iter();
+        files.extend(rungs.map(|rung| RenderFile::Rung(alignment, *rung).to_string()));
         let file = RenderFile::Truth(alignment);
         truth.write(&out.join(file.path()))?;
+        files.push(file.to_string());
         show(&file.picture(), &truth.mean().color)?;
         written = Some(truth);
     }
-    write_json(&out.join(INGESTED_FILE), scene)?;
+    scene.write(&files)?;
     Ok(written)
 }
 
@@ -140,8 +153,8 @@ fn median_ratio(picture: &Image, other: &Image, left_out: &Raster<bool>) -> Opti
 
 /// Refuses a folder with another frame, such as a run's folder of a scene.
 fn refuse_other_files(out: &Path) -> Result<(), Error> {
-    if out.join(RenderFile::Frame.path()).exists() && !EngineScene::is_in(out) {
-        Err(Error::Usage(format!(
+    if out.join(RenderFile::Frame.path()).exists() && !IngestedScene::is_in(out) {
+        Err(Error::Refused(format!(
             "{}: holds a frame that was not ingested, which would be overwritten; name a new folder",
             out.display()
         )))
@@ -151,11 +164,11 @@ fn refuse_other_files(out: &Path) -> Result<(), Error> {
 }
 
 /// Describes the ingested capture, except its ladder.
-fn describe_scene(capture: &Capture, out: &Path) -> Result<EngineScene, Error> {
+fn describe_scene(capture: &Capture, hash: String, out: &Path) -> Result<IngestedScene, Error> {
     let (exposure, alignment) = capture.shutter()?;
     let subframes = capture.subframes.len() as u32;
     let length = usual_top_speed(&capture.velocity) * exposure;
-    Ok(EngineScene {
+    Ok(IngestedScene {
         format: INGESTED_FORMAT,
         program: PROGRAM.to_owned(),
         id: name_scene(capture, out)?,
@@ -177,7 +190,7 @@ fn describe_scene(capture: &Capture, out: &Path) -> Result<EngineScene, Error> {
         .filter(|(_, is_there)| *is_there)
         .map(|(name, _)| name.to_owned())
         .collect(),
-        hash: hash_capture(capture)?,
+        hash,
         folder: out.to_owned(),
     })
 }
@@ -193,7 +206,7 @@ fn name_scene(capture: &Capture, out: &Path) -> Result<SceneId, Error> {
             refuse_long_names(&id.folder())?;
             Ok(id)
         }
-        None => Err(Error::Usage(format!(
+        None => Err(Error::Refused(format!(
             "{}: its last part names the scene; allowed: letters, digits and . _ - +, such as out/engine/railing",
             out.display()
         ))),
@@ -202,8 +215,9 @@ fn name_scene(capture: &Capture, out: &Path) -> Result<SceneId, Error> {
 
 fn make_frame(
     capture: &Capture,
-    scene: &EngineScene,
-    (display, objects): (Display, Vec<String>),
+    scene: &IngestedScene,
+    display: Display,
+    objects: Vec<String>,
     provenance: Provenance,
 ) -> Frame {
     let (width, height) = (capture.color.width, capture.color.height);
@@ -240,7 +254,7 @@ fn make_frame(
 fn write_picture(
     path: &Path,
     picture: &Image,
-    scene: &EngineScene,
+    scene: &IngestedScene,
     provenance: &Provenance,
 ) -> Result<(), Error> {
     let mut file = ExrFile::new(picture.width, picture.height);
@@ -252,11 +266,12 @@ fn write_picture(
     Ok(write_exr(path, &file)?)
 }
 
-/// Hashes the pictures' source files, and how they are read.
-fn hash_capture(capture: &Capture) -> Result<String, Error> {
+/// Hashes all that determines the files: the pictures' source files, how they are read, and what
+/// the scene that the engine drew adds.
+fn hash_capture(capture: &Capture, display: Display, objects: &[String]) -> Result<String, Error> {
     let mut hasher = blake3::Hasher::new();
     let how = format!(
-        "{PROGRAM}\n{:?}\n{:?}",
+        "{PROGRAM}\n{:?}\n{:?}\n{display:?}\n{objects:?}",
         capture.description, capture.convention
     );
     hasher.update(how.as_bytes());

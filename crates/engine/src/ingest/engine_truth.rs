@@ -5,8 +5,7 @@ use frame::{
     Accumulation, Alignment, AtInstant, Ladder, Picture, Plane, Provenance, Raster, Replicate,
     Shutter, ShutterProfile, Support, Truth,
 };
-use store::LADDER;
-use suite::Error;
+use measure::{Error, LADDER};
 use tracer::{Progress, Watch};
 
 use crate::capture::description::CAPTURE_FILE;
@@ -41,7 +40,8 @@ pub struct EngineTruth {
 /// ones into the other.
 pub fn average_subframes(
     capture: &Capture,
-    (shutter, alignment): (Shutter, Alignment),
+    shutter: Shutter,
+    alignment: Alignment,
     objects: &[String],
     provenance: &Provenance,
     watch: Watch,
@@ -116,7 +116,7 @@ fn subtract_truth(means: &[(u32, Halves)], truth: &Halves) -> Vec<Accumulation> 
 fn check_count(capture: &Capture) -> Result<(), Error> {
     let count = capture.subframes.len();
     check_subframe_count(count).map_err(|allowed| {
-        Error::Usage(format!(
+        Error::Refused(format!(
             "{}: holds {count} sub-frames; allowed: {allowed}, at the midpoints of equal parts of the shutter that {CAPTURE_FILE} \
              names: half of them show the noise of the others; capture 32, for instance",
             capture.folder.join(SUBFRAMES).display()

@@ -5,5 +5,5 @@ mod engine_truth;
 mod moving;
 mod objects;
 
-pub use convert::{Ingested, ingest};
+pub use convert::{IngestPlan, Ingested, ingest};
 pub use engine_truth::check_subframe_count;

@@ -1,7 +1,7 @@
 //! Objects in an engine's pictures, by their ids.
 
 use frame::{Plane, Raster};
-use suite::Error;
+use measure::Error;
 
 use crate::capture::folder::{Capture, SUBFRAMES};
 use crate::files::refuse;

@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use shader_import::Language;
+
 use super::file::MAX_ENTRIES;
-use crate::translate::{Language, check_macro};
 
 /// Upper limit on the characters of a value.
 const MAX_DEFINE_CHARACTERS: usize = 200;
@@ -51,10 +52,11 @@ pub(super) fn read_defines(
                 ));
             }
         };
-        match check_macro(name, &text) {
-            Ok(()) => Ok(format!("{name}={text}")),
-            Err(reason) => Err(format!("{name} = {text:?} {reason}")),
+        // A compiler would read the second line as code.
+        if text.contains(['\n', '\r']) {
+            return Err(format!("{name} = {text:?} has several lines; allowed: one"));
         }
+        Ok(format!("{name}={text}"))
     };
     defines.iter().map(read).collect()
 }

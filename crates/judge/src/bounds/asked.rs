@@ -1,7 +1,7 @@
 //! Limits that decide how to measure scenes: size, number of frames, and ladders.
 
+use measure::{Error, FilterChoice, Frames};
 use metrics::Metric;
-use suite::{Error, FilterChoice, Frames};
 
 use crate::bounds::{Bound, Length, SceneBounds, sized_bounds_file};
 
@@ -43,7 +43,7 @@ pub fn size_for_bounds<'a>(
             text(size)
         );
         if let Some(asked) = asked.filter(|asked| *asked != size) {
-            return Err(Error::Usage(format!(
+            return Err(Error::Refused(format!(
                 "{holds}, and the pictures are to have {}; leave the size out, or measure limits for it with \
                  `shuttertruth limits calibrate` and put them into {} beside the scene",
                 text(asked),
@@ -52,7 +52,7 @@ pub fn size_for_bounds<'a>(
         }
         let (other, common) = first.get_or_insert_with(|| (bound.clone(), size));
         if *common != size {
-            return Err(Error::Usage(format!(
+            return Err(Error::Refused(format!(
                 "{holds}, that of {} for {}; check them apart, some of the scenes or filters at a time",
                 other.place,
                 text(*common)
@@ -81,7 +81,7 @@ pub fn check_lengths<'a>(
         per_second: length.per_second.map(|_| frames.per_second),
         frames: frames.count,
     };
-    Err(Error::Usage(format!(
+    Err(Error::Refused(format!(
         "{place}: the limit on {metric} holds for sequences of {}, and they are to have {}; measure as many as it holds for, or \
          measure a limit for the others with `shuttertruth limits calibrate`",
         length.text(),

@@ -3,10 +3,9 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
+use measure::{Error, SIDES, printable, printable_path, read_text};
 use metrics::Metric;
 use serde::Deserialize;
-use store::{printable, printable_path, read_text};
-use suite::{Error, SIDES};
 use toml::Spanned;
 use tracer::Location;
 
@@ -87,7 +86,7 @@ pub fn read_bounds_file(file: impl Into<Location>) -> Result<BoundsFile, Error> 
     let place = |offset: usize| format!("{path}:{}", text[..offset].matches('\n').count() + 1);
     let contents: Contents = toml::from_str(&text).map_err(|error| {
         let place = error.span().map_or(path.clone(), |span| place(span.start));
-        Error::Usage(format!("{place}: {}", error.message()))
+        Error::Refused(format!("{place}: {}", error.message()))
     })?;
     let read_bounds = |entries| read_entries(entries, &place, read_bound);
     let filters = (contents.filter.into_iter())
@@ -120,7 +119,7 @@ fn read_entries<T, U>(
         .map(|(name, entry)| {
             let place = place(name.span().start);
             read(name.get_ref(), entry, place.clone())
-                .map_err(|reason| Error::Usage(format!("{place}: {reason}")))
+                .map_err(|reason| Error::Refused(format!("{place}: {reason}")))
         })
         .collect()
 }

@@ -1,7 +1,7 @@
 //! Checks that bounds name scenes and filters that exist, and that every case has a bound.
 
 use filters::Filter;
-use suite::{Error, FilterChoice, Frames};
+use measure::{Error, FilterChoice, Frames};
 use tracer::{Location, SceneId};
 
 use crate::bounds::sized::read_all_bounds;
@@ -21,7 +21,7 @@ pub fn check_names<'a>(
     let mut tables = files.flat_map(|file| &file.filters);
     tables.try_for_each(|(name, table)| {
         check_filter(name, filters)
-            .map_err(|reason| Error::Usage(format!("{}: {reason}", table.place)))
+            .map_err(|reason| Error::Refused(format!("{}: {reason}", table.place)))
     })
 }
 
@@ -55,7 +55,7 @@ pub fn require_bounds<'a>(
                 )),
             };
             if let Some(reason) = reason {
-                return Err(Error::Usage(format!("{scene} / {name}: {reason}")));
+                return Err(Error::Refused(format!("{scene} / {name}: {reason}")));
             }
             required |= (bounds.values()).any(|bound| bound.level == Level::Required);
         }
@@ -64,7 +64,7 @@ pub fn require_bounds<'a>(
         return Ok(());
     }
     let names: Vec<String> = filters.iter().map(FilterChoice::name).collect();
-    Err(Error::Usage(format!(
+    Err(Error::Refused(format!(
         "{root}/{BOUNDS_FILE}: no bound of {} is required, so that nothing could fail; give them bounds with level = \
          \"required\" under [filter.\"..\"]",
         names.join(", ")
@@ -80,7 +80,7 @@ fn read_bounds_of_scenes(root: &Location) -> Result<Vec<BoundsFile>, Error> {
     for folder in folders.iter().filter(|folder| folder.is_dir()) {
         let bounds = read_all_bounds(folder)?;
         if !bounds.is_empty() && !folder.join("scene.toml").is_file() {
-            return Err(Error::Usage(format!(
+            return Err(Error::Refused(format!(
                 "{}: bounds of a scene that does not exist: {} has no scene.toml; rename the folder as the scene, or remove \
                  the bounds",
                 bounds[0].path.display(),

@@ -1,7 +1,7 @@
 //! Sequence length of a limit.
 
+use measure::{Frames, MAX_FRAMES};
 use metrics::Metric;
-use suite::{Frames, MAX_FRAMES};
 
 /// Frames that a limit on a score of a sequence is for.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use tracer::Location;
 
-use suite::{Error, Frames};
+use measure::{Error, Frames};
 
 pub use asked::{bound_subframes, check_lengths, size_for_bounds};
 pub use file::{BoundsFile, FilterBounds, Margin, read_bounds_file};
@@ -110,7 +110,7 @@ pub fn read_bounds(
     let mut files = read_folder(&root, size)?;
     let beside_scene = read_folder(&scene_folder.into(), size)?;
     if let Some(margin) = (beside_scene.iter()).find_map(|file| file.margins.values().next()) {
-        return Err(Error::Usage(format!(
+        return Err(Error::Refused(format!(
             "{}: a margin is for all scenes together; it belongs into {}",
             margin.place,
             root.join(BOUNDS_FILE)

@@ -1,6 +1,6 @@
 //! Files of bounds for one picture size, such as `bounds_1280x720.toml`.
 
-use suite::{Error, SIDES};
+use measure::{Error, SIDES};
 use tracer::Location;
 
 use crate::bounds::{BOUNDS_FILE, BoundsFile, read_bounds_file};
@@ -16,7 +16,7 @@ pub fn sized_bounds_file((width, height): (u32, u32)) -> String {
 pub(super) fn read_sized_bounds(file: &Location, size: (u32, u32)) -> Result<BoundsFile, Error> {
     let mut read = read_bounds_file(file)?;
     if let Some(margin) = read.margins.values().next() {
-        return Err(Error::Usage(format!(
+        return Err(Error::Refused(format!(
             "{}: a margin is for pictures of every size; it belongs into {BOUNDS_FILE} next to the scenes",
             margin.place
         )));
@@ -25,7 +25,7 @@ pub(super) fn read_sized_bounds(file: &Location, size: (u32, u32)) -> Result<Bou
         let (width, height) = size;
         let bound_size = *bound.size.get_or_insert(size);
         if bound_size != size {
-            return Err(Error::Usage(format!(
+            return Err(Error::Refused(format!(
                 "{}: {metric}: size = [{}, {}] in a file for {width}x{height}; leave the size out, or move the limit to {}",
                 bound.place,
                 bound_size.0,
@@ -50,7 +50,7 @@ pub(super) fn read_all_bounds(folder: &Location) -> Result<Vec<BoundsFile>, Erro
         let size = match name {
             BOUNDS_FILE => None,
             _ => Some(size_in_name(name).ok_or_else(|| {
-                Error::Usage(format!(
+                Error::Refused(format!(
                     "{file}: nothing reads a file of that name; allowed: {BOUNDS_FILE}, and bounds_COLUMNSxROWS.toml for pictures of \
                      one size, with {} to {} columns and rows",
                     SIDES.start(),

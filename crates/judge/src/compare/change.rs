@@ -1,9 +1,9 @@
 //! Change of one score of one case between two runs.
 
+use measure::FilterId;
 use metrics::{Ideal, Measured, Metric};
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
-use suite::FilterId;
 use tracer::SceneId;
 
 use crate::compare::pairing::Pair;

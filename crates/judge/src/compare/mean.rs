@@ -2,9 +2,9 @@
 
 use std::cmp::Ordering;
 
+use measure::{MIN_SCENES, TWO_SIDED, Weighted, scene_mean};
 use metrics::Metric;
 use serde::Serialize;
-use suite::{MIN_SCENES, TWO_SIDED, Weighted, scene_mean};
 
 use crate::compare::change::{Change, ChangeKind};
 use crate::groups::group_by;

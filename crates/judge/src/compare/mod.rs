@@ -10,9 +10,9 @@ mod sizes;
 
 use std::collections::BTreeMap;
 
+use measure::{Error, PROGRAM, StoredRun};
 use metrics::Metric;
 use serde::Serialize;
-use suite::{Error, PROGRAM, StoredRun};
 use tracer::Watch;
 
 use crate::bounds::Margin;

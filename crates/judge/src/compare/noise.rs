@@ -4,12 +4,11 @@
 use std::path::{Path, PathBuf};
 
 use frame::{FileError, Frame, Ladder, Picture, Replicate, Truth, read_exr};
+use measure::{Error, Groups, MIN_REPLICATES, RenderFile, SHARP, StoredRun, sharp_picture};
 use metrics::{
     ImageMetric, LabelMetric, Metric, ObjectMetric, Reference, Region, Scores, Sharp, SkillMetric,
     jackknife, make_oracle,
 };
-use store::RenderFile;
-use suite::{Error, Groups, MIN_REPLICATES, SHARP, StoredRun, sharp_picture};
 use tracer::{Progress, Watch};
 
 use crate::compare::change::{Change, Uncertainty};

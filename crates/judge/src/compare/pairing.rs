@@ -3,7 +3,7 @@
 use std::collections::{HashMap, HashSet};
 use std::path::PathBuf;
 
-use suite::{Case, CaseId, Error, Run, StoredRun};
+use measure::{Case, CaseId, Error, Run, StoredRun};
 
 /// A case that two runs have.
 #[derive(Clone, Copy, Debug)]
@@ -45,7 +45,12 @@ pub fn check_comparable(
     second: &StoredRun,
     pairs: &[Pair],
 ) -> Result<(), Error> {
-    let refuse = |reason: String| Err(Error::Usage(format!("{}: {reason}", second.path.display())));
+    let refuse = |reason: String| {
+        Err(Error::Refused(format!(
+            "{}: {reason}",
+            second.path.display()
+        )))
+    };
     let there = first.path.display();
     let size = |side: &StoredRun| format!("{}x{}", side.run.render.width, side.run.render.height);
     let [expected, pixels] = [first, second].map(size);

@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use filters::AdapterDescription;
+use measure::{Case, Run, list_settings};
 use serde::Serialize;
-use suite::{Case, Run, list_settings};
 
 use crate::compare::pairing::Pair;
 

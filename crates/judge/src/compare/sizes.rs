@@ -5,8 +5,8 @@ use std::cmp::Ordering;
 use std::collections::BTreeSet;
 
 use frame::Alignment;
+use measure::{Error, Random, SceneMean, TWO_SIDED, plain_mean};
 use metrics::Metric;
-use suite::{Error, Random, SceneMean, TWO_SIDED, plain_mean};
 use tracer::SceneId;
 
 use crate::results::Results;
@@ -80,7 +80,7 @@ type Badness = Vec<Vec<f64>>;
 /// Scenes and filters that one of them lacks are an error.
 pub fn compare_sizes(results: &[&Results], metric: Metric) -> Result<Vec<SizeComparison>, Error> {
     let Some(last) = results.last() else {
-        return Err(Error::Usage("no results to compare".to_owned()));
+        return Err(Error::Refused("no results to compare".to_owned()));
     };
     let alignments: BTreeSet<Alignment> = last.scores.iter().map(|score| score.alignment).collect();
     (alignments.into_iter())
@@ -144,7 +144,7 @@ fn compare_group(
 fn find(results: &Results, scene: &SceneId, name: &str, metric: Metric) -> Result<f64, Error> {
     let score = (results.scores.iter()).find(|score| score.scene == *scene && score.name == name);
     let value = score.and_then(|score| score.score(metric)).ok_or_else(|| {
-        Error::Usage(format!(
+        Error::Refused(format!(
             "{} has no {} of {name} on {scene}; run all sizes with the same scenes and filters",
             results.file_name(),
             metric.name()

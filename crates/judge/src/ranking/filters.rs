@@ -3,8 +3,8 @@
 use std::cmp::Ordering;
 
 use frame::Alignment;
+use measure::{Case, IDENTITY, InputFormat, TWO_SIDED, plain_mean};
 use metrics::Metric;
-use suite::{Case, IDENTITY, InputFormat, TWO_SIDED, plain_mean};
 use tracer::{FrameRate, SceneId};
 
 use crate::groups::group_by;

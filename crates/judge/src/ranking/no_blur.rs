@@ -20,7 +20,7 @@ pub fn no_gain_text(group: &[RankedFilter]) -> Option<&'static str> {
 
 #[cfg(test)]
 mod tests {
-    use suite::IDENTITY;
+    use measure::IDENTITY;
 
     use super::*;
     use crate::ranking::filters::tests::score;

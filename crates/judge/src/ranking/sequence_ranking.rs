@@ -2,8 +2,8 @@
 
 use std::collections::HashMap;
 
+use measure::{Case, FilterId, InputFormat, Run, SceneMean, Sequence, TWO_SIDED, plain_mean};
 use metrics::{Measured, PERFECT_JOD, SequenceMetric};
-use suite::{Case, FilterId, InputFormat, Run, SceneMean, Sequence, TWO_SIDED, plain_mean};
 use tracer::SceneId;
 
 use crate::ranking::filters::{RankedFilter, RankedScore, rank_best, rank_by_score};

@@ -1,7 +1,7 @@
 //! What filters change that FLIP where anything moves does not show.
 
+use measure::{TWO_SIDED, plain_mean};
 use metrics::Metric;
-use suite::{TWO_SIDED, plain_mean};
 
 /// Limit on the change of the brightness where nothing moves: filters that change more rank behind
 /// all others.

@@ -1,8 +1,8 @@
 //! Data of a case's section, read from the run's files.
 
 use judge::{BLOCK, Finding, worst_block};
+use measure::{Case, Error, Run};
 use metrics::Metric;
-use suite::{Case, Error, Run};
 
 use super::profile::{Profile, trace_profile, worst_pixel};
 use crate::pixels::scene_files::{CaseFiles, Layers, SceneFiles};

@@ -12,11 +12,11 @@ use bounds::bounds;
 use case_view::CaseView;
 use judge::Level;
 use maud::{Markup, html};
+use measure::{Case, Drawn};
 use metrics::Metric;
 use profile::Profile;
 use profile_chart::profile_chart;
 use scores::score_rows;
-use suite::{Case, Drawn};
 
 use crate::address::{anchor, case_anchor, section_anchor};
 use crate::case_table::CaseTable;

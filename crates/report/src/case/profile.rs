@@ -1,7 +1,7 @@
 //! Profile of a case: brightness along the motion through one place.
 
 use frame::{Frame, Image, Raster, Vectors};
-use suite::Case;
+use measure::Case;
 
 use crate::pixels::scene_files::{CaseFiles, SceneFiles, TruthFile};
 

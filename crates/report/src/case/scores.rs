@@ -2,8 +2,8 @@
 
 use judge::number;
 use maud::{Markup, html};
+use measure::Case;
 use metrics::{Group, Measured, Metric};
-use suite::Case;
 
 use super::case_view::CaseView;
 use crate::finding_text::{Status, interval_text, limit_text};

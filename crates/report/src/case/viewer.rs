@@ -2,8 +2,8 @@
 
 use judge::BLOCK;
 use maud::{Markup, html};
+use measure::Run;
 use serde_json::{Value, json};
-use suite::Run;
 
 use super::legend::draw_legends;
 use crate::document::script_data;

@@ -2,8 +2,8 @@
 
 use judge::{Change, ChangeKind, MeanChange, Pair, RunComparison, pair_cases, rank_changes};
 use maud::{Markup, html};
+use measure::{Error, StoredRun};
 use metrics::Metric;
-use suite::{Error, StoredRun};
 
 use super::cells::ChangeCells;
 use super::pictures::Pictures;

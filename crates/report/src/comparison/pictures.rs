@@ -2,8 +2,7 @@
 
 use frame::Plane;
 use judge::Pair;
-use store::RenderFile;
-use suite::{Error, ErrorMaps, StoredRun};
+use measure::{Error, ErrorMaps, RenderFile, StoredRun};
 
 use crate::pixels::png::{embed_file, embed_picture};
 

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use frame::Alignment;
 use maud::{Markup, html};
-use suite::{Case, Run, StoredRun};
+use measure::{Case, Run, StoredRun};
 use tracer::SceneId;
 
 use crate::run_facts::facts;

@@ -7,9 +7,11 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use filters::{EXCLUSION, Filter, Input};
+use measure::{
+    Case, Error, FilterFrame, InputFormat, MEASURED_FILTERS, PROGRAM, Run, filter_input,
+};
 use metrics::{Measured, Metric};
 use serde_json::json;
-use suite::{Case, Error, FilterFrame, InputFormat, MEASURED_FILTERS, PROGRAM, Run, filter_input};
 
 use crate::pixels::report_files::write_script;
 

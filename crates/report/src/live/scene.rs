@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use filters::EXCLUSION;
+use measure::FilterFrame;
 use serde_json::{Map, json};
-use suite::FilterFrame;
 
 use crate::pixels::planes::deflate;
 use crate::pixels::scene_files::SceneFiles;

@@ -2,8 +2,8 @@
 
 use judge::{RANKED_BY, RankedFilter, no_gain_text, rank_for_summary, rank_sequences};
 use maud::{Markup, html};
+use measure::{FilterId, Run};
 use metrics::Metric;
-use suite::{FilterId, Run};
 
 use crate::address::{case_anchor, section_anchor};
 use crate::case_table::CaseTable;

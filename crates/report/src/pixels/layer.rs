@@ -1,6 +1,6 @@
 //! Pictures of a case, which the page draws from their numbers.
 
-use suite::named;
+use measure::named;
 
 named! {
     /// One picture of a case, in the order of a page.

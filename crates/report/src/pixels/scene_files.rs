@@ -6,11 +6,11 @@ use std::path::{Path, PathBuf};
 use frame::{
     Alignment, ExrFile, Frame, Image, Picture, Plane, Region, Regions, Truth, read_exr, regions,
 };
-use metrics::{Side, object_sides};
-use store::RenderFile;
-use suite::{
-    ACCUMULATE, Case, Error, ErrorMaps, FilterFrame, Run, read_exclusion, read_further_velocities,
+use measure::{
+    Case, Error, ErrorMaps, FilterFrame, ReferencePicture, RenderFile, Run, read_exclusion,
+    read_further_velocities,
 };
+use metrics::{Side, object_sides};
 
 use super::layer::Layer;
 use super::planes::Planes;
@@ -132,7 +132,7 @@ impl SceneFiles {
         let truth = Truth::read(&path)?;
         check_size(&path, truth.size(), self.frame.size())?;
         if truth.objects != self.frame.objects {
-            return Err(Error::Usage(format!(
+            return Err(Error::Refused(format!(
                 "{}: its objects are {}, those of the scene's frame {}; run the scene again",
                 path.display(),
                 truth.objects.join(", "),
@@ -257,7 +257,7 @@ fn check_size(path: &Path, size: (u32, u32), expected: (u32, u32)) -> Result<(),
         return Ok(());
     }
     let [size, expected] = [size, expected].map(|(width, height)| format!("{width}x{height}"));
-    Err(Error::Usage(format!(
+    Err(Error::Refused(format!(
         "{}: has {size} pixels, the run's pictures have {expected}; run it again",
         path.display()
     )))
@@ -265,7 +265,7 @@ fn check_size(path: &Path, size: (u32, u32), expected: (u32, u32)) -> Result<(),
 
 /// Returns whether a case is the accumulation in every profile.
 fn is_in_profiles(case: &Case) -> bool {
-    case.is_reference && case.filter == ACCUMULATE && case.preset == "16"
+    case.reference() == Some(ReferencePicture::Accumulation(16))
 }
 
 /// Reads beside, ahead and behind: the sum over moving objects of their matte where the truth never

@@ -4,9 +4,8 @@ use std::path::Path;
 
 use judge::{Finding, RANKED_BY};
 use maud::{Markup, html};
+use measure::{CHANGE_PICTURE, RenderFile, Run, Sequence, SequenceFrame};
 use serde_json::{Value, json};
-use store::RenderFile;
-use suite::{CHANGE_PICTURE, Run, Sequence, SequenceFrame};
 use tracer::SceneId;
 
 use super::ranking::ranking_tables;

@@ -2,8 +2,8 @@
 
 use judge::{RANK_RULE, RANKED_BY, RankedSequence, rank_sequences};
 use maud::{Markup, html};
+use measure::{Run, SceneMean};
 use metrics::SequenceMetric;
-use suite::{Run, SceneMean};
 
 use crate::table::{Column, scroll_table};
 

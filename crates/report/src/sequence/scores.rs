@@ -3,8 +3,8 @@
 use frame::Alignment;
 use judge::{Finding, RankedSequence, rank_sequences_on};
 use maud::{Markup, html};
+use measure::{Run, Sequence};
 use metrics::{Measured, Metric, SequenceMetric};
-use suite::{Run, Sequence};
 use tracer::SceneId;
 
 use super::ranking::metric_table;

@@ -1,7 +1,7 @@
 //! Arguments for the frame rates of scenes.
 
 use clap::Args;
-use suite::Error;
+use measure::Error;
 use tracer::FrameRate;
 use tracer::limits::{FASTEST_RATE, FASTEST_SHUTTER, SLOWEST_RATE, SLOWEST_SHUTTER};
 

@@ -1,7 +1,7 @@
 //! Arguments on the forms in which filters get their frames.
 
 use clap::Args;
-use suite::InputFormat;
+use measure::InputFormat;
 
 use crate::selection::suggest_names;
 

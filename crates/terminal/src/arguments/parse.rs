@@ -5,8 +5,7 @@ use std::ops::{Range, RangeBounds};
 
 use clap::builder::{PossibleValue, PossibleValuesParser, RangedU64ValueParser, TypedValueParser};
 use frame::Alignment;
-use store::MAX_REPLICATES;
-use suite::{MAX_FRAMES, SIDES};
+use measure::{MAX_FRAMES, MAX_REPLICATES, SIDES};
 use tracer::{MAX_SAMPLES, RenderSettings};
 
 /// Number of replicates, or a range of them.

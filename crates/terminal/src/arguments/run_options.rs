@@ -2,7 +2,7 @@
 
 use clap::Args;
 use frame::Alignment;
-use suite::Frames;
+use measure::Frames;
 
 use super::{above_zero, frame_count};
 

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use frame::{ColorSampling, FrameOptions, VelocityKind};
-use suite::Error;
+use measure::Error;
 use tracer::{RenderSettings, SceneId};
 
 use super::{FrameRateArgs, RootArgs, parse_exposure, parse_samples, thread_count};

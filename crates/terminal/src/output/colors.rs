@@ -3,7 +3,7 @@
 //! escapes.
 
 use anstyle::{AnsiColor, Reset, Style};
-use store::printable;
+use measure::printable;
 
 /// Marks a title of one line.
 pub fn heading(text: &str) -> String {

@@ -1,5 +1,6 @@
 //! Text for terminals, logs and services that read checks.
 
+mod adapter;
 mod colors;
 mod interrupts;
 mod print;
@@ -7,6 +8,7 @@ mod progress;
 mod verbosity;
 mod wrap;
 
+pub use self::adapter::*;
 pub use self::colors::*;
 pub use self::interrupts::*;
 pub use self::print::*;

@@ -3,8 +3,7 @@
 use std::collections::BTreeSet;
 use std::io::{ErrorKind, IsTerminal, Write};
 
-use store::{printable, printable_lines};
-use suite::Error;
+use measure::{Error, printable, printable_lines};
 use tracer::Scene;
 
 use super::{terminal_text, wrap_lines};

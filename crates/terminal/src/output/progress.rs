@@ -6,8 +6,7 @@ use std::sync::{LazyLock, Mutex};
 use std::time::{Duration, Instant};
 
 use indicatif::{MultiProgress, ProgressBar, ProgressState, ProgressStyle};
-use store::printable;
-use suite::{Monitor, Step};
+use measure::{Monitor, Step, printable};
 use terminal_size::{Width, terminal_size_of};
 use tracer::Progress;
 

@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 use std::sync::OnceLock;
 
-use store::printable;
+use measure::printable;
 use terminal_size::{Width, terminal_size_of};
 
 use super::width;

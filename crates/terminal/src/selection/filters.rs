@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use filters::Filter;
-use suite::{Error, FilterChoice};
+use measure::{Error, FilterChoice};
 
 use super::names::{
     find_twin, is_path, is_pattern, match_names, refuse_empty_names, suggest_names,

@@ -1,7 +1,7 @@
 //! Names on the command line: patterns, and suggestions for misspelt ones.
 
 use glob::Pattern;
-use suite::Error;
+use measure::Error;
 
 /// Smallest similarity of a known name that is suggested for a misspelt one; 1 is equal.
 const SIMILAR: f64 = 0.75;
@@ -26,7 +26,7 @@ pub fn match_names(option: &str, text: &str, known: &[String]) -> Result<Vec<Str
         return Ok((known.iter().filter(|name| *name == text).cloned()).collect());
     }
     let pattern = Pattern::new(text)
-        .map_err(|error| Error::Usage(format!("{option}: the pattern '{text}': {error}")))?;
+        .map_err(|error| Error::Refused(format!("{option}: the pattern '{text}': {error}")))?;
     let matched = known.iter().filter(|name| pattern.matches(name));
     Ok(matched.cloned().collect())
 }

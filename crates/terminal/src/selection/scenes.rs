@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use suite::{EngineScene, Error};
+use measure::{Error, IngestedScene};
 use tracer::{Location, Scene, SceneId, list_scene, list_scenes, load_scene};
 
 use super::names::{is_path, match_names, refuse_empty_names, suggest_names};
@@ -54,18 +54,18 @@ pub fn select_scenes(
     Ok(scenes)
 }
 
-/// Reads the scenes that engines drew among the named ones; returns the other names as well. A
+/// Reads the ingested scenes among the named ones; returns the other names as well. A
 /// scene of `root` has priority over a folder of the same name elsewhere.
-pub fn select_engine_scenes(
+pub fn select_ingested_scenes(
     root: &Location,
     names: &[String],
-) -> Result<(Vec<EngineScene>, Vec<String>), Error> {
+) -> Result<(Vec<IngestedScene>, Vec<String>), Error> {
     let is_ingested = |name: &&String| {
-        (is_path(name) || !root.join(name).is_dir()) && EngineScene::is_in(Path::new(name))
+        (is_path(name) || !root.join(name).is_dir()) && IngestedScene::is_in(Path::new(name))
     };
     let (ingested, others): (Vec<&String>, Vec<&String>) = names.iter().partition(is_ingested);
-    let scenes: Vec<EngineScene> = (ingested.into_iter())
-        .map(|name| EngineScene::read(Path::new(name)))
+    let scenes: Vec<IngestedScene> = (ingested.into_iter())
+        .map(|name| IngestedScene::read(Path::new(name)))
         .collect::<Result<_, _>>()?;
     refuse_twins(
         scenes
@@ -163,7 +163,7 @@ fn load_choice(folder: &Location, id: &SceneId) -> Result<SceneChoice, Error> {
             "--scenes: the folder {folder} cannot name a scene; allowed: names without @, which begins a variant; rename it"
         );
     }
-    if folder.on_disk().is_some_and(EngineScene::is_in) {
+    if folder.on_disk().is_some_and(IngestedScene::is_in) {
         refuse!(
             "--scenes: {folder} holds what an engine drew, and nothing to render; `run` and `check` measure it"
         );

@@ -53,7 +53,7 @@ pub fn mean_text(numbers: impl Iterator<Item = f64>, text: impl Fn(f64) -> Strin
 }
 
 /// Makes a table of Markdown. Text of others in a cell is escaped before:
-/// [`store::escape_markdown`].
+/// [`measure::escape_markdown`].
 pub fn markdown_table(titles: &[&str], rows: impl IntoIterator<Item = Vec<String>>) -> String {
     let mut text = format!(
         "| {} |\n|{}\n",

@@ -1,6 +1,6 @@
 //! Layout of tables: columns as wide as their cells, rows that fit the terminal.
 
-use store::printable;
+use measure::printable;
 
 use crate::output::{bold, faint, terminal_columns, width};
 

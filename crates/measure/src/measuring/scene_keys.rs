@@ -1,0 +1,59 @@
+//! Hashes of a scene's inputs: equal hashes mean equal pictures and scores.
+
+use std::collections::BTreeMap;
+
+use crate::{RenderFile, SHARP, hash_inputs};
+use frame::Alignment;
+use tracer::RenderSettings;
+
+use crate::render::run_scene::RunScene;
+
+/// Hashes of the inputs of one scene's frame and truths.
+#[derive(Clone, Debug)]
+pub(crate) struct SceneKeys {
+    /// Hash of the program, and of what a case or a picture takes from the scene itself.
+    scene: String,
+    /// Hash of the frame's inputs.
+    frame: String,
+    /// Hashes of the inputs of every truth and its ladder.
+    truths: BTreeMap<Alignment, [String; 2]>,
+}
+
+impl SceneKeys {
+    /// Computes the hashes from the scene and the settings; reads no file.
+    pub fn new(
+        program: &str,
+        scene: RunScene,
+        settings: &RenderSettings,
+        alignments: impl IntoIterator<Item = Alignment>,
+    ) -> Self {
+        let hash = |file| scene.content_hash(file, settings);
+        Self {
+            scene: hash_inputs(&(program, scene.id(), scene.description_hash())),
+            frame: hash(RenderFile::Frame),
+            truths: (alignments.into_iter())
+                .map(|alignment| {
+                    let ladder = hash(RenderFile::Rung(alignment, SHARP));
+                    (alignment, [hash(RenderFile::Truth(alignment)), ladder])
+                })
+                .collect(),
+        }
+    }
+
+    /// Returns the hash for the frame and its pictures.
+    pub fn frame(&self) -> String {
+        hash_inputs(&(&self.scene, &self.frame))
+    }
+
+    /// Returns the hash for a truth, its ladder and its pictures.
+    pub fn truth(&self, alignment: Alignment) -> String {
+        hash_inputs(&(&self.scene, &self.truths[&alignment]))
+    }
+
+    /// Returns the hash for a case with its own inputs, measured against its own truth and the
+    /// common one, with their ladders or without.
+    pub fn case(&self, inputs: &str, alignments: [Alignment; 2], has_ladder: bool) -> String {
+        let truths = alignments.map(|alignment| &self.truths[&alignment]);
+        hash_inputs(&(&self.scene, &self.frame, truths, has_ladder, inputs))
+    }
+}

@@ -1,0 +1,17 @@
+//! Tables of a run, in 80 columns.
+
+mod abreast;
+mod cases;
+mod missing;
+mod ranking;
+mod scene_means;
+mod sequence;
+
+pub use terminal::table::*;
+
+pub use self::abreast::*;
+pub use self::cases::*;
+pub use self::missing::*;
+pub use self::ranking::*;
+pub use self::scene_means::*;
+pub use self::sequence::*;

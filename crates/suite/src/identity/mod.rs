@@ -1,7 +1,0 @@
-//! Identities that name, match, sort and locate scenes, filters and cases.
-
-mod case_id;
-mod filter_id;
-
-pub use case_id::CaseId;
-pub use filter_id::FilterId;
