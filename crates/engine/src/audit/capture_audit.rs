@@ -1,8 +1,8 @@
 //! Audit of a capture.
 
 use measure::Error;
+use scene::Scene;
 use serde::Serialize;
-use tracer::Scene;
 
 use crate::audit::cause::Cause;
 use crate::audit::clear_pixels::select_clear_pixels;

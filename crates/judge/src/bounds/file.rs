@@ -5,9 +5,9 @@ use std::path::PathBuf;
 
 use measure::{Error, SIDES, printable, printable_path, read_text};
 use metrics::Metric;
+use scene::Location;
 use serde::Deserialize;
 use toml::Spanned;
-use tracer::Location;
 
 use crate::bounds::{Bound, Bounds, Length, Level};
 

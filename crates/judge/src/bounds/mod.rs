@@ -7,9 +7,9 @@ mod length;
 mod sized;
 
 use metrics::Metric;
+use scene::Location;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use tracer::Location;
 
 use measure::{Error, Frames};
 

@@ -1,7 +1,7 @@
 //! Files of bounds for one picture size, such as `bounds_1280x720.toml`.
 
 use measure::{Error, SIDES};
-use tracer::Location;
+use scene::Location;
 
 use crate::bounds::{BOUNDS_FILE, BoundsFile, read_bounds_file};
 

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use filters::AdapterDescription;
-use tracer::SceneId;
+use scene::SceneId;
 
 use crate::fold::fold_runs;
 use crate::identity::FilterId;
