@@ -160,22 +160,6 @@ fn every_engine_s_smear_in_a_large_picture_is_as_long_as_the_page_says() {
 }
 
 #[test]
-fn every_engine_has_the_commit_of_its_preset() {
-    for engine in list_engines() {
-        let (filter, preset) = engine.shape.split_once(':').unwrap();
-        let filter = Filter::builtin(filter).unwrap();
-        let mut presets = filter.presets.iter();
-        let preset = presets.find(|candidate| candidate.name == preset).unwrap();
-        let source = preset
-            .source
-            .as_ref()
-            .and_then(|origin| origin.code.as_ref());
-        let is_commit = source.is_none_or(|code| code.commit.starts_with(&engine.commit));
-        assert!(is_commit, "{}: commit {}", engine.name, engine.commit);
-    }
-}
-
-#[test]
 fn the_pictures_show_what_each_engine_ships_at_its_worst() {
     let results = Results::read_all(&folder()).unwrap();
     let main = main_results(&results).unwrap();
