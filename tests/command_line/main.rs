@@ -63,6 +63,7 @@ mod threejs;
 #[path = "../../crates/tune/tests/program/mod.rs"]
 mod tune;
 mod variants;
+mod written_files;
 
 use std::fs;
 use std::path::Path;

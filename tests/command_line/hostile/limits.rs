@@ -159,10 +159,22 @@ fn pictures_and_records_beyond_a_limit_are_refused_before_allocation() {
     let sky = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 30000 +X 60000\n";
     use_sky(&sandbox, sky);
     sandbox.refuse(RUN, &["scene.toml:12:", "1800000000 texels; allowed: 1 to"]);
+    sandbox.write("scene.toml", SCENE);
+    let textured = format!("{MTL}map_Kd large.png\n");
+    sandbox.write("plate.mtl", &textured);
+    let corners = OBJ.replace("usemtl", "vt 0 0\nusemtl");
+    let corners = corners.replace("f 1 2 3", "f 1/1 2/1 3/1");
+    sandbox.write("plate.obj", &corners.replace("f 1 3 4", "f 1/1 3/1 4/1"));
+    sandbox.put("scenes/plate/large.png", png(10_000));
+    let parts = [
+        "large.png is 10000 x 10000",
+        "100000000 texels; allowed: 1 to 67108864",
+    ];
+    sandbox.refuse(RUN, &parts);
+    sandbox.write("plate.mtl", MTL);
     // A sparse file takes no disk space.
     let file = fs::File::create(sandbox.path("scenes/plate/plate.obj")).unwrap();
     file.set_len(scene::limits::LARGEST_MESH_FILE + 1).unwrap();
-    sandbox.write("scene.toml", SCENE);
     sandbox.refuse(RUN, &["scene.toml:15: mesh", "at most 2147483648 are read"]);
 
     let refuse_score = |name: &str, bytes: Vec<u8>, claim: &str| {

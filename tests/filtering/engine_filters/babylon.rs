@@ -38,20 +38,6 @@ fn a_wide_picture_turns_diagonals_upright() {
 }
 
 #[test]
-fn eight_bits_of_velocity_change_the_length_by_their_step() {
-    // 31.1 of 160 pixels: the cube root is 201.4 of 255 steps. The nearest step is 30.65 pixels, a
-    // whole one and a tap less.
-    let picture = moving_edge(160, 16, [31.1, 0.0]);
-    // The spread of the pixel itself and 30 taps from -14 to 15, or 29 from -13.5 to 14.5, which
-    // are between two pixels each.
-    for (storage, expected) in [("exact", 29.497), ("packed", 28.548)] {
-        let changes = format!("storage={storage} fetch=filtered samples=64");
-        let output = picture.blur("babylon", "default", &changes);
-        assert_near(ramp_length(&output), expected, 0.01);
-    }
-}
-
-#[test]
 fn the_screen_based_mode_leaves_the_sky_sharp() {
     let frame = render_frame(0);
     let output = by_camera(&frame);
