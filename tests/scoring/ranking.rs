@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use cli::{run_table, terminal_text};
+use cli::run_table;
 use frame::Alignment;
 use judge::compare_runs;
 use measure::{Case, CaseId, FORMAT, InputFormat, Overall, Run, StoredRun, overall};
@@ -111,21 +111,9 @@ fn mean<'a>(run: &'a Run, filter: &str, metric: &str) -> &'a Overall {
     mean.unwrap_or_else(|| panic!("{metric} of {filter} has no mean"))
 }
 
-/// Prints the run's table without colour codes.
-fn print_table(run: &Run) -> String {
-    let mut text = String::new();
-    for (index, part) in terminal_text(&run_table(run)).split('\u{1b}').enumerate() {
-        text += match index {
-            0 => part,
-            _ => part.split_once('m').expect("a code of a colour").1,
-        };
-    }
-    text
-}
-
 /// Returns the table of means after this many equal headings, up to a text.
 fn print_means(run: &Run, heading: usize, end: &str) -> String {
-    let text = print_table(run);
+    let text = run_table(run).plain();
     let means = text.split("mean over 5 scenes").nth(heading).unwrap();
     means.split(end).next().unwrap().to_owned()
 }
@@ -186,7 +174,7 @@ fn a_ranking_by_flip_stays_within_a_shutter_and_shows_its_references() {
         let actual = rows.map(|line| line.split_whitespace().next().unwrap());
         assert_eq!(actual.collect::<Vec<_>>().join(" "), names);
     }
-    let text = print_table(&run);
+    let text = run_table(&run).plain();
     let fits = text.lines().all(|line| line.chars().count() <= 80);
     assert!(fits, "{text}");
 }
@@ -260,7 +248,11 @@ fn one_scene_has_no_mean() {
 #[test]
 fn scenes_without_skill_are_counted() {
     let mut run = make_run();
-    assert!(!print_table(&run).contains("Scenes that skill applies to"));
+    assert!(
+        !run_table(&run)
+            .plain()
+            .contains("Scenes that skill applies to")
+    );
     let centred = run.cases.iter_mut();
     for case in
         centred.filter(|case| case.scene.name == "scene_2" && case.alignment == Alignment::Centred)
@@ -268,7 +260,7 @@ fn scenes_without_skill_are_counted() {
         case.scores.skill.flip = Measured::not_applicable("it serves a test");
     }
     run.overall = overall(&run.cases);
-    let text = print_table(&run);
+    let text = run_table(&run).plain();
     assert_contains(&text, &["Scenes that skill applies to: 4 of 5 centred."]);
 }
 
@@ -295,7 +287,7 @@ fn bleed_is_the_largest_of_three_and_names_its_side() {
         mover.bleed_lateral = lateral;
         mover.bleed_leading = leading;
         mover.bleed_trailing = trailing;
-        let text = print_table(&run);
+        let text = run_table(&run).plain();
         let line = text.lines().find(|line| line.contains("wicked"));
         assert!(line.unwrap().contains(shown), "{text}");
         assert!(text.contains("ahead (>)"), "{text}");

@@ -88,7 +88,7 @@ pub fn execute(args: &BenchArgs) -> Result<(), Error> {
     print_expected_bench(&plan, &gpu);
     let done = make_monitor().watch("bench", |watch| bench(plan, &gpu, watch))?;
     let path = args.out.join(BENCH_FILE);
-    write_result(&path, &done, &bench_table(&done), args.json)
+    write_result(&path, &done, bench_table(&done), args.json)
 }
 
 /// Prints the expected time of a bench. It is short on a graphics card.

@@ -16,18 +16,52 @@ pub struct Panels {
     pub camera: Camera,
 }
 
-/// A panel of the frame: its centre, in parts of the image's width and height; half its sides, in
-/// parts of the height; the direction of its motion, of length 1; and its depth in metres.
-type Panel = ([f32; 2], [f32; 2], [f32; 2], f32);
+/// A panel of the frame.
+#[derive(Clone, Copy)]
+struct Panel {
+    /// Centre, in parts of the image's width and height.
+    center: [f32; 2],
+    /// Half its sides, in parts of the height.
+    half: [f32; 2],
+    /// Direction of its motion, of length 1.
+    direction: [f32; 2],
+    /// Depth in metres.
+    depth: f32,
+}
 
 /// Panels from front to back. They cover about a quarter of the image, overlap, and leave it at no
 /// border.
 const PANELS: [Panel; 5] = [
-    ([0.30, 0.35], [0.20, 0.15], [1.0, 0.0], 2.0),
-    ([0.40, 0.50], [0.12, 0.22], [0.0, -1.0], 4.0),
-    ([0.70, 0.30], [0.18, 0.18], [-0.8, 0.6], 5.0),
-    ([0.75, 0.75], [0.30, 0.05], [0.6, 0.8], 8.0),
-    ([0.20, 0.80], [0.03, 0.12], [0.96, -0.28], 12.0),
+    Panel {
+        center: [0.30, 0.35],
+        half: [0.20, 0.15],
+        direction: [1.0, 0.0],
+        depth: 2.0,
+    },
+    Panel {
+        center: [0.40, 0.50],
+        half: [0.12, 0.22],
+        direction: [0.0, -1.0],
+        depth: 4.0,
+    },
+    Panel {
+        center: [0.70, 0.30],
+        half: [0.18, 0.18],
+        direction: [-0.8, 0.6],
+        depth: 5.0,
+    },
+    Panel {
+        center: [0.75, 0.75],
+        half: [0.30, 0.05],
+        direction: [0.6, 0.8],
+        depth: 8.0,
+    },
+    Panel {
+        center: [0.20, 0.80],
+        half: [0.03, 0.12],
+        direction: [0.96, -0.28],
+        depth: 12.0,
+    },
 ];
 
 /// Change of a panel's speed at the ends of its long side, as in a turning panel: no two of its
@@ -43,20 +77,18 @@ impl Panels {
             color: Raster::from_fn(width, height, |x, y| {
                 let tint = match at(x, y) {
                     None => [0.3, 0.35, 0.4],
-                    Some(((.., direction, depth), _)) => {
-                        [0.9, 0.1 * depth, 0.5 * direction[0].abs()]
-                    }
+                    Some((panel, _)) => [0.9, 0.1 * panel.depth, 0.5 * panel.direction[0].abs()],
                 };
                 tint.map(|value| value * texture(x, y))
             }),
             velocity: Raster::from_fn(width, height, |x, y| {
-                at(x, y).map_or([0.0; 2], |((.., direction, _), along)| {
+                at(x, y).map_or([0.0; 2], |(panel, along)| {
                     let pixels = speed * (1.0 + SPREAD * along);
-                    direction.map(|component| component * pixels)
+                    panel.direction.map(|component| component * pixels)
                 })
             }),
             depth: Raster::from_fn(width, height, |x, y| {
-                at(x, y).map_or(FAR_DEPTH, |((.., depth), _)| depth)
+                at(x, y).map_or(FAR_DEPTH, |(panel, _)| panel.depth)
             }),
             reprojection: Reprojection {
                 rows: [
@@ -75,7 +107,7 @@ fn panel_at(width: u32, height: u32, x: u32, y: u32) -> Option<(Panel, f32)> {
     let point = [x as f32 + 0.5, y as f32 + 0.5];
     let size = [width as f32, height as f32];
     PANELS.into_iter().find_map(|panel| {
-        let (center, half, ..) = panel;
+        let Panel { center, half, .. } = panel;
         let place =
             |axis: usize| (point[axis] - center[axis] * size[axis]) / (half[axis] * size[1]);
         let offset = [0, 1].map(place);

@@ -1,12 +1,12 @@
 //! Tables of a bench.
 
-use terminal::output::push_wrapped;
+use terminal::output::{Text, push_wrapped};
 use terminal::table::{Table, cell};
 
 use crate::{BASELINE, Bench, CaseCost, GROWTH_FROM, REACHES, Spread};
 
 /// Makes the tables: cost per filter and pass, then cost against blur length.
-pub fn bench_table(bench: &Bench) -> String {
+pub fn bench_table(bench: &Bench) -> Text {
     let about = format!(
         "{} ({}), {}x{}, median (quartiles) of {} rounds by {}",
         bench.adapter.name,
@@ -16,16 +16,16 @@ pub fn bench_table(bench: &Bench) -> String {
         bench.rounds,
         bench.clock_text()
     );
-    let mut text = String::new();
-    push_wrapped(&mut text, 0, &about);
+    let mut text = Text::default();
+    push_wrapped(&mut text, 0, about);
     text += "\n";
     push_costs(&mut text, bench);
     push_reaches(&mut text, bench);
     text
 }
 
-fn push_costs(text: &mut String, bench: &Bench) {
-    *text += &format!("{}\n", bench.frame_text());
+fn push_costs(text: &mut Text, bench: &Bench) {
+    *text += format!("{}\n", bench.frame_text());
     let mut table = Table::new("filter / pass", ["ms", "x baseline", "B/px", "of copy"]);
     for case in &bench.cases {
         let cells = [
@@ -43,12 +43,12 @@ fn push_costs(text: &mut String, bench: &Bench) {
         let cells = [spread_text(&copy.seconds, 1e3), none(), none(), speed];
         table.push("copy of a buffer", cells);
     }
-    *text += &format!("{}\n", table.text());
+    *text += table.text() + "\n";
     let legend = format!(
         "baseline: {BASELINE}. B/px: every texture that a pass reads or writes, counted once per pass. of copy: those bytes per \
          second, as a part of what copying a buffer reached."
     );
-    push_wrapped(text, 0, &legend);
+    push_wrapped(text, 0, legend);
     *text += "\n";
 }
 
@@ -65,7 +65,7 @@ fn push_passes(table: &mut Table, case: &CaseCost) {
     }
 }
 
-fn push_reaches(text: &mut String, bench: &Bench) {
+fn push_reaches(text: &mut Text, bench: &Bench) {
     let last = REACHES[REACHES.len() - 1];
     let reaches = REACHES.iter().map(u32::to_string);
     let growth = format!("{last} / {GROWTH_FROM}");
@@ -83,7 +83,7 @@ fn push_reaches(text: &mut String, bench: &Bench) {
             times.chain([growth]),
         );
     }
-    *text += &table.text();
+    *text += table.text();
 }
 
 fn spread_text(spread: &Spread, factor: f64) -> String {

@@ -79,8 +79,13 @@ pub fn bench(mut plan: BenchPlan, gpu: &Gpu, watch: Watch) -> Result<Bench, Erro
     })
 }
 
-/// A filter with settings, and the speed in its timing frame.
-type Timed<'a> = (&'a FilterChoice, &'a Settings, u32);
+/// A filter to time.
+struct Timed<'a> {
+    filter: &'a Filter,
+    settings: &'a Settings,
+    /// Speed in its frame, in pixels per frame.
+    speed: u32,
+}
 
 /// The rounds of a bench, with progress over the filters' runs.
 struct Timer<'a> {
@@ -97,9 +102,11 @@ impl Timer<'_> {
     /// Times every filter preset at [`SPEED`], and the memory copy in the same rounds.
     fn time_presets(&self) -> Result<(CopyCost, Vec<CaseCost>), Error> {
         let filters = &self.plan.filters;
-        let timed = filters
-            .iter()
-            .map(|choice| (choice, &choice.settings, SPEED));
+        let timed = filters.iter().map(|choice| Timed {
+            filter: &choice.filter,
+            settings: &choice.settings,
+            speed: SPEED,
+        });
         let buffers = BufferCopy::new(self.gpu)?;
         let (runs, copies) = self.time(&timed.collect::<Vec<_>>(), || buffers.time())?;
         let seconds = Spread::of(copies);
@@ -124,9 +131,11 @@ impl Timer<'_> {
         let settings: BTreeMap<u32, Settings> = (REACHES.into_iter())
             .filter_map(|pixels| Some((pixels, settings(pixels)?)))
             .collect();
-        let timed = settings
-            .iter()
-            .map(|(pixels, setting)| (choice, setting, *pixels));
+        let timed = settings.iter().map(|(pixels, settings)| Timed {
+            filter: &choice.filter,
+            settings,
+            speed: *pixels,
+        });
         let (runs, _) = self.time(&timed.collect::<Vec<_>>(), || Ok(()))?;
         let gaps = (REACHES.len() - settings.len()) as u64;
         self.advance(gaps * u64::from(self.plan.rounds + 1))?;
@@ -161,13 +170,13 @@ impl Timer<'_> {
     ) -> Result<(Vec<Vec<Times>>, Vec<T>), Error> {
         let (width, height) = (self.plan.width, self.plan.height);
         let mut blurs = Vec::new();
-        for (choice, settings, _) in filters {
-            let blur = Blur::new(self.gpu, &choice.filter, settings, width, height)?;
+        for timed in filters {
+            let blur = Blur::new(self.gpu, timed.filter, timed.settings, width, height)?;
             blurs.push(blur);
         }
         let mut loaded = Vec::new();
-        for (blur, (_, _, speed)) in blurs.iter_mut().zip(filters) {
-            loaded.push(load(blur, &self.panels[speed])?);
+        for (blur, timed) in blurs.iter_mut().zip(filters) {
+            loaded.push(load(blur, &self.panels[&timed.speed])?);
         }
         let mut runs = vec![Vec::new(); loaded.len()];
         let mut besides = Vec::new();

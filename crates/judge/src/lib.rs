@@ -17,9 +17,9 @@ mod worst;
 use std::collections::BTreeMap;
 
 pub use bounds::{
-    BOUNDS_FILE, Bound, Bounds, BoundsFile, FilterBounds, Length, Level, Margin, SceneBounds,
-    bound_subframes, check_lengths, check_names, read_bounds, read_bounds_beside_scenes,
-    read_bounds_file, require_bounds, size_for_bounds,
+    BOUNDS_FILE, Bound, BoundedScene, Bounds, BoundsFile, FilterBounds, Length, Level, Margin,
+    SceneBounds, bound_subframes, check_lengths, check_names, read_bounds,
+    read_bounds_beside_scenes, read_bounds_file, require_bounds, size_for_bounds,
 };
 pub use compare::{
     Agreement, Basis, Change, ChangeKind, FilterAtSizes, MeanChange, Pair, Reversal, RunComparison,

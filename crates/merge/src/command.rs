@@ -37,7 +37,7 @@ pub fn execute(args: &MergeArgs) -> Result<(), Error> {
 
 fn join_replicates(args: &MergeArgs) -> Result<(), Error> {
     for merged in merge_truths(&args.parts, &args.out)? {
-        print(&format!(
+        print(format!(
             "{} ({} replicates)\n",
             printable_path(&merged.truth),
             merged.replicates

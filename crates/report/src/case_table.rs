@@ -14,17 +14,17 @@ pub struct CaseTable<'a> {
     /// Scenes in the order of their runs.
     pub scenes: Vec<&'a SceneId>,
     /// Filter of each case.
-    own_filters: Vec<FilterId>,
+    case_filters: Vec<FilterId>,
     places: HashMap<(FilterId, &'a SceneId), usize>,
 }
 
 impl<'a> CaseTable<'a> {
     /// Sorts the cases of a run into a table.
     pub fn new(run: &'a Run) -> Self {
-        let own_filters: Vec<FilterId> = run.cases.iter().map(|case| case.filter_id()).collect();
+        let case_filters: Vec<FilterId> = run.cases.iter().map(|case| case.filter_id()).collect();
         let (mut filters, mut scenes) = (Vec::new(), Vec::new());
         let mut places = HashMap::new();
-        for (index, (case, filter)) in run.cases.iter().zip(&own_filters).enumerate() {
+        for (index, (case, filter)) in run.cases.iter().zip(&case_filters).enumerate() {
             if !filters.contains(filter) {
                 filters.push(filter.clone());
             }
@@ -37,7 +37,7 @@ impl<'a> CaseTable<'a> {
             run,
             filters,
             scenes,
-            own_filters,
+            case_filters,
             places,
         }
     }
@@ -45,7 +45,7 @@ impl<'a> CaseTable<'a> {
     /// Lists the cases of a filter with their numbers, one per scene.
     pub fn cases_of(&self, filter: &FilterId) -> impl Iterator<Item = (usize, &'a Case)> {
         let cases = self.run.cases.iter().enumerate();
-        cases.filter(|(index, _)| self.own_filters[*index] == *filter)
+        cases.filter(|(index, _)| self.case_filters[*index] == *filter)
     }
 
     /// Lists the cases of a scene with their numbers.

@@ -9,7 +9,7 @@ use crate::addition::columns;
 use crate::address::{case_anchor, section_anchor};
 use crate::case_table::CaseTable;
 use crate::numbers::value_text;
-use crate::overview::Overview;
+use crate::run_view::RunView;
 use crate::table::Column::{Plain, Text};
 use crate::table::{Column, scroll_table};
 
@@ -26,8 +26,8 @@ const SCORES: [(Metric, &str); 8] = [
 ];
 
 /// Writes the section of a filter.
-pub fn filter_section(overview: &Overview, filter: &FilterId) -> Markup {
-    let table = overview.table;
+pub fn filter_section(view: &RunView, filter: &FilterId) -> Markup {
+    let table = view.table;
     let cases: Vec<&Case> = table.cases_of(filter).map(|(_, case)| case).collect();
     let Some(first) = cases.first() else {
         return html! {};
@@ -51,13 +51,13 @@ pub fn filter_section(overview: &Overview, filter: &FilterId) -> Markup {
                 dl.facts {
                     @if let Some(builtin) = &builtin { (about(builtin, first)) }
                     div { dt { "shutter" } dd { (filter.alignment) } }
-                    @for column in columns(overview.additions) {
+                    @for column in columns(view.additions) {
                         div { dt { (column.name) } dd { (column.text(filter)) " " (column.unit) } }
                     }
                     @if let Some(change) = first.input.change() { div { dt { "input" } dd { (change) } } }
                     @if let Some(command) = &first.command { div { dt { "command" } dd { code { (command.join(" ")) } } } }
                 }
-                (weakest(table, &cases, overview.thumbnails))
+                (weakest(table, &cases, view.thumbnails))
                 (parameters(builtin.as_ref(), first))
             }
         }

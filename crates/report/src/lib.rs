@@ -18,6 +18,7 @@ mod overview;
 mod pixels;
 mod run_facts;
 mod run_page;
+mod run_view;
 mod sequence;
 pub mod table;
 
@@ -41,12 +42,13 @@ use live::scene::scene_json;
 use live::{Live, LiveFiles};
 use maud::{Markup, PreEscaped};
 use measure::{Case, Error, Run};
-use overview::Overview;
+use overview::overview;
 pub use pixels::report_files::LARGEST_PAGE;
 use pixels::report_files::{Place, SceneTexts};
 use pixels::scene_files::SceneFiles;
 pub use run_facts::adapter_text;
 use run_page::{PageContent, run_page};
+use run_view::RunView;
 pub use sequence::{SEQUENCES_PAGE, sequences_page};
 
 /// Approximate bytes of the tables of a case.
@@ -90,18 +92,18 @@ pub fn write_report(report: &RunReport, html: &Path) -> Result<Vec<PathBuf>, Err
         parts.add_scene(scene, &table, report.findings, folder)?;
     }
     parts.views.sort_by_key(|view| view.index);
-    let overview = Overview {
+    let view = RunView {
         table: &table,
-        views: &parts.views,
+        cases: &parts.views,
         thumbnails: &parts.thumbnails,
         verdict: report.verdict,
         additions: report.additions,
     };
     let filters = table.filters.iter().filter(|filter| !filter.is_reference);
     let sections: Vec<Markup> = filters
-        .map(|filter| filter_section(&overview, filter))
+        .map(|filter| filter_section(&view, filter))
         .collect();
-    let first = overview.write();
+    let first = overview(&view);
     parts.sections.extend(sections);
     let text: usize = parts.sections.iter().map(|section| section.0.len()).sum();
     let numbers = parts.numbers.place(text + first.0.len())?;
@@ -169,10 +171,10 @@ impl<'a> Parts<'a> {
         for (index, _) in table.cases_on(id) {
             let view = CaseView::read(table.run, index, scene, &findings, &mut files)?;
             let live = self.live.describe(view.case, scene, &files.whole)?;
-            is_live |= matches!(live, Live::Data(_));
+            is_live |= matches!(live, Some(Live::Case(_)));
             let tables = CaseTables::new(&view, table);
             let shown = self.has_tables.then_some(&tables);
-            self.sections[index] = case_section(&view, &live, shown);
+            self.sections[index] = case_section(&view, live.as_ref(), shown);
             if !self.has_tables {
                 texts.extend([tables.texts(view.case)]);
             }

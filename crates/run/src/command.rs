@@ -12,7 +12,7 @@ use crate::pages::{WrittenFile, page_lines, refuse_folder, write_judgement, writ
 use crate::plan::{add_bounds, apply_options, make_plan};
 use crate::tables::{failures_text, legend_text, ranking_text, run_table, sequences_text};
 use terminal::arguments::{AdapterArgs, MeasureArgs, RunOptions, parse_named};
-use terminal::output::{adapter_text, clock_text, print};
+use terminal::output::{Text, adapter_text, clock_text, print};
 
 /// Arguments of `run`.
 #[derive(Debug, Args)]
@@ -68,28 +68,28 @@ pub fn execute(args: &RunArgs) -> Result<(), Error> {
         let pages = write_judgement(&whole, &findings, None, &plan.out, args.html.as_ref())?;
         (scores_text(&run, args.table), pages)
     } else {
-        (String::new(), Vec::new())
+        (Text::default(), Vec::new())
     };
-    print(&if args.json {
-        whole.text() + "\n"
+    print(if args.json {
+        Text::from(whole.text()) + "\n"
     } else {
         scores
-            + &failures_text(&run.failures)
-            + &closing_text(&run, &pages, &plan.out, began.elapsed())
+            + failures_text(&run.failures)
+            + closing_text(&run, &pages, &plan.out, began.elapsed())
     })?;
     refuse_failures(&run.failures)
 }
 
 /// Formats the ranking or the table, and its subject.
-fn scores_text(run: &Run, as_table: bool) -> String {
+fn scores_text(run: &Run, as_table: bool) -> Text {
     let scores = if as_table {
         run_table(run)
     } else {
         ranking_text(&run.cases)
     };
     let scaling = run.scaling_note();
-    let scaling = scaling.map_or(String::new(), |note| legend_text(&note));
-    scores + &scaling + &sequences_text(run, as_table)
+    let scaling = scaling.map_or(Text::default(), |note| legend_text(&note));
+    scores + scaling + sequences_text(run, as_table)
 }
 
 /// Names the report, run.json and the adapter, and counts cases and time.

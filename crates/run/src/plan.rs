@@ -29,7 +29,7 @@ pub fn make_plan(args: &MeasureArgs, out: PathBuf) -> Result<(RunPlan, RunBounds
         Vec::new()
     };
     let mut bounds: RunBounds = (scenes.iter())
-        .map(|(scene, bounds)| (scene.id.clone(), bounds.clone()))
+        .map(|known| (known.scene.id.clone(), known.bounds.clone()))
         .collect();
     for scene in &ingested {
         bounds.insert(scene.id.clone(), read_ingested_bounds(&scene.folder)?);
@@ -44,7 +44,7 @@ pub fn make_plan(args: &MeasureArgs, out: PathBuf) -> Result<(RunPlan, RunBounds
     let drawn = (ingested.first()).map(|scene| (scene.size[0], scene.size[1]));
     let size = (args.size.or(drawn)).unwrap_or((default.width, default.height));
     let plan = RunPlan {
-        scenes: scenes.into_iter().map(|(scene, _)| scene).collect(),
+        scenes: scenes.into_iter().map(|known| known.scene).collect(),
         ingested,
         filters,
         inputs: args.forms.one_by_one(),

@@ -5,7 +5,7 @@ use std::path::Path;
 use measure::{Error, printable_path};
 use serde::Serialize;
 
-use crate::output::print;
+use crate::output::{Text, print};
 
 /// How a command that did its work ended.
 pub enum Ending {
@@ -26,13 +26,13 @@ pub fn write_json(path: &Path, result: &impl Serialize) -> Result<String, Error>
 pub fn write_result(
     path: &Path,
     result: &impl Serialize,
-    table: &str,
+    table: impl Into<Text>,
     as_json: bool,
 ) -> Result<(), Error> {
     let json = write_json(path, result)?;
     if as_json {
-        print(&format!("{json}\n"))
+        print(format!("{json}\n"))
     } else {
-        print(&format!("{table}\nwritten: {}\n", printable_path(path)))
+        print(table.into() + format!("\nwritten: {}\n", printable_path(path)))
     }
 }

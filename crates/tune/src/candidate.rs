@@ -9,8 +9,13 @@ pub struct Candidate<'a> {
     runner: Runner<'a>,
 }
 
-/// The blurred colour and, if requested, the blurred coverage of each object.
-pub type Blurred = (Image, Option<Vec<Plane>>);
+/// A blurred scene.
+pub struct Blurred {
+    /// The colour.
+    pub color: Image,
+    /// The coverage of each object, if requested.
+    pub mattes: Option<Vec<Plane>>,
+}
 
 impl<'a> Candidate<'a> {
     /// Makes a candidate for pictures of one size. `kernels` are the filter's, none if it is a
@@ -44,8 +49,8 @@ impl<'a> Candidate<'a> {
             .iter()
             .map(|output| output.cropped(frame.guard_band));
         let color = outputs.next().expect("a filter blurs the colour");
-        let mattes: Vec<Image> = outputs.collect();
-        let coverage = bleed.then(|| unpack_planes(&mattes, frame.coverage.len()));
-        Ok((color, coverage))
+        let packed: Vec<Image> = outputs.collect();
+        let mattes = bleed.then(|| unpack_planes(&packed, frame.coverage.len()));
+        Ok(Blurred { color, mattes })
     }
 }

@@ -4,12 +4,11 @@ use std::collections::{BTreeMap, HashMap};
 use std::sync::mpsc;
 
 use filters::{Blur, FilterError, Gpu, Kernels, Settings, Value};
-use frame::{Image, Plane};
 use measure::{Error, FilterChoice, Monitor, filter_input};
 use serde::{Deserialize, Serialize};
 use tracer::TraceError;
 
-use crate::candidate::Candidate;
+use crate::candidate::{Blurred, Candidate};
 use crate::loss::{mean_log_ratio, worst_bleed};
 use crate::target::{RenderedScene, SceneScore, SceneScores, Target};
 
@@ -124,11 +123,11 @@ impl<'a> Evaluator<'a> {
         rayon::in_place_scope(|scope| {
             for scene in scenes {
                 let target = &self.targets[*scene];
-                let (color, mattes) = candidate.blur(&target.scene.frame, self.bleed)?;
-                check_finite(&target.scene.name, &color, mattes.as_deref())?;
+                let blurred = candidate.blur(&target.scene.frame, self.bleed)?;
+                check_finite(&target.scene.name, &blurred)?;
                 let sender = sender.clone();
                 scope.spawn(move |_| {
-                    let score = target.score(&color, mattes.as_deref());
+                    let score = target.score(&blurred);
                     // The receiver outlives all work of this scope.
                     let _ = sender.send((*scene, score));
                 });
@@ -226,11 +225,8 @@ fn memory_key(settings: &Settings) -> String {
 }
 
 /// Refuses a picture that cannot be scored.
-fn check_finite(scene: &str, color: &Image, mattes: Option<&[Plane]>) -> Result<(), Error> {
-    let mattes = mattes
-        .unwrap_or_default()
-        .iter()
-        .flat_map(|matte| &matte.pixels);
+fn check_finite(scene: &str, Blurred { color, mattes }: &Blurred) -> Result<(), Error> {
+    let mattes = mattes.iter().flatten().flat_map(|matte| &matte.pixels);
     let mut values = color.pixels.as_flattened().iter().chain(mattes);
     if values.all(|value| value.is_finite()) {
         Ok(())

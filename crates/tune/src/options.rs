@@ -4,9 +4,8 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use judge::SceneBounds;
+use judge::BoundedScene;
 use measure::{Error, FilterChoice, Monitor};
-use scene::Scene;
 use tracer::RenderSettings;
 
 use crate::loss::LEAST_BLEED;
@@ -21,9 +20,9 @@ pub struct TuneOptions {
     /// Parameters that may change.
     pub space: Space,
     /// Scenes to tune on, each with its bounds.
-    pub scenes: Vec<(Scene, SceneBounds)>,
+    pub scenes: Vec<BoundedScene>,
     /// Held-out scenes, evaluated once at the end.
-    pub held_out: Vec<(Scene, SceneBounds)>,
+    pub held_out: Vec<BoundedScene>,
     /// Render settings of the scenes to tune on.
     pub render: RenderSettings,
     /// Render settings of the held-out scenes.
@@ -80,12 +79,12 @@ impl TuneOptions {
                 "no scene is left to tune on; name at least one that is not held out".to_owned(),
             ));
         }
-        let is_tuned_on = |held_out: &Scene| {
-            (self.scenes.iter()).any(|(scene, _)| scene.id.name == held_out.id.name)
+        let is_tuned_on = |held_out: &&BoundedScene| {
+            let name = &held_out.scene.id.name;
+            self.scenes.iter().any(|tuned| tuned.scene.id.name == *name)
         };
-        let mut held_out = self.held_out.iter();
-        match held_out.find(|(scene, _)| is_tuned_on(scene)) {
-            Some((scene, _)) => Err(Error::Refused(format!(
+        match self.held_out.iter().find(is_tuned_on) {
+            Some(BoundedScene { scene, .. }) => Err(Error::Refused(format!(
                 "scene {}: it is tuned on, and so proves nothing as a held-out scene; name it in one of the two lists",
                 scene.id
             ))),
@@ -106,7 +105,7 @@ impl TuneOptions {
     /// Groups the scenes to tune on by family.
     pub fn families(&self) -> BTreeMap<&'static str, Vec<String>> {
         let mut families: BTreeMap<&'static str, Vec<String>> = BTreeMap::new();
-        for (scene, _) in &self.scenes {
+        for BoundedScene { scene, .. } in &self.scenes {
             let names = families.entry(scene.family.name()).or_default();
             names.push(scene.id.to_string());
         }
@@ -115,13 +114,13 @@ impl TuneOptions {
 }
 
 /// Orders scenes so that families alternate and the first few represent all.
-pub fn interleave_families(scenes: Vec<(Scene, SceneBounds)>) -> Vec<(Scene, SceneBounds)> {
+pub fn interleave_families(scenes: Vec<BoundedScene>) -> Vec<BoundedScene> {
     let mut turns: BTreeMap<&'static str, usize> = BTreeMap::new();
     let mut keyed: Vec<_> = (scenes.into_iter())
-        .map(|(scene, bounds)| {
-            let turn = turns.entry(scene.family.name()).or_default();
+        .map(|known| {
+            let turn = turns.entry(known.scene.family.name()).or_default();
             *turn += 1;
-            (*turn, (scene, bounds))
+            (*turn, known)
         })
         .collect();
     keyed.sort_by_key(|(turn, _)| *turn);

@@ -2,12 +2,13 @@
 
 use measure::MIN_SCENES;
 use report::numbers::percent;
-use terminal::output::{count_text, heading, push_wrapped};
+use terminal::output::{Text, count_text, heading, push_wrapped};
 use terminal::table::{Table, cell};
 
 use crate::advice::Advice;
 use crate::comparison::{Difference, PairedComparison, Preference};
 use crate::loss::LEAST_BLEED;
+use crate::selection::Fold;
 use crate::sensitivity::{ParameterSensitivity, Sensitivity};
 use crate::sobol::SobolIndices;
 use crate::trial::Trial;
@@ -19,7 +20,7 @@ const ROWS: usize = 12;
 const VALUES: usize = 34;
 
 /// Makes the tables: start, front, choice, folds and held-out scenes.
-pub fn tuning_table(tuning: &Tuning) -> String {
+pub fn tuning_table(tuning: &Tuning) -> Text {
     let journal = &tuning.journal;
     let mut text = heading(&format!(
         "{}:{}, {} trials on {} scenes: {} dropped early, {} failed",
@@ -31,7 +32,7 @@ pub fn tuning_table(tuning: &Tuning) -> String {
         tuning.failed.len(),
     ));
     text += "\n\n";
-    text += &heading("trial    error    bleed     cost  values that differ from the start");
+    text += heading("trial    error    bleed     cost  values that differ from the start");
     text += "\n";
     let mut rows = vec![&tuning.start];
     let front = tuning.front.iter().take(ROWS);
@@ -40,24 +41,17 @@ pub fn tuning_table(tuning: &Tuning) -> String {
         rows.push(&tuning.chosen);
     }
     for trial in rows {
-        text += &trial_row(trial, &tuning.start, tuning.chosen.trial);
+        text += trial_row(trial, &tuning.start, tuning.chosen.trial);
     }
     text += "bleed: bleed_lateral of the worst scene, in pixels\n";
     if tuning.front.len() > ROWS {
-        text += &format!("and {} more in tune.json\n", tuning.front.len() - ROWS);
+        text += format!("and {} more in tune.json\n", tuning.front.len() - ROWS);
     }
     text += "\n";
-    push_wrapped(&mut text, 0, &choice_text(tuning));
+    push_wrapped(&mut text, 0, choice_text(tuning));
     if !tuning.folds.is_empty() {
         text += "\n";
-        text += &heading("family left out  scenes  trial  on the others  on the family    gap");
-        text += "\n";
-    }
-    for fold in &tuning.folds {
-        text += &format!(
-            "{:15} {:7} {:6} {:14.3} {:14.3} {:6.3}\n",
-            fold.family, fold.scenes, fold.trial, fold.others, fold.held_out, fold.gap
-        );
+        text += folds_table(&tuning.folds);
     }
     if let Some(last) = tuning.held_out.last() {
         let times = match tuning.held_out.len() {
@@ -65,15 +59,32 @@ pub fn tuning_table(tuning: &Tuning) -> String {
             times => format!("{times} times"),
         };
         let [width, height, samples] = last.render;
-        text += &format!(
-            "\nheld-out scenes, evaluated {times} at {width}x{height}, {samples} samples per pixel:\n{}",
-            paired_table(&last.paired, ["start", "chosen"])
+        text += format!(
+            "\nheld-out scenes, evaluated {times} at {width}x{height}, {samples} samples per pixel:\n"
         );
+        text += paired_table(&last.paired, ["start", "chosen"]);
     }
     for (trial, reason) in &tuning.failed {
-        push_wrapped(&mut text, 0, &format!("failed: trial {trial}: {reason}"));
+        push_wrapped(&mut text, 0, format!("failed: trial {trial}: {reason}"));
     }
     text
+}
+
+/// Makes the table of cross-validation.
+fn folds_table(folds: &[Fold]) -> Text {
+    let titles = ["scenes", "trial", "on the others", "on the family", "gap"];
+    let mut table = Table::new("family left out", titles);
+    for fold in folds {
+        let cells = [
+            fold.scenes.to_string(),
+            fold.trial.to_string(),
+            format!("{:.3}", fold.others),
+            format!("{:.3}", fold.held_out),
+            format!("{:.3}", fold.gap),
+        ];
+        table.push(&fold.family, cells);
+    }
+    table.text()
 }
 
 /// Describes the choice and its distance from the best.
@@ -105,11 +116,11 @@ fn choice_text(tuning: &Tuning) -> String {
 }
 
 /// Recommends the choice and names its files, or says why there is no preset.
-pub fn advice_text(tuning: &Tuning) -> String {
+pub fn advice_text(tuning: &Tuning) -> Text {
     let trial = tuning.choice.trial;
     let reason = match tuning.advice() {
         Advice::Take => {
-            return "the choice: params.json and preset.toml next to tune.json\n".to_owned();
+            return "the choice: params.json and preset.toml next to tune.json\n".into();
         }
         Advice::NoneIsBetter => "no trial beats it by more than the scenes can show".to_owned(),
         Advice::CannotTell(difference) if difference.scenes < MIN_SCENES => format!(
@@ -126,9 +137,9 @@ pub fn advice_text(tuning: &Tuning) -> String {
             percent(flip.mean)
         ),
     };
-    let mut text = String::new();
+    let mut text = Text::default();
     let sentence = format!("keep the start, no preset.toml is written: {reason}");
-    push_wrapped(&mut text, 0, &sentence);
+    push_wrapped(&mut text, 0, sentence);
     text
 }
 
@@ -146,14 +157,14 @@ fn trial_row(trial: &Trial, start: &Trial, chosen: usize) -> String {
         let text = value.map_or("-".to_owned(), |value| format!("{value:.3}"));
         numbers += &format!(" {text:>8}");
     }
-    let mut values = String::new();
+    let mut values = Text::default();
     // Every line of values begins where the numbers end.
-    push_wrapped(&mut values, VALUES, &changed);
-    numbers + values.get(VALUES - 2..).unwrap_or_default()
+    push_wrapped(&mut values, VALUES, changed);
+    numbers + values.plain().get(VALUES - 2..).unwrap_or_default()
 }
 
 /// Compares two candidates scene by scene.
-pub fn paired_table(paired: &PairedComparison, names: [&str; 2]) -> String {
+pub fn paired_table(paired: &PairedComparison, names: [&str; 2]) -> Text {
     let [first, second] = names;
     let titles = [
         &format!("FLIP {first}"),
@@ -170,7 +181,7 @@ pub fn paired_table(paired: &PairedComparison, names: [&str; 2]) -> String {
     let mut text = table.text();
     let mut push = |what: &str, numbers: String, verdict: &str| {
         let line = format!("{what} of {second} against {first}: {numbers}: {verdict}");
-        push_wrapped(&mut text, 0, &line);
+        push_wrapped(&mut text, 0, line);
     };
     let verdict = |difference: &Difference| match difference.verdict {
         Preference::First => format!("{first} is better"),
@@ -190,7 +201,7 @@ pub fn paired_table(paired: &PairedComparison, names: [&str; 2]) -> String {
 }
 
 /// Makes the table of parameters, most important first.
-pub fn sensitivity_table(sensitivity: &Sensitivity) -> String {
+pub fn sensitivity_table(sensitivity: &Sensitivity) -> Text {
     let mut rows: Vec<(&String, &ParameterSensitivity)> = sensitivity.parameters.iter().collect();
     rows.sort_by(|(_, a), (_, b)| b.indices.total.value.total_cmp(&a.indices.total.value));
     let mut table = Table::new(
@@ -209,7 +220,7 @@ pub fn sensitivity_table(sensitivity: &Sensitivity) -> String {
         table.push(name, cells);
     }
     table.text()
-        + &format!(
+        + format!(
             "{} candidates, {} failed\n",
             sensitivity.candidates, sensitivity.failed
         )

@@ -4,13 +4,14 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use filters::Filter;
-use frame::{Image, Plane, Truth};
-use judge::{Bounds, SceneBounds};
+use frame::{Image, Truth};
+use judge::{BoundedScene, Bounds, SceneBounds};
 use measure::{Error, FilterFrame, Monitor, Rendering};
 use metrics::{Metric, ObjectMetric, Reference, Viewing, flip_ldr};
-use scene::Scene;
 use serde::{Deserialize, Serialize};
 use tracer::RenderSettings;
+
+use crate::candidate::Blurred;
 
 /// A scene, rendered once and used for hundreds of measurements.
 pub struct RenderedScene {
@@ -28,13 +29,13 @@ pub struct RenderedScene {
 
 /// Reads frames and truths of scenes for a filter from `out`, or renders and keeps them there.
 pub fn render_scenes(
-    scenes: &[(Scene, SceneBounds)],
+    scenes: &[BoundedScene],
     filter: &Filter,
     render: &RenderSettings,
     out: &Path,
     monitor: Monitor,
 ) -> Result<Vec<RenderedScene>, Error> {
-    let render_scene = |(scene, bounds): &(Scene, SceneBounds)| {
+    let render_scene = |BoundedScene { scene, bounds }: &BoundedScene| {
         let rendering = Rendering {
             scene: scene.into(),
             settings: *render,
@@ -95,7 +96,7 @@ impl<'a> Target<'a> {
     }
 
     /// Scores a picture by `flip_moving` alone, and its mattes, if any, by their bleed.
-    pub fn score(&self, color: &Image, mattes: Option<&[Plane]>) -> SceneScore {
+    pub fn score(&self, Blurred { color, mattes }: &Blurred) -> SceneScore {
         let errors = flip_ldr(&self.mean, color, &self.scene.viewing);
         let moving = &self.reference.regions.moving.pixels;
         let inside = errors.pixels.iter().zip(moving);
@@ -104,7 +105,8 @@ impl<'a> Target<'a> {
             inside.fold((0.0, 0.0), |(sum, count), error| (sum + error, count + 1.0));
         SceneScore {
             flip: sum / count,
-            bleed: mattes.and_then(|mattes| self.reference.measure_bleed_lateral(mattes)),
+            bleed: (mattes.as_ref())
+                .and_then(|mattes| self.reference.measure_bleed_lateral(mattes)),
         }
     }
 

@@ -13,7 +13,10 @@ use super::times::{milliseconds, spread};
 use crate::{BASELINE, Bench, CaseCost, GROWTH_FROM, REACHES};
 
 /// A filter of a run with its cost.
-pub type TimedFilter<'a> = (&'a FilterId, &'a CaseCost);
+pub struct TimedFilter<'a> {
+    pub filter: &'a FilterId,
+    pub cost: &'a CaseCost,
+}
 
 /// Shows quality against time, passes, and cost against reach.
 pub fn costs(table: &CaseTable, bench: &Bench, timed: &[TimedFilter]) -> Markup {
@@ -50,7 +53,7 @@ fn provenance(bench: &Bench) -> String {
 /// Measures FLIP and time of every timed filter. Filters of all shutters are in one chart, so FLIP
 /// is against one shutter for all.
 fn points(table: &CaseTable, timed: &[TimedFilter]) -> Vec<Point> {
-    let point = |(filter, cost): &TimedFilter| {
+    let point = |TimedFilter { filter, cost }: &TimedFilter| {
         Some(Point {
             title: filter.to_string(),
             seconds: cost.seconds,
@@ -76,7 +79,7 @@ fn mean_error(table: &CaseTable, filter: &FilterId) -> Option<f64> {
 
 fn passes(timed: &[TimedFilter]) -> Markup {
     let bodies = html! {
-        @for (filter, cost) in timed {
+        @for TimedFilter { filter, cost } in timed {
             tbody {
                 tr.group {
                     th scope="row" { (filter.to_string()) }

@@ -38,7 +38,7 @@ pub fn add_costs(run: &Run, folder: &Path) -> Result<Addition, Error> {
 
 /// Makes the column of the filters' times.
 fn make_column(timed: &[TimedFilter]) -> FilterColumn {
-    let number = |(filter, cost): &TimedFilter| {
+    let number = |TimedFilter { filter, cost }: &TimedFilter| {
         let value = cost.seconds.median;
         let text = milliseconds(value);
         ((*filter).clone(), FilterNumber { value, text })
@@ -55,7 +55,8 @@ fn list_timed<'a>(table: &'a CaseTable, bench: &'a Bench) -> Vec<TimedFilter<'a>
     let width = table.run.render.width;
     let timed = table.filters.iter().filter_map(|filter| {
         let (_, case) = table.cases_of(filter).next()?;
-        Some((filter, cost_of(bench, case, width)?))
+        let cost = cost_of(bench, case, width)?;
+        Some(TimedFilter { filter, cost })
     });
     timed.collect()
 }

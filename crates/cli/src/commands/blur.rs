@@ -116,7 +116,7 @@ pub fn execute(args: &BlurArgs) -> Result<(), Error> {
             _ => numbered_file(&out, frame),
         };
         write_exr(&path, &file)?;
-        print(&format!("{}\n", printable_path(&path)))?;
+        print(format!("{}\n", printable_path(&path)))?;
         for name in &args.show {
             show_texture(&runner, &choice.filter, name, &path)?;
         }

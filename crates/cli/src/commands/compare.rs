@@ -48,5 +48,5 @@ pub fn execute(args: &CompareArgs) -> Result<(), Error> {
     if args.json {
         return print_json(&compared);
     }
-    print(&(compare_table(&compared) + &written))
+    print(compare_table(&compared) + written)
 }

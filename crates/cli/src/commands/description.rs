@@ -36,5 +36,5 @@ pub fn write_manual(args: &ManArgs, program: clap::Command) -> Result<(), Error>
     let fail = |source| FileError::io(&args.out, "write", source);
     std::fs::create_dir_all(&args.out).map_err(fail)?;
     clap_mangen::generate_to(program, &args.out).map_err(fail)?;
-    print(&format!("written: {}\n", printable_path(&args.out)))
+    print(format!("written: {}\n", printable_path(&args.out)))
 }

@@ -12,7 +12,7 @@ use tracer::find_coincident_surfaces;
 use super::copy::copy_scenes;
 use crate::tables::{details_text, filter_json, filters_text, inputs_text, scenes_text};
 use terminal::arguments::{AdapterArgs, RootArgs};
-use terminal::output::{make_monitor, print, print_json, print_note, print_scene_notes};
+use terminal::output::{Text, make_monitor, print, print_json, print_note, print_scene_notes};
 use terminal::selection::{is_pattern, load_filters, match_names, suggest_names};
 
 #[derive(Debug, Args)]
@@ -49,14 +49,14 @@ pub fn execute(args: &ListArgs) -> Result<(), Error> {
         return copy_scenes(&args.what, folder);
     }
     if args.what == ["adapters"] {
-        return print(&adapters_text());
+        return print(adapters_text());
     }
     if args.what == ["inputs"] {
         let kinds = InputFormat::kinds();
         return if args.json {
             print_json(&kinds)
         } else {
-            print(&inputs_text(&kinds))
+            print(inputs_text(&kinds))
         };
     }
     let is_brief = args.filters.is_empty()
@@ -72,16 +72,16 @@ pub fn execute(args: &ListArgs) -> Result<(), Error> {
         }));
     }
     if !is_brief {
-        return print(&details_text(&scenes, &filters));
+        return print(details_text(&scenes, &filters));
     }
-    let mut text = String::new();
+    let mut text = Text::default();
     if !scenes.is_empty() {
-        text += &scenes_text(&scenes);
+        text += scenes_text(&scenes);
     }
     if !filters.is_empty() {
-        text += &filters_text(&filters);
+        text += filters_text(&filters);
     }
-    print(&(text + "details: shuttertruth list NAME\n"))
+    print(text + "details: shuttertruth list NAME\n")
 }
 
 /// Writes what is worth knowing about a scene and its variants: what the loader left out, and

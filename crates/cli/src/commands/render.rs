@@ -108,7 +108,7 @@ pub fn execute(args: &RenderArgs) -> Result<(), Error> {
                 Replicates::Part(indices) => render_some(args, rendering, indices)?,
             };
             let folder = printable_path(&scene_folder(&args.scenes.out, &scene));
-            print(&format!("{folder}\n{text}"))?;
+            print(format!("{folder}\n{text}"))?;
         }
     }
     match noisy.as_slice() {

@@ -13,7 +13,7 @@ use metrics::Metric;
 use super::convention::read_convention;
 use run::score_table;
 use terminal::arguments::{RootArgs, above_zero, frame_count};
-use terminal::output::{print, print_json};
+use terminal::output::{Text, print, print_json};
 
 #[derive(Debug, Args)]
 pub struct ScoreArgs {
@@ -70,7 +70,7 @@ pub fn execute(args: &ScoreArgs) -> Result<(), Error> {
         json["truth_hash"] = truth.provenance.content_hash.as_str().into();
         print_json(&json)
     } else {
-        print(&scores_text(args, &truth, &scored))
+        print(scores_text(args, &truth, &scored))
     }
 }
 
@@ -87,14 +87,14 @@ pub fn check_scene(path: &Path, provenance: &Provenance, truth: &Truth) -> Resul
     }
 }
 
-fn scores_text(args: &ScoreArgs, truth: &Truth, Scored { scores, notes }: &Scored) -> String {
+fn scores_text(args: &ScoreArgs, truth: &Truth, Scored { scores, notes }: &Scored) -> Text {
     let name = args.image.file_name().unwrap_or(args.image.as_os_str());
     let name = name.to_string_lossy();
     let name = printable(&name);
     let mut text = score_table(&truth.provenance.scene, &name, scores);
-    text += &truth_text(truth);
+    text += truth_text(truth);
     for note in notes {
-        text += &format!("{name}: {note}\n");
+        text += format!("{name}: {note}\n");
     }
     for (reason, metrics) in missing_scores(scores) {
         let names: Vec<String> = metrics.iter().map(|metric| metric.name()).collect();
@@ -105,7 +105,7 @@ fn scores_text(args: &ScoreArgs, truth: &Truth, Scored { scores, notes }: &Score
         } else {
             ""
         };
-        text += &format!("not available: {}: {reason}{way_out}\n", names.join(", "));
+        text += format!("not available: {}: {reason}{way_out}\n", names.join(", "));
     }
     text
 }

@@ -12,7 +12,7 @@ use terminal::refuse;
 use super::convention::read_convention;
 use super::score::{ScoreArgs, check_scene, scored_json, truth_text};
 use run::score_sequence_table;
-use terminal::output::{print, print_json};
+use terminal::output::{Text, print, print_json};
 use terminal::selection::select_scenes;
 
 /// Scores the numbered pictures of a folder, and prints their scores over time.
@@ -42,7 +42,7 @@ pub fn execute(args: &ScoreArgs) -> Result<(), Error> {
     if args.json {
         print_json(&scores_json(args, per_second, &truths, &scored, &notes))
     } else {
-        print(&scores_text(args, &truths[0].truth, &scored, &notes))
+        print(scores_text(args, &truths[0].truth, &scored, &notes))
     }
 }
 
@@ -91,21 +91,21 @@ fn scores_text(
     truth: &Truth,
     scored: &SequenceMeasurement,
     notes: &[String],
-) -> String {
+) -> Text {
     let name = printable_path(&args.image);
     let mut text =
         score_sequence_table(&truth.provenance.scene, &name, args.frames, &scored.scores);
-    text += &truth_text(truth);
+    text += truth_text(truth);
     let worst: Vec<String> = (worst_frames(scored).iter())
         .map(|(metric, frame)| format!("{metric} {frame}"))
         .collect();
-    text += &format!("worst frames: {}\n", worst.join(", "));
+    text += format!("worst frames: {}\n", worst.join(", "));
     for note in notes {
-        text += &format!("{name}: {note}\n");
+        text += format!("{name}: {note}\n");
     }
     for metric in SequenceMetric::ALL {
         if let Measured::NotApplicable { reason } = scored.scores.get(metric) {
-            text += &format!("not available: {}: {reason}\n", metric.row().name);
+            text += format!("not available: {}: {reason}\n", metric.row().name);
         }
     }
     text

@@ -78,10 +78,10 @@ pub fn show_texture(
     let png = path.with_extension("png");
     write_png(&png, &display(&texels, components))?;
     for path in [&path, &png] {
-        print(&format!("{}\n", printable_path(path)))?;
+        print(format!("{}\n", printable_path(path)))?;
     }
     let (width, height) = (texels.width, texels.height);
-    print(&format!(
+    print(format!(
         "  {name}: {width}x{height}, {}\n",
         words.join(", ")
     ))

@@ -5,16 +5,16 @@ use metrics::Metric;
 use report::ChangeCells;
 
 use super::{Table, list_once};
-use terminal::output::{bad, count_text, doubtful, faint, good, push_wrapped};
+use terminal::output::{Text, bad, count_text, doubtful, faint, good, push_wrapped};
 
 /// Upper limit on changed cases in the table; `--json` and the page show all.
 const CASES: usize = 12;
 
 /// Makes the tables: settings, cases of only one run, means over scenes, changed cases, counts.
-pub fn compare_table(compared: &RunComparison) -> String {
-    let mut text = String::new();
+pub fn compare_table(compared: &RunComparison) -> Text {
+    let mut text = Text::default();
     for setting in &compared.settings {
-        push_wrapped(&mut text, 0, &setting_line(setting));
+        push_wrapped(&mut text, 0, setting_line(setting));
     }
     let sides = [
         (&compared.only_in_first, &compared.runs[0]),
@@ -22,15 +22,15 @@ pub fn compare_table(compared: &RunComparison) -> String {
     ];
     for (cases, run) in sides {
         if !cases.is_empty() {
-            push_wrapped(&mut text, 0, &format!("only in {run}:"));
+            push_wrapped(&mut text, 0, format!("only in {run}:"));
             for case in cases {
                 push_wrapped(&mut text, 2, case);
             }
         }
     }
-    text += &means_table(&compared.means);
-    text += &changes_table(&compared.changes);
-    text + &counts(&compared.changes)
+    text += means_table(&compared.means);
+    text += changes_table(&compared.changes);
+    text + counts(&compared.changes)
 }
 
 fn setting_line(setting: &SettingChange) -> String {
@@ -42,7 +42,7 @@ fn setting_line(setting: &SettingChange) -> String {
 }
 
 /// Makes the table of means; one line names the filters that changed on no scene.
-fn means_table(means: &[MeanChange]) -> String {
+fn means_table(means: &[MeanChange]) -> Text {
     let mut table = change_table("mean over scenes");
     let mut filter = "";
     for mean in means.iter().filter(|mean| mean.kind != ChangeKind::Same) {
@@ -54,7 +54,7 @@ fn means_table(means: &[MeanChange]) -> String {
         push_change(&mut table, mean.metric, mean.kind, mean.into());
     }
     let mut text = match filter {
-        "" => String::new(),
+        "" => Text::default(),
         _ => table.text(),
     };
     let mut same = list_once(means.iter().map(|mean| mean.filter.as_str()));
@@ -64,16 +64,16 @@ fn means_table(means: &[MeanChange]) -> String {
     });
     if !same.is_empty() {
         let line = format!("nothing changed of: {}", same.join(", "));
-        push_wrapped(&mut text, 0, &line);
+        push_wrapped(&mut text, 0, line);
     }
     text
 }
 
 /// Makes the table of cases, largest changes first.
-fn changes_table(changes: &[Change]) -> String {
+fn changes_table(changes: &[Change]) -> Text {
     let ranked = rank_changes(changes);
     if ranked.is_empty() {
-        return String::new();
+        return Text::default();
     }
     let mut table = change_table("scene / filter");
     for (scene, filter) in ranked.iter().take(CASES) {
@@ -84,11 +84,11 @@ fn changes_table(changes: &[Change]) -> String {
             push_change(&mut table, change.metric, change.kind, change.into());
         }
     }
-    let mut text = "\n".to_owned() + &table.text();
+    let mut text = Text::from("\n") + table.text();
     if ranked.len() > CASES {
         let more = ranked.len() - CASES;
         let note = format!("and {more} cases more: --json or --html show them\n");
-        text += &faint(&note);
+        text += faint(&note);
     }
     text
 }
@@ -105,20 +105,25 @@ fn push_change(table: &mut Table, metric: Metric, kind: ChangeKind, cells: Chang
     };
     table.push(
         metric.name(),
-        [cells.first, cells.second, change, cells.interval],
+        [
+            cells.first.into(),
+            cells.second.into(),
+            change,
+            cells.interval.into(),
+        ],
     );
 }
 
-fn counts(changes: &[Change]) -> String {
+fn counts(changes: &[Change]) -> Text {
     let words: Vec<String> = (ChangeKind::OF_SCORES.iter())
         .map(|kind| {
             let count = changes.iter().filter(|change| change.kind == *kind).count();
             format!("{count} {}", kind.label())
         })
         .collect();
-    let mut text = "\n".to_owned();
+    let mut text = Text::from("\n");
     let line = format!("{} scores compared: {}", changes.len(), words.join(", "));
-    push_wrapped(&mut text, 0, &line);
+    push_wrapped(&mut text, 0, line);
     let by_floor = (changes.iter())
         .filter(|change| change.basis == Basis::Floor && change.kind != ChangeKind::Same)
         .count();
@@ -127,7 +132,7 @@ fn counts(changes: &[Change]) -> String {
             "{by_floor} of them told from noise by their floors alone, which is coarse: the truths' replicates or the \
              pictures (output.exr) are not beside run.json"
         );
-        push_wrapped(&mut text, 0, &note);
+        push_wrapped(&mut text, 0, note);
     }
     text
 }

@@ -4,19 +4,19 @@ use filters::{Filter, Parameter, Preset, Unit};
 use measure::InputKind;
 use scene::SceneListing;
 
-use terminal::output::{heading, push_wrapped};
+use terminal::output::{Text, heading, push_wrapped};
 
 /// Lists scenes, one short paragraph each.
-pub fn scenes_text(scenes: &[SceneListing]) -> String {
+pub fn scenes_text(scenes: &[SceneListing]) -> Text {
     let mut text = heading("scenes") + "\n";
     for scene in scenes {
-        push_wrapped(&mut text, 2, &format!("{}: {}", scene.name, scene.exposes));
+        push_wrapped(&mut text, 2, format!("{}: {}", scene.name, scene.exposes));
     }
     text
 }
 
 /// Lists filters, one short paragraph each.
-pub fn filters_text(filters: &[Filter]) -> String {
+pub fn filters_text(filters: &[Filter]) -> Text {
     let mut text = heading("filters") + "\n";
     for filter in filters {
         let presets = filter.presets.iter().map(|preset| preset.name.as_str());
@@ -27,27 +27,27 @@ pub fn filters_text(filters: &[Filter]) -> String {
             filter.alignment,
             presets.collect::<Vec<_>>().join(", ")
         );
-        push_wrapped(&mut text, 2, &line);
+        push_wrapped(&mut text, 2, line);
     }
     text
 }
 
 /// Lists kinds of input with their forms; the first form of each is the full one.
-pub fn inputs_text(kinds: &[InputKind]) -> String {
-    let mut text = String::new();
+pub fn inputs_text(kinds: &[InputKind]) -> Text {
+    let mut text = Text::default();
     for kind in kinds {
-        let line = format!("{}: {}", heading(kind.name), kind.help);
-        push_wrapped(&mut text, 0, &line);
+        let line = heading(kind.name) + format!(": {}", kind.help);
+        push_wrapped(&mut text, 0, line);
         for form in &kind.forms {
-            push_wrapped(&mut text, 2, &format!("{}: {}", form.name, form.help));
+            push_wrapped(&mut text, 2, format!("{}: {}", form.name, form.help));
         }
     }
     text
 }
 
 /// Describes scenes and filters in detail.
-pub fn details_text(scenes: &[SceneListing], filters: &[Filter]) -> String {
-    let mut text = String::new();
+pub fn details_text(scenes: &[SceneListing], filters: &[Filter]) -> Text {
+    let mut text = Text::default();
     for scene in scenes {
         push_scene(&mut text, scene);
         text += "\n";
@@ -87,18 +87,18 @@ pub fn filter_json(filter: &Filter) -> serde_json::Value {
     })
 }
 
-fn push_scene(text: &mut String, scene: &SceneListing) {
+fn push_scene(text: &mut Text, scene: &SceneListing) {
     let family = scene.family.name();
-    push_wrapped(text, 2, &format!("{}  ({family})", scene.name));
+    push_wrapped(text, 2, format!("{}  ({family})", scene.name));
     push_wrapped(text, 4, &scene.exposes);
     if !scene.variants.is_empty() {
-        push_wrapped(text, 4, &format!("variants: {}", scene.variants.join(" ")));
+        push_wrapped(text, 4, format!("variants: {}", scene.variants.join(" ")));
     }
 }
 
-fn push_filter(text: &mut String, filter: &Filter) {
+fn push_filter(text: &mut Text, filter: &Filter) {
     let title = format!("{}  (shutter: {})", filter.name, filter.alignment);
-    push_wrapped(text, 2, &title);
+    push_wrapped(text, 2, title);
     push_wrapped(text, 4, &filter.summary);
     for (label, said) in [
         ("source", &filter.source),
@@ -106,20 +106,20 @@ fn push_filter(text: &mut String, filter: &Filter) {
         ("cannot", &filter.cannot),
     ] {
         if !said.is_empty() {
-            push_wrapped(text, 4, &format!("{label}: {said}"));
+            push_wrapped(text, 4, format!("{label}: {said}"));
         }
     }
     if filter.mirror_symmetric {
         push_wrapped(text, 4, "a mirrored frame gives the mirrored output");
     }
     for line in filter.list_compilers() {
-        push_wrapped(text, 4, &line);
+        push_wrapped(text, 4, line);
     }
     if let Some(command) = &filter.command {
-        push_wrapped(text, 4, &format!("runs: {}", command.words.join(" ")));
+        push_wrapped(text, 4, format!("runs: {}", command.words.join(" ")));
         if !command.environment.is_empty() {
             let names = command.environment.join(" ");
-            push_wrapped(text, 4, &format!("environment: {names}"));
+            push_wrapped(text, 4, format!("environment: {names}"));
         }
     }
     for preset in &filter.presets {
@@ -129,15 +129,15 @@ fn push_filter(text: &mut String, filter: &Filter) {
         let unit = parameter.unit.map_or("", |Unit::Pixels| " pixels");
         let Parameter { name, default, .. } = parameter;
         let allowed = parameter.kind.allowed();
-        push_wrapped(text, 4, &format!(".{name} = {default}{unit} ({allowed})"));
+        push_wrapped(text, 4, format!(".{name} = {default}{unit} ({allowed})"));
         push_wrapped(text, 8, &parameter.doc);
     }
 }
 
 /// Describes a preset: its source, and where it differs from that source.
-fn push_preset(text: &mut String, preset: &Preset) {
-    push_wrapped(text, 4, &format!(":{}  {}", preset.name, preset.doc));
-    let mut line = |words: String| push_wrapped(text, 8, &words);
+fn push_preset(text: &mut Text, preset: &Preset) {
+    push_wrapped(text, 4, format!(":{}  {}", preset.name, preset.doc));
+    let mut line = |words: String| push_wrapped(text, 8, words);
     if let Some(source) = &preset.source {
         if let Some(code) = &source.code {
             line(format!("source: {code}"));

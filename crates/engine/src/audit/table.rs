@@ -1,7 +1,7 @@
 //! Table of an audit.
 
 use measure::{engine_name, printable};
-use terminal::output::push_wrapped;
+use terminal::output::{Text, push_wrapped};
 use terminal::table::{Table, cell};
 
 use super::capture_audit::CaptureAudit;
@@ -9,7 +9,7 @@ use super::velocity_audit::ObjectAudit;
 
 /// Lists, per object, its visibility in the engine's picture and its velocity error; then the depth
 /// error, then what is wrong.
-pub fn audit_table(audit: &CaptureAudit) -> String {
+pub fn audit_table(audit: &CaptureAudit) -> Text {
     let [width, height] = audit.size;
     let columns = [
         "pixels", "shown", "compared", "speed", "error", "95 %", "worst", "at", "scale",
@@ -36,24 +36,24 @@ pub fn audit_table(audit: &CaptureAudit) -> String {
     } else {
         "their depth"
     };
-    let mut text = format!(
+    let mut text = Text::from(format!(
         "{} drawn by {}, {width}x{height}: {:.1} % of the pixels show what the scene shows, by {}\nvelocity in pixels per frame, compared at {:.1} % of them\n\n",
         audit.scene,
         printable(engine_name(&audit.engine)),
         100.0 * audit.alike,
         basis,
         100.0 * compared as f64 / pixels,
-    );
-    text += &table.text();
+    ));
+    text += table.text();
     let depth = &audit.depth;
-    text += &format!(
+    text += format!(
         "depth: median error {:.4} %, 95 % of {} pixels below {:.3} %\n\n",
         100.0 * depth.median,
         depth.pixels,
         100.0 * depth.p95
     );
     for finding in &audit.findings {
-        push_wrapped(&mut text, 2, &format!("- {}", finding.text));
+        push_wrapped(&mut text, 2, format!("- {}", finding.text));
     }
     text += match (audit.findings.is_empty(), audit.shows_scene) {
         (true, _) if audit.compares_color => "PASS: velocity, depth and colour are right\n",

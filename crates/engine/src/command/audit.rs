@@ -6,7 +6,7 @@ use clap::Args;
 use measure::{Error, Sharing, lock_folder, printable_path};
 use scene::SceneId;
 use terminal::arguments::RootArgs;
-use terminal::output::{print, print_note};
+use terminal::output::{Text, print, print_note};
 use terminal::refuse;
 use terminal::result::{Ending, write_json};
 
@@ -66,10 +66,14 @@ pub fn execute(args: &AuditArgs) -> Result<Ending, Error> {
         let right = &expected.right.velocity;
         write_audit_picture(&picture, &capture.velocity, right, object.worst_at)?;
         let picture = printable_path(&picture);
-        text += &format!("worst place of {}: {picture}\n", object.object);
+        text += format!("worst place of {}: {picture}\n", object.object);
     }
-    text += &format!("written: {}\n", printable_path(&path));
-    print(&if args.json { json + "\n" } else { text })?;
+    text += format!("written: {}\n", printable_path(&path));
+    print(if args.json {
+        Text::from(json) + "\n"
+    } else {
+        text
+    })?;
     let count = audit.findings.len();
     let place = printable_path(&args.capture);
     Ok(match (count, audit.shows_scene) {

@@ -66,7 +66,7 @@ pub fn execute(args: &ImportArgs) -> Result<(), Error> {
         print_note(note);
     }
     let folder = printable_path(&out);
-    print(&format!(
+    print(format!(
         "{exposes}\n{triangles} triangles, the set's among them\nwritten: {folder}\nnext: shuttertruth run --scenes {}{folder}\n",
         if out.is_relative() { "./" } else { "" },
     ))

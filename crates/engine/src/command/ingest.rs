@@ -61,7 +61,7 @@ pub fn execute(args: &IngestArgs) -> Result<(), Error> {
         out: &out,
     };
     let ingested = make_monitor().watch("sub-frames", |watch| ingest(plan, watch))?;
-    print(&describe(&ingested, &out, traced.as_ref()))
+    print(describe(&ingested, &out, traced.as_ref()))
 }
 
 /// Names the folder to write: the given one, or one with the capture's name.

@@ -58,7 +58,7 @@ pub fn execute(args: &AcceptArgs) -> Result<(), Error> {
     let baseline = accept_scores(&run, old, &acceptance)?;
     baseline.write(&args.baseline)?;
     let accepted = run.cases.iter().filter(|case| acceptance.includes(case));
-    print(&format!(
+    print(format!(
         "written: {}, from {} ({} at {}x{})\n",
         printable_path(&args.baseline),
         printable_path(&path),

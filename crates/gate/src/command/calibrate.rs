@@ -95,7 +95,7 @@ pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
         let path = out.join(format!("{scene}.bounds.toml"));
         let text = calibration.toml(scene);
         frame::write_atomically(&path, text.as_bytes())?;
-        print(&format!("# {}\n\n{text}", printable_path(&path)))?;
+        print(format!("# {}\n\n{text}", printable_path(&path)))?;
     }
     Ok(())
 }

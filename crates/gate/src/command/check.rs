@@ -144,12 +144,11 @@ fn report(
         let adapter = adapter_text(&run.adapter);
         let measured = measured.map_or(String::new(), |text| text + "\n");
         let verdict = verdict_text(checked);
-        print(&format!(
-            "{text}{note}{pages}adapter: {adapter}\n{measured}{verdict}"
-        ))?;
+        let adapter = format!("adapter: {adapter}\n");
+        print(text + note + pages + adapter + measured + verdict)?;
     }
     if args.github {
-        print(&annotations(checked))?;
+        print(annotations(checked))?;
     }
     Ok(())
 }

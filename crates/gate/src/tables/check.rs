@@ -9,12 +9,12 @@ use super::list_once;
 use crate::baseline::{BaselineComparison, ComparisonKind, DecidedBy};
 use crate::check::Check;
 use run::failures_text;
-use terminal::output::{bad, count_text, doubtful, good, heading, push_wrapped};
+use terminal::output::{Text, bad, count_text, doubtful, good, heading, push_wrapped};
 
 /// Lists scores that are broken, undecided or limited within the noise, by scene and filter; then
 /// comparisons, then counts. Lists targets, which fail nothing, only if `targets` is set. `out` is
 /// the folder of the run's pictures.
-pub fn check_text(check: &Check, out: &Path, targets: bool) -> String {
+pub fn check_text(check: &Check, out: &Path, targets: bool) -> Text {
     let mut text = failures_text(&check.failures);
     let mut case = None;
     for finding in &check.findings {
@@ -24,25 +24,25 @@ pub fn check_text(check: &Check, out: &Path, targets: bool) -> String {
         }
         let name = format!("{} / {}", finding.scene, finding.filter);
         if case.as_ref() != Some(&name) {
-            text += &format!("{}\n", heading(&name));
+            text += heading(&name) + "\n";
             case = Some(name);
         }
         push_finding(&mut text, finding, out);
     }
     if !check.comparisons.is_empty() {
-        text += &(heading("compared with the baseline") + "\n");
+        text += heading("compared with the baseline") + "\n";
         for comparison in &check.comparisons {
-            push_wrapped(&mut text, 2, &comparison_line(comparison));
+            push_wrapped(&mut text, 2, comparison_line(comparison));
         }
     }
     for line in count_lines(check) {
-        push_wrapped(&mut text, 0, &line);
+        push_wrapped(&mut text, 0, line);
     }
     text
 }
 
 /// Formats a check's verdict, and what helps if it is undecided.
-pub fn verdict_text(check: &Check) -> String {
+pub fn verdict_text(check: &Check) -> Text {
     let word = check.decision.word();
     let verdict = match check.decision {
         Decision::Pass => good(word),
@@ -50,10 +50,10 @@ pub fn verdict_text(check: &Check) -> String {
         Decision::Inconclusive | Decision::Misconfigured => doubtful(word),
     };
     match check.verdict() {
-        Ok(()) => format!("{verdict}\n"),
+        Ok(()) => verdict + "\n",
         Err(error) => {
-            let mut text = String::new();
-            push_wrapped(&mut text, 0, &format!("{verdict}: {error}"));
+            let mut text = Text::default();
+            push_wrapped(&mut text, 0, verdict + format!(": {error}"));
             text
         }
     }
@@ -70,15 +70,15 @@ pub fn page_verdict(check: &Check) -> Verdict {
     }
 }
 
-fn push_finding(text: &mut String, finding: &Finding, out: &Path) {
+fn push_finding(text: &mut Text, finding: &Finding, out: &Path) {
     let status = finding_status(finding);
     let status = match finding.outcome {
         Outcome::Broken => bad(status),
         Outcome::Kept => good(status),
         _ => doubtful(status),
     };
-    push_wrapped(text, 2, &format!("{status} {}", finding_score(finding)));
-    let mut push = |line: String| push_wrapped(text, 6, &line);
+    push_wrapped(text, 2, status + format!(" {}", finding_score(finding)));
+    let mut push = |line: String| push_wrapped(text, 6, line);
     push(format!("{}: {}", finding.place, finding.why));
     let pictures = out.join(&finding.pictures).display().to_string();
     if let Some(Worst { x, y, picture, .. }) = &finding.worst {

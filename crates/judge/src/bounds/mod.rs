@@ -7,7 +7,7 @@ mod length;
 mod sized;
 
 use metrics::Metric;
-use scene::Location;
+use scene::{Location, Scene};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -53,6 +53,15 @@ pub enum Level {
     Required,
     /// The report mentions it.
     Report,
+}
+
+/// A scene with its bounds.
+#[derive(Clone, Debug)]
+pub struct BoundedScene {
+    /// The scene.
+    pub scene: Scene,
+    /// Its bounds.
+    pub bounds: SceneBounds,
 }
 
 /// Bounds of one scene, for every filter.

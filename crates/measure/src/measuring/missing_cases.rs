@@ -8,6 +8,7 @@ use frame::{Alignment, Frame, Ladder, Picture, Truth};
 use metrics::{ColorReference, Reference};
 use tracer::{Defocus, Progress, TraceError, Watch};
 
+use super::attempt::Attempt;
 use super::case::{CaseContext, CommonTruth};
 use super::planned_case::PlannedCase;
 use super::references::{TruthPart, TruthReferences};
@@ -15,17 +16,8 @@ use super::scene::SceneContext;
 use super::stored_frames::{read_replicates, store_frames};
 use crate::inputs::depth_of_field::DepthOfField;
 use crate::inputs::input_format::InputFormat;
-use crate::run::case::Case;
 use crate::run::failure::Failure;
 use crate::stats::parts::Groups;
-
-/// What came of measuring a case.
-pub(super) enum Attempt {
-    /// Its scores.
-    Measured(Box<Case>),
-    /// Its filter made no measurable picture.
-    Failed(Failure),
-}
 
 impl SceneContext<'_> {
     /// Measures some cases, and writes each record as soon as it is complete.

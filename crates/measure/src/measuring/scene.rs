@@ -9,7 +9,7 @@ use crate::{
 use filters::Gpu;
 use frame::{Alignment, Frame};
 
-use super::missing_cases::Attempt;
+use super::attempt::Attempt;
 use super::pictures::{PARTS_FILE, write_frame, write_truth};
 use super::plan::RunPlan;
 use super::planned_case::PlannedCase;

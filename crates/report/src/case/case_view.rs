@@ -42,8 +42,8 @@ impl<'a> CaseView<'a> {
         let case = &run.cases[index];
         let measured = files.read_case(case)?;
         let name = case.name();
-        let is_own = |finding: &&&Finding| !case.is_reference && finding.filter == name;
-        let findings: Vec<&Finding> = findings.iter().filter(is_own).copied().collect();
+        let is_about = |finding: &&&Finding| !case.is_reference && finding.filter == name;
+        let findings: Vec<&Finding> = findings.iter().filter(is_about).copied().collect();
         let evidence: Vec<Option<Evidence>> = (findings.iter())
             .map(|finding| find_evidence(finding, case, &measured, files))
             .collect::<Result<_, _>>()?;

@@ -76,7 +76,7 @@ impl CaseTables {
 /// Writes a case, which is visible while open; the script adds the viewer. If scripts run, the
 /// tables are text until the case is open, since a browser needs seconds for all cases' tables.
 /// Without `tables` the script loads them from a file next to the page.
-pub fn case_section(view: &CaseView, live: &Live, tables: Option<&CaseTables>) -> Markup {
+pub fn case_section(view: &CaseView, live: Option<&Live>, tables: Option<&CaseTables>) -> Markup {
     let case = view.case;
     let filter = case.filter_id();
     let title = format!("{} / {}", case.scene, filter);
@@ -96,12 +96,12 @@ pub fn case_section(view: &CaseView, live: &Live, tables: Option<&CaseTables>) -
 
 /// Writes the place of the panel that runs the filter, which the script shows, or why there is
 /// none.
-fn live_place(live: &Live) -> Markup {
+fn live_place(live: Option<&Live>) -> Markup {
     html! {
         @match live {
-            Live::Data(data) => div.live hidden data-live=(data) { button type="button" { "Try it" } },
-            Live::Not(reason) => p.note.live_not { (reason) },
-            Live::Never => {},
+            Some(Live::Case(data)) => div.live hidden data-live=(data) { button type="button" { "Try it" } },
+            Some(Live::Not(reason)) => p.note.live_not { (reason) },
+            None => {},
         }
     }
 }

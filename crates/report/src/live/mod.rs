@@ -18,21 +18,19 @@ use crate::pixels::report_files::write_script;
 /// Most pixels of a frame that can be tried; the file of such a scene has about 15 MB.
 const MOST_PIXELS: u32 = 1280 * 720;
 
-/// Whether a case can be tried in the browser.
+/// A case that a filter made, as its page runs it.
 pub enum Live {
-    /// It can, with this JSON.
-    Data(String),
-    /// It cannot; the sentence says why.
+    /// It is live: what the script needs, as JSON.
+    Case(String),
+    /// It is not live: a sentence that says why.
     Not(String),
-    /// Nobody expects it to.
-    Never,
 }
 
-/// Whether a filter runs in the browser.
+/// A filter of live cases.
 enum LiveFilter {
-    /// It does; its file has this number.
-    Runs(usize, Box<Filter>),
-    /// It does not; the sentence says why.
+    /// The filter, and the number of its file.
+    Ready { number: usize, filter: Box<Filter> },
+    /// The page cannot run it: a sentence that says why.
     Not(String),
 }
 
@@ -61,28 +59,30 @@ impl<'a> LiveFiles<'a> {
     }
 
     /// Describes a case; `frame` is its scene's, with the guard band. Writes the file of a filter
-    /// that no case had before.
+    /// that no case had before. None for a picture that no filter made.
     pub fn describe(
         &mut self,
         case: &'a Case,
         scene: usize,
         frame: &FilterFrame,
-    ) -> Result<Live, Error> {
+    ) -> Result<Option<Live>, Error> {
         // An engine's own picture has no preset.
         if case.is_reference || case.preset.is_empty() {
-            return Ok(Live::Never);
+            return Ok(None);
         }
         if !self.filters.contains_key(&case.filter[..]) {
             let filter = self.find_filter(case)?;
             self.filters.insert(&case.filter, filter);
         }
-        let described = match &self.filters[&case.filter[..]] {
-            LiveFilter::Runs(number, filter) => {
-                describe_case(case, (scene, frame), (*number, filter))
+        Ok(Some(match &self.filters[&case.filter[..]] {
+            LiveFilter::Ready { number, filter } => {
+                match describe_case(case, scene, frame, *number, filter) {
+                    Ok(json) => Live::Case(json),
+                    Err(reason) => Live::Not(reason),
+                }
             }
-            LiveFilter::Not(reason) => Err(reason.clone()),
-        };
-        Ok(described.map_or_else(Live::Not, Live::Data))
+            LiveFilter::Not(reason) => Live::Not(reason.clone()),
+        }))
     }
 
     /// Writes a file that the page loads as `name`.
@@ -115,8 +115,8 @@ impl<'a> LiveFiles<'a> {
                 .presets
                 .iter()
                 .filter(|preset| preset.name == other.preset);
-            let is_own = other.filter == case.filter && other.reference_width.is_none();
-            is_own && presets.any(|preset| preset.reference_width.is_some())
+            let is_unscaled = other.filter == case.filter && other.reference_width.is_none();
+            is_unscaled && presets.any(|preset| preset.reference_width.is_some())
         };
         let as_written = self.run.cases.iter().any(is_as_written);
         Ok(match filter.live(self.run.render.width, as_written) {
@@ -125,10 +125,11 @@ impl<'a> LiveFiles<'a> {
                 let number = self
                     .filters
                     .values()
-                    .filter(|filter| matches!(filter, LiveFilter::Runs(..)))
+                    .filter(|filter| matches!(filter, LiveFilter::Ready { .. }))
                     .count();
                 self.write(&format!("live_filter_{number}"), &live.to_string())?;
-                LiveFilter::Runs(number, Box::new(filter))
+                let filter = Box::new(filter);
+                LiveFilter::Ready { number, filter }
             }
         })
     }
@@ -144,8 +145,10 @@ fn is_of(filter: &Filter, case: &Case) -> bool {
 /// Describes a case of a live filter.
 fn describe_case(
     case: &Case,
-    (scene, frame): (usize, &FilterFrame),
-    (number, filter): (usize, &Filter),
+    scene: usize,
+    frame: &FilterFrame,
+    number: usize,
+    filter: &Filter,
 ) -> Result<String, String> {
     let (width, height) = frame.size();
     let is_missing = |layer: &Layer| match layer {

@@ -11,14 +11,13 @@ use scene::SceneId;
 use score_table::ScoreTable;
 use winners::{sequence_winners, winners};
 
-use crate::addition::Addition;
 use crate::case::bounds::broken_bounds;
-use crate::case::case_view::CaseView;
 use crate::case_table::CaseTable;
 use crate::finding_text::Tally;
 use crate::numbers::counted;
 use crate::pixels::scene_files::find_traced;
 use crate::run_facts::provenance;
+use crate::run_view::RunView;
 
 /// Scores with the titles of their tables, in the order of the page.
 const TABLE_SCORES: [(Metric, &str); 11] = [
@@ -35,60 +34,46 @@ const TABLE_SCORES: [(Metric, &str); 11] = [
     (Metric::PSNR, "PSNR"),
 ];
 
-/// A run at a glance.
-pub struct Overview<'a> {
-    pub table: &'a CaseTable<'a>,
-    /// The cases in the order of the run.
-    pub views: &'a [CaseView<'a>],
-    /// Addresses of the scenes' truths.
-    pub thumbnails: &'a [String],
-    pub verdict: Option<&'a Verdict>,
-    /// Contents of other crates.
-    pub additions: &'a [Addition],
-}
-
-impl Overview<'_> {
-    /// Shows the scores of all cases, what other crates add, and what the run depended on.
-    pub fn write(&self) -> Markup {
-        let Self { table, views, .. } = self;
-        let findings = || views.iter().flat_map(|view| &view.findings);
-        let required = Tally::of(findings(), Level::Required);
-        let is_checked = required.all > 0;
-        html! {
-            section #overview {
-                @if let Some(verdict) = self.verdict { (outcome(verdict, &required)) }
-                (winners(table))
-                (sequence_winners(table.run))
-                (counts(table, &Tally::of(findings(), Level::Report)))
-                (engines(table))
-                @if let Some(note) = table.run.scaling_note() { p.note { (note) } }
-                (broken_bounds(views))
-                div.toolbar #tables {
-                    fieldset.choice {
-                        legend.unseen { "Score" }
-                        @for (index, (metric, title)) in TABLE_SCORES.iter().enumerate() {
-                            label {
-                                input type="radio" name="metric" value=(metric.name()) checked[index == 0];
-                                span { (title) }
-                            }
+/// Shows the scores of all cases, what other crates add, and what the run depended on.
+pub fn overview(view: &RunView) -> Markup {
+    let RunView { table, cases, .. } = view;
+    let findings = || cases.iter().flat_map(|view| &view.findings);
+    let required = Tally::of(findings(), Level::Required);
+    let is_checked = required.all > 0;
+    html! {
+        section #overview {
+            @if let Some(verdict) = view.verdict { (outcome(verdict, &required)) }
+            (winners(table))
+            (sequence_winners(table.run))
+            (counts(table, &Tally::of(findings(), Level::Report)))
+            (engines(table))
+            @if let Some(note) = table.run.scaling_note() { p.note { (note) } }
+            (broken_bounds(cases))
+            div.toolbar #tables {
+                fieldset.choice {
+                    legend.unseen { "Score" }
+                    @for (index, (metric, title)) in TABLE_SCORES.iter().enumerate() {
+                        label {
+                            input type="radio" name="metric" value=(metric.name()) checked[index == 0];
+                            span { (title) }
                         }
                     }
-                    input type="search" name="search" placeholder="Search filters" aria-label="Search filters";
-                    @if is_checked {
-                        label.check { input type="checkbox" name="failing"; " Only failing" }
-                    }
-                    label.check { input type="checkbox" name="references"; " References" }
                 }
-                @for (metric, title) in TABLE_SCORES { (panel(self, metric, title)) }
-                p.nothing hidden { "No filter of this name." }
-                (key(is_checked))
-                div.peek hidden aria-hidden="true" {
-                    p {}
-                    @for title in ["truth", "output", "FLIP"] { figure { canvas width="48" height="48" {} figcaption { (title) } } }
+                input type="search" name="search" placeholder="Search filters" aria-label="Search filters";
+                @if is_checked {
+                    label.check { input type="checkbox" name="failing"; " Only failing" }
                 }
-                @for addition in self.additions { (addition.section) }
-                (provenance(table))
+                label.check { input type="checkbox" name="references"; " References" }
             }
+            @for (metric, title) in TABLE_SCORES { (panel(view, metric, title)) }
+            p.nothing hidden { "No filter of this name." }
+            (key(is_checked))
+            div.peek hidden aria-hidden="true" {
+                p {}
+                @for title in ["truth", "output", "FLIP"] { figure { canvas width="48" height="48" {} figcaption { (title) } } }
+            }
+            @for addition in view.additions { (addition.section) }
+            (provenance(table))
         }
     }
 }
@@ -146,19 +131,19 @@ fn engines(table: &CaseTable) -> Markup {
     }
 }
 
-fn panel(overview: &Overview, metric: Metric, title: &str) -> Markup {
+fn panel(view: &RunView, metric: Metric, title: &str) -> Markup {
     // One copy of the pictures is enough: the script moves them to the visible table.
     let is_first = metric == TABLE_SCORES[0].0;
     let scores = ScoreTable {
-        overview,
+        view,
         metric,
         title,
-        thumbnails: if is_first { overview.thumbnails } else { &[] },
+        thumbnails: if is_first { view.thumbnails } else { &[] },
     };
     let content = html! {
         p.meaning {
             strong { (title) } ": " (metric.meaning()) "; " (better(metric)) "."
-            @if let Some(lag) = lag_text(&overview.table.run.cases).filter(|_| metric == Metric::SKILL) { " " (lag) }
+            @if let Some(lag) = lag_text(&view.table.run.cases).filter(|_| metric == Metric::SKILL) { " " (lag) }
         }
         (scores.write())
     };

@@ -6,7 +6,6 @@ use measure::{Case, FilterId, Overall};
 use metrics::{Ideal, Metric};
 use scene::FrameRate;
 
-use super::Overview;
 use super::cell::{Colors, cell};
 use crate::addition::{FilterColumn, columns};
 use crate::address::section_anchor;
@@ -15,6 +14,7 @@ use crate::case_table::CaseTable;
 use crate::charts::strip::Strip;
 use crate::finding_text::Tally;
 use crate::numbers::mean;
+use crate::run_view::RunView;
 
 /// Extent of the scale beyond the middle half of the means, relative to it; means farther out are
 /// arrows.
@@ -77,7 +77,7 @@ fn rank_rows<'a>(table: &CaseTable<'a>, metric: Metric) -> Vec<Vec<Row<'a>>> {
 
 /// A table of one score before it is written.
 pub struct ScoreTable<'a> {
-    pub overview: &'a Overview<'a>,
+    pub view: &'a RunView<'a>,
     pub metric: Metric,
     pub title: &'a str,
     /// Addresses of the scenes' truths above their columns; none for a table without pictures.
@@ -87,20 +87,20 @@ pub struct ScoreTable<'a> {
 impl ScoreTable<'_> {
     /// Writes the table. A single scene has no means, and its table no columns for them.
     pub fn write(&self) -> Markup {
-        let Overview { table, views, .. } = self.overview;
+        let RunView { table, cases, .. } = self.view;
         let metric = self.metric;
         let scenes = &table.scenes;
         let ideal = metric.ideal();
         let groups = rank_rows(table, metric);
         let rows = || groups.iter().flatten();
-        let measured = views.iter().filter(|view| !view.case.is_reference);
+        let measured = cases.iter().filter(|view| !view.case.is_reference);
         let colors = Colors::over(
             ideal,
             measured.filter_map(|view| view.case.estimate(metric)),
         );
         let has_means = rows().any(|row| row.overall.is_some());
         let strip = strip_over(rows().filter(|row| !row.filter.is_reference), ideal);
-        let added = columns(self.overview.additions).count();
+        let added = columns(self.view.additions).count();
         let width = 1 + scenes.len() + 3 * usize::from(has_means) + added;
         // Best first.
         let order = match ideal {
@@ -120,16 +120,16 @@ impl ScoreTable<'_> {
                         }
                         tbody {
                             @for row in group {
-                                tr.reference[row.filter.is_reference] data-failing[is_failing(table, views, &row.filter)] {
+                                tr.reference[row.filter.is_reference] data-failing[is_failing(table, cases, &row.filter)] {
                                     th scope="row" { (name(metric, &row.filter)) }
                                     @if has_means { (mean_cells(table, metric, &strip, row)) }
                                     @for scene in scenes {
                                         @match table.case_on(&row.filter, scene) {
-                                            Some(index) => (cell(metric, &colors, &views[index])),
+                                            Some(index) => (cell(metric, &colors, &cases[index])),
                                             None => td { "-" },
                                         }
                                     }
-                                    @for column in columns(self.overview.additions) { (added_cell(column, &row.filter)) }
+                                    @for column in columns(self.view.additions) { (added_cell(column, &row.filter)) }
                                 }
                             }
                         }
@@ -149,13 +149,13 @@ impl ScoreTable<'_> {
                     th.note scope="col" { "95 % CI" }
                     th.chart scope="col" { (ends) }
                 }
-                @for (index, scene) in self.overview.table.scenes.iter().enumerate() {
+                @for (index, scene) in self.view.table.scenes.iter().enumerate() {
                     th.scene scope="col" {
                         img src=[self.thumbnails.get(index)] alt="";
                         button { (breakable(&scene.to_string())) }
                     }
                 }
-                @for column in columns(self.overview.additions) {
+                @for column in columns(self.view.additions) {
                     th scope="col" { button { (column.name) ", " (column.unit) } }
                 }
             }

@@ -5,6 +5,7 @@ use judge::{RankedFilter, list_summarized};
 use measure::{Case, FilterId, InputFormat, ReferencePicture};
 use metrics::Metric;
 use scene::{FrameRate, SceneId};
+use terminal::output::Text;
 
 use super::{Table, bracket_name, cell, legend_text, list_once, mean_text};
 
@@ -19,7 +20,7 @@ fn abreast_text<R>(
     name: impl Fn(&R) -> String,
     cell: impl Fn(&R, &String) -> String,
     legend: &str,
-) -> String {
+) -> Text {
     let tables = columns.chunks(ABREAST).map(|columns| {
         let mut table = Table::new(title, columns);
         for row in rows {
@@ -27,20 +28,20 @@ fn abreast_text<R>(
         }
         table.text()
     });
-    let tables: String = tables.collect();
-    format!("\n{tables}\n{}", legend_text(legend))
+    let tables: Text = tables.sum();
+    Text::from("\n") + tables + "\n" + legend_text(legend)
 }
 
 /// Makes a row per input form and a column per filter: the change of mean FLIP against the full
 /// form. Empty for a run with no other form. Shutter rules, which change nothing at the scene
 /// files' frame rate, are in the table of rates.
-pub fn input_forms_text(cases: &[Case]) -> String {
+pub fn input_forms_text(cases: &[Case]) -> Text {
     let cases = list_summarized(cases);
     let is_shown = |case: &&&Case| case.rate.is_some() || case.input.rule == Default::default();
     let shown = cases.iter().filter(is_shown);
     let changes = list_once(shown.filter_map(|case| case.input.change()));
     if changes.is_empty() {
-        return String::new();
+        return Text::default();
     }
     let is_full = |case: &&&Case| !case.is_reference && case.input == InputFormat::default();
     let full: Vec<&&Case> = cases.iter().filter(is_full).collect();
@@ -69,10 +70,10 @@ pub fn input_forms_text(cases: &[Case]) -> String {
 
 /// Makes a row per frame rate and shutter rule, and a column per filter and per unblurred picture:
 /// mean FLIP over the scenes. Empty for a run of one rate.
-pub fn frame_rates_text(cases: &[Case]) -> String {
+pub fn frame_rates_text(cases: &[Case]) -> Text {
     let rows = list_once(cases.iter().filter_map(Row::of));
     if rows.iter().all(|row| row.rate == rows[0].rate) {
-        return String::new();
+        return Text::default();
     }
     let columns = list_once(cases.iter().filter_map(column));
     let flip = |row: &Row, name: &String| {
@@ -92,7 +93,7 @@ const OURS: &str = "ours";
 /// Makes a row per ranked filter, best on the engines' frames first, and a column for our frames
 /// and for each engine's: mean FLIP over the scenes that the run has in both. Empty if there is
 /// none.
-pub fn twins_text(cases: &[Case], ranked: &[Vec<RankedFilter>]) -> String {
+pub fn twins_text(cases: &[Case], ranked: &[Vec<RankedFilter>]) -> Text {
     let full: Vec<&Case> = (list_summarized(cases).into_iter())
         .filter(|case| case.input == InputFormat::default())
         .collect();
@@ -119,7 +120,7 @@ pub fn twins_text(cases: &[Case], ranked: &[Vec<RankedFilter>]) -> String {
     };
     let mut rows = list_once((drawn().filter(|case| is_row(case))).map(|case| case.filter_id()));
     if rows.is_empty() {
-        return String::new();
+        return Text::default();
     }
     let mean = |row: &FilterId, column: &String| {
         let is_in = |case: &&&Case| {

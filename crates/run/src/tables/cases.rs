@@ -5,7 +5,7 @@ use measure::{Case, Failure, Run, printable_lines};
 use metrics::{Metric, Scores};
 
 use super::{Column, Missing, Table, bracket_name, legend_text, list_once, means_table};
-use terminal::output::{bad, heading, wrap_lines};
+use terminal::output::{Text, bad, heading, wrap_lines};
 
 const CASE_COLUMNS: [Column; 9] = [
     ("FLIP", Metric::FLIP),
@@ -24,7 +24,7 @@ const COMMON_FLIP: &str = "FLIP*";
 
 /// Makes the table of a run: cases, and means over the scenes. A score that does not apply is
 /// `n/a`, with a note that says why.
-pub fn run_table(run: &Run) -> String {
+pub fn run_table(run: &Run) -> Text {
     let mut table = case_table("scene / filter", &["noise", COMMON_FLIP]);
     let mut missing = Missing::default();
     for scene in list_once(run.cases.iter().map(|case| &case.scene)) {
@@ -47,15 +47,8 @@ pub fn run_table(run: &Run) -> String {
         "FLIP* is against the {} shutter. {KEY}",
         run.common_alignment
     );
-    let lag = lag_text(&run.cases).map_or(String::new(), |lag| legend_text(&lag));
-    [
-        table.text(),
-        legend_text(&legend),
-        lag,
-        missing.text(),
-        means_table(&run.overall),
-    ]
-    .concat()
+    let lag = lag_text(&run.cases).map_or(Text::default(), |lag| legend_text(&lag));
+    table.text() + legend_text(&legend) + lag + missing.text() + means_table(&run.overall)
 }
 
 /// Meaning of titles and marks.
@@ -64,11 +57,11 @@ const KEY: &str = "Skill by FLIP: 0 is a sharp picture of the shutter's middle, 
                    where nothing moves; grain: noise and patterns of pixel size; both as shares of the brightness.";
 
 /// Makes the table of one picture's scores, like [`run_table`].
-pub fn score_table(scene: &str, picture: &str, scores: &Scores) -> String {
+pub fn score_table(scene: &str, picture: &str, scores: &Scores) -> Text {
     let mut table = case_table("scene / picture", &[]);
     table.push_text(scene);
     table.push(picture, case_cells(scores));
-    table.text() + &legend_text(KEY)
+    table.text() + legend_text(KEY)
 }
 
 fn case_table(title: &str, more: &[&'static str]) -> Table {
@@ -88,16 +81,15 @@ fn noise_cell(case: &Case) -> String {
 }
 
 /// Lists every failure with its reason; empty if there is none.
-pub fn failures_text(failures: &[Failure]) -> String {
-    let mut text = String::new();
+pub fn failures_text(failures: &[Failure]) -> Text {
+    const FAILED: &str = "FAILED";
+    let mut text = Text::default();
     for failure in failures {
         let title = format!("{} / {}", failure.scene, failure.filter);
-        let reason = format!("  {} {}", bad("FAILED"), failure.reason);
-        text += &format!(
-            "{}\n{}",
-            heading(&title),
-            wrap_lines(&printable_lines(&reason))
-        );
+        let reason = printable_lines(&format!("  {FAILED} {}", failure.reason));
+        let lines = wrap_lines(&reason);
+        let (indent, rest) = (lines.split_once(FAILED)).expect("a line begins with the word");
+        text += heading(&title) + "\n" + indent + bad(FAILED) + rest;
     }
     text
 }

@@ -1,6 +1,7 @@
 //! Notes below a table that say why scores are `n/a`.
 
 use metrics::Measured;
+use terminal::output::Text;
 
 use super::legend_text;
 
@@ -45,7 +46,7 @@ impl Missing {
     }
 
     /// Formats one note for each reason: `grow, loss n/a on fan: no object translates`.
-    pub fn text(&self) -> String {
+    pub fn text(&self) -> Text {
         let note = |reason: &Reason| {
             let place = match reason.rows.len() {
                 0..=MAX_NAMED => format!("{} on {}", reason.rows.join(", "), list(&reason.groups)),
@@ -58,7 +59,7 @@ impl Missing {
             );
             legend_text(&text)
         };
-        self.0.iter().map(note).collect()
+        self.0.iter().map(note).sum()
     }
 }
 

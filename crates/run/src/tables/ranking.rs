@@ -9,7 +9,7 @@ use measure::Case;
 use metrics::Metric;
 use scene::FrameRate;
 
-use terminal::output::push_wrapped;
+use terminal::output::{Text, push_wrapped};
 
 use super::{
     Table, frame_rates_text, input_forms_text, legend_text, list_once, mean_text, range_text,
@@ -18,10 +18,10 @@ use super::{
 
 /// Makes the summary of cases, in at most 40 lines: filters ranked within each shutter, then
 /// references.
-pub fn ranking_text(cases: &[Case]) -> String {
+pub fn ranking_text(cases: &[Case]) -> Text {
     let mut groups = rank_for_summary(cases);
     if groups.is_empty() {
-        return "no filter has a FLIP score: nothing moves in these scenes\n".to_owned();
+        return "no filter has a FLIP score: nothing moves in these scenes\n".into();
     }
     let count = |groups: &[Vec<RankedFilter>]| groups.iter().map(Vec::len).sum::<usize>();
     let presets: usize = groups.iter().flatten().map(|ranked| ranked.presets).sum();
@@ -31,25 +31,25 @@ pub fn ranking_text(cases: &[Case]) -> String {
         groups.iter_mut().for_each(|group| group.truncate(each));
     }
     let hidden = rows - count(&groups);
-    let mut text = String::new();
+    let mut text = Text::default();
     for group in &groups {
         if let Some(no_gain) = no_gain_text(group) {
             let shutter = shutter_text(group[0].alignment, group[0].rate);
-            push_wrapped(&mut text, 0, &format!("{shutter}: {no_gain}"));
+            push_wrapped(&mut text, 0, format!("{shutter}: {no_gain}"));
         }
     }
-    text += &ranking_table(cases, &groups).text();
-    text += &references_text(cases, &groups);
+    text += ranking_table(cases, &groups).text();
+    text += references_text(cases, &groups);
     text += "\n";
-    text += &legend_text(&notes(&groups));
-    text += &hidden_text(presets, rows, hidden);
-    text += &twins_text(cases, &groups);
-    text + &input_forms_text(cases) + &frame_rates_text(cases)
+    text += legend_text(&notes(&groups));
+    text += hidden_text(presets, rows, hidden);
+    text += twins_text(cases, &groups);
+    text + input_forms_text(cases) + frame_rates_text(cases)
 }
 
 /// Says that filters are shown by their best of all presets, and that some of these rows are
 /// hidden; empty if neither is so.
-fn hidden_text(presets: usize, rows: usize, hidden: usize) -> String {
+fn hidden_text(presets: usize, rows: usize, hidden: usize) -> Text {
     let note = match (presets > rows, hidden > 0) {
         (true, true) => {
             format!(
@@ -62,7 +62,7 @@ fn hidden_text(presets: usize, rows: usize, hidden: usize) -> String {
         (false, true) => {
             format!("{hidden} filters are left out; --table shows all {presets} presets.")
         }
-        (false, false) => return String::new(),
+        (false, false) => return Text::default(),
     };
     legend_text(&note)
 }
@@ -121,11 +121,11 @@ pub fn ranking_cells(
 
 /// Makes the table of references: one row each, one column per shutter. The last row is the lag of
 /// the shutter's middle behind the frame.
-fn references_text(cases: &[Case], groups: &[Vec<RankedFilter>]) -> String {
+fn references_text(cases: &[Case], groups: &[Vec<RankedFilter>]) -> Text {
     let references = || (list_summarized(cases).into_iter()).filter(|case| case.is_reference);
     let names = list_once(references().map(|case| case.name()));
     if names.is_empty() {
-        return String::new();
+        return Text::default();
     }
     let shutters = groups
         .iter()

@@ -5,7 +5,7 @@ use measure::{Overall, rank_filters};
 use metrics::{Metric, SkillMetric};
 
 use super::{Column, Table, bracket_name, cell, legend_text, list_once, range_text, shutter_text};
-use terminal::output::heading;
+use terminal::output::{Text, heading};
 
 /// FLIP, which ranks filters of one alignment, and the columns after it.
 const BY_FLIP: [Column; 8] = [
@@ -28,10 +28,10 @@ const BY_SKILL: [Column; 4] = [
 
 /// Makes the tables of means, best first: by FLIP among filters of one shutter alignment, by skill
 /// among all. Empty for a single scene.
-pub fn means_table(overall: &[Overall]) -> String {
+pub fn means_table(overall: &[Overall]) -> Text {
     let groups = rank_filters(overall, Metric::FLIP);
     if groups.is_empty() {
-        return String::new();
+        return Text::default();
     }
     let mut by_flip = begin_means(overall, &BY_FLIP, None);
     for group in groups {
@@ -41,7 +41,7 @@ pub fn means_table(overall: &[Overall]) -> String {
             push_mean(&mut by_flip, overall, row, &BY_FLIP, None);
         }
     }
-    let mut text = format!("\n{}", by_flip.text());
+    let mut text = Text::from("\n") + by_flip.text();
     for group in rank_filters(overall, Metric::SKILL) {
         let mut by_skill = begin_means(overall, &BY_SKILL, Some("shutter"));
         if let Some(rate) = group[0].rate {
@@ -51,18 +51,18 @@ pub fn means_table(overall: &[Overall]) -> String {
             let last = Some(row.alignment.name());
             push_mean(&mut by_skill, overall, row, &BY_SKILL, last);
         }
-        text += &format!("\n{}", by_skill.text());
-        text += &legend_text(
+        text += Text::from("\n") + by_skill.text();
+        text += legend_text(
             "Skill is by FLIP, by MSE and by label TV: the share of the way from a sharp picture of the shutter's middle, 0 \
              ([identity] if centred, else [accumulate:1]), to [scatter_oracle], 1.",
         );
-        text += &fewer_scenes_note(overall);
+        text += fewer_scenes_note(overall);
     }
     text
 }
 
 /// Notes the shutters where skill applies to fewer scenes than FLIP.
-fn fewer_scenes_note(overall: &[Overall]) -> String {
+fn fewer_scenes_note(overall: &[Overall]) -> Text {
     let count = |metric: Metric, alignment: Alignment| {
         let mut means = overall.iter();
         let mean = means.find(|mean| mean.metric == metric && mean.alignment == alignment);
@@ -75,7 +75,7 @@ fn fewer_scenes_note(overall: &[Overall]) -> String {
     });
     let counted: Vec<String> = counted.collect();
     if counted.is_empty() {
-        String::new()
+        Text::default()
     } else {
         legend_text(&format!(
             "Scenes that skill applies to: {}. On the others the oracle gains no more than noise makes.",

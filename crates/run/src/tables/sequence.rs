@@ -9,7 +9,7 @@ use scene::SceneId;
 use super::{
     Table, bracket_name, cell, legend_text, list_once, ranked_name, ranking_cells, shutter_text,
 };
-use terminal::output::heading;
+use terminal::output::{Text, heading};
 
 /// Columns, each with its title.
 const COLUMNS: [(&str, SequenceMetric); 8] = [
@@ -31,18 +31,18 @@ const KEY: &str = "roots of squared errors, in thousandths of display white. Fli
 
 /// Makes the text about a run's sequences; empty without any. One scene gets its table of scores;
 /// several get a ranking of means over the scenes, and with `all` the scenes' tables after it.
-pub fn sequences_text(run: &Run, all: bool) -> String {
+pub fn sequences_text(run: &Run, all: bool) -> Text {
     let scenes = list_once(run.sequences.iter().map(|sequence| &sequence.scene));
     match scenes.len() {
-        0 => String::new(),
+        0 => Text::default(),
         1 => sequence_table(run, &scenes),
-        count if all => ranking_table(run, count) + &sequence_table(run, &scenes),
+        count if all => ranking_table(run, count) + sequence_table(run, &scenes),
         count => ranking_table(run, count),
     }
 }
 
 /// Makes the ranking of means over several scenes.
-fn ranking_table(run: &Run, scenes: usize) -> String {
+fn ranking_table(run: &Run, scenes: usize) -> Text {
     let groups = rank_sequences(run);
     let title = format!("{scenes} scenes, {} frames", run.frames.count);
     let titles = ["JOD", "95 % CI", "error", "along", "worst scene"];
@@ -74,12 +74,12 @@ fn ranking_table(run: &Run, scenes: usize) -> String {
         notes += &format!(" {RANK_RULE}");
     }
     notes += " --table shows each scene.";
-    format!("\n{}{}", table.text(), legend_text(&notes))
+    Text::from("\n") + table.text() + legend_text(&notes)
 }
 
 /// Makes the tables of scenes: per shutter the references, then the filters by rank, then filters
 /// without a rank.
-fn sequence_table(run: &Run, scenes: &[&SceneId]) -> String {
+fn sequence_table(run: &Run, scenes: &[&SceneId]) -> Text {
     let mut table = score_columns(run.sequences[0].frames.len());
     for scene in scenes {
         let of_scene = || {
@@ -101,20 +101,15 @@ fn sequence_table(run: &Run, scenes: &[&SceneId]) -> String {
         }
     }
     let legend = format!("Sequences, ranked by JOD: {KEY} {RANK_RULE}");
-    format!("\n{}{}", table.text(), legend_text(&legend))
+    Text::from("\n") + table.text() + legend_text(&legend)
 }
 
 /// Makes the table of one sequence's scores.
-pub fn score_sequence_table(
-    scene: &str,
-    name: &str,
-    frames: u32,
-    scores: &SequenceScores,
-) -> String {
+pub fn score_sequence_table(scene: &str, name: &str, frames: u32, scores: &SequenceScores) -> Text {
     let mut table = score_columns(frames as usize);
     table.push_text(scene);
     table.push(name, score_cells(scores));
-    table.text() + &legend_text(&format!("Sequences: {KEY}"))
+    table.text() + legend_text(&format!("Sequences: {KEY}"))
 }
 
 fn score_columns(frames: usize) -> Table {

@@ -6,11 +6,11 @@ use std::io::{ErrorKind, IsTerminal, Write};
 use measure::{Error, printable, printable_lines};
 use scene::Scene;
 
-use super::{terminal_text, wrap_lines};
+use super::{Text, wrap_lines};
 
 /// Prints to standard output, in colours on a terminal that shows them.
-pub fn print(text: &str) -> Result<(), Error> {
-    write_out(anstream::stdout(), terminal_text(text).as_bytes())
+pub fn print(text: impl Into<Text>) -> Result<(), Error> {
+    write_out(anstream::stdout(), text.into().terminal_codes().as_bytes())
 }
 
 /// Writes to standard output as `out` does. A reader that stops early, such as `head`, is no error.
@@ -26,13 +26,13 @@ pub fn write_out(mut out: impl Write, bytes: &[u8]) -> Result<(), Error> {
 /// Prints plain data as JSON with a final line break.
 pub fn print_json(value: &impl serde::Serialize) -> Result<(), Error> {
     let json = serde_json::to_string_pretty(value).expect("results are plain data");
-    print(&format!("{json}\n"))
+    print(format!("{json}\n"))
 }
 
 /// Writes lines to standard error, with escapes for control characters. Ignores errors, since
 /// nobody need read it.
 pub fn print_error(text: &str) {
-    let _ = writeln!(std::io::stderr(), "{}", terminal_text(text));
+    let _ = writeln!(std::io::stderr(), "{}", Text::from(text).terminal_codes());
 }
 
 /// Writes the error that ends a command to standard error.

@@ -3,10 +3,9 @@
 use std::ops::RangeInclusive;
 use std::sync::OnceLock;
 
-use measure::printable;
 use terminal_size::{Width, terminal_size_of};
 
-use super::width;
+use super::Text;
 
 /// Columns of printed text if no terminal gives its own.
 const USUAL_COLUMNS: usize = 80;
@@ -31,16 +30,16 @@ pub fn terminal_columns() -> usize {
 
 /// Adds one line of text, broken between words if it is too long, with a deeper indent after the
 /// first line. Line breaks in it become escapes, since names and files may contain them.
-pub fn push_wrapped(text: &mut String, indent: usize, line: &str) {
+pub fn push_wrapped(text: &mut Text, indent: usize, line: impl Into<Text>) {
     let mut column = indent;
-    *text += &" ".repeat(indent);
-    for (index, word) in printable(line).split(' ').enumerate() {
-        let length = width(word);
+    *text += " ".repeat(indent);
+    for (index, word) in line.into().into_line().words().iter().enumerate() {
+        let length = word.width();
         if index > 0 && column + 1 + length > terminal_columns() {
-            *text += &format!("\n{}", " ".repeat(indent + 4));
+            text.push_gap(&format!("\n{}", " ".repeat(indent + 4)), word);
             column = indent + 4;
         } else if index > 0 {
-            *text += " ";
+            text.push_gap(" ", word);
             column += 1;
         }
         *text += word;
@@ -51,16 +50,16 @@ pub fn push_wrapped(text: &mut String, indent: usize, line: &str) {
 
 /// Wraps lines, and keeps their indentation. Keeps compiler output aligned.
 pub fn wrap_lines(text: &str) -> String {
-    let mut wrapped = String::new();
+    let mut wrapped = Text::default();
     for line in text.lines() {
         let words = line.trim_start_matches(' ');
         if words.is_empty() || line.contains(['┌', '│']) {
-            wrapped += &format!("{line}\n")
+            wrapped += format!("{line}\n")
         } else {
             push_wrapped(&mut wrapped, line.len() - words.len(), words)
         }
     }
-    wrapped
+    wrapped.plain()
 }
 
 /// Formats a count: `1 case`, `2 cases`.

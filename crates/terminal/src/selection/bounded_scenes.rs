@@ -1,8 +1,8 @@
 //! Scenes with their bounds.
 
-use judge::{SceneBounds, read_bounds, read_bounds_beside_scenes};
+use judge::{BoundedScene, SceneBounds, read_bounds, read_bounds_beside_scenes};
 use measure::Error;
-use scene::{Location, Scene, SceneId};
+use scene::{Location, SceneId};
 
 use super::select_scenes;
 use crate::output::print_scene_notes;
@@ -13,13 +13,16 @@ pub fn load_scenes(
     root: &Location,
     names: &[String],
     size: Option<(u32, u32)>,
-) -> Result<Vec<(Scene, SceneBounds)>, Error> {
+) -> Result<Vec<BoundedScene>, Error> {
     let choices = select_scenes(root, names)?;
     print_scene_notes(choices.iter().map(|choice| &choice.scene));
     (choices.into_iter())
         .map(|choice| {
             let bounds = read_scene_bounds(root, &choice.folder, &choice.scene.id, size)?;
-            Ok((choice.scene, bounds))
+            Ok(BoundedScene {
+                scene: choice.scene,
+                bounds,
+            })
         })
         .collect()
 }

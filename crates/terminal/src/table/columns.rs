@@ -2,7 +2,7 @@
 
 use metrics::Metric;
 
-use crate::output::{faint, push_wrapped};
+use crate::output::{Text, faint, push_wrapped};
 
 /// A column: its title and its score.
 pub type Column = (&'static str, Metric);
@@ -17,10 +17,10 @@ pub fn bracket_name(name: &str, is_reference: bool) -> String {
 }
 
 /// Makes the note below a table.
-pub fn legend_text(text: &str) -> String {
-    let mut lines = String::new();
+pub fn legend_text(text: &str) -> Text {
+    let mut lines = Text::default();
     push_wrapped(&mut lines, 0, text);
-    faint(&lines)
+    faint(&lines.plain())
 }
 
 /// Lists each thing once, in order.

@@ -1,8 +1,6 @@
 //! Layout of tables: columns as wide as their cells, rows that fit the terminal.
 
-use measure::printable;
-
-use crate::output::{bold, faint, terminal_columns, width};
+use crate::output::{Text, bold, faint, terminal_columns};
 
 /// Spaces between two cells: the most that fit.
 const GAPS: [usize; 2] = [2, 1];
@@ -11,23 +9,38 @@ const INDENT: usize = 2;
 
 /// A table of text: names, then numbers, which are aligned to the right.
 pub struct Table {
-    titles: Vec<String>,
+    titles: Vec<Text>,
     /// Left-aligned columns of words.
     left: Vec<usize>,
-    /// A line of text as its only cell, or a name and its cells; dimmed or not.
-    lines: Vec<(Vec<String>, bool)>,
+    lines: Vec<Line>,
+}
+
+/// A line of a table.
+enum Line {
+    /// Text outside the columns.
+    Text(Text),
+    /// A name and its cells.
+    Row { cells: Vec<Text>, dimmed: bool },
+}
+
+/// Places of the cells of a row.
+#[derive(Clone)]
+struct Columns {
+    /// Indent of the name.
+    indent: usize,
+    /// Columns of the name; a longer one has a line of its own.
+    name: usize,
+    /// Spaces before every other cell.
+    gap: usize,
+    /// Columns of the cells.
+    widths: Vec<usize>,
 }
 
 impl Table {
     /// Begins a table with the title of the names and the other columns' titles.
-    pub fn new<T: Into<String>>(
-        name: impl Into<String>,
-        others: impl IntoIterator<Item = T>,
-    ) -> Self {
-        let others = others.into_iter().map(Into::into);
-        let titles = std::iter::once(name.into()).chain(others);
+    pub fn new<T: Into<Text>>(name: impl Into<Text>, others: impl IntoIterator<Item = T>) -> Self {
         Self {
-            titles: titles.map(|title| printable(&title).into_owned()).collect(),
+            titles: make_row(name, others),
             left: vec![0],
             lines: Vec::new(),
         }
@@ -40,94 +53,125 @@ impl Table {
     }
 
     /// Adds a line of text outside the columns.
-    pub fn push_text(&mut self, text: impl Into<String>) {
-        let text = printable(&text.into()).into_owned();
-        self.lines.push((vec![text], false));
+    pub fn push_text(&mut self, text: impl Into<Text>) {
+        self.lines.push(Line::Text(text.into().into_line()));
     }
 
     /// Adds a row.
-    pub fn push(&mut self, name: impl Into<String>, cells: impl IntoIterator<Item = String>) {
+    pub fn push<T: Into<Text>>(
+        &mut self,
+        name: impl Into<Text>,
+        cells: impl IntoIterator<Item = T>,
+    ) {
         self.push_row(false, name, cells);
     }
 
     /// Adds a row, dimmed or not.
-    pub fn push_row(
+    pub fn push_row<T: Into<Text>>(
         &mut self,
         dimmed: bool,
-        name: impl Into<String>,
-        cells: impl IntoIterator<Item = String>,
+        name: impl Into<Text>,
+        cells: impl IntoIterator<Item = T>,
     ) {
-        let row = std::iter::once(name.into()).chain(cells);
-        let row: Vec<String> = row.map(|cell| printable(&cell).into_owned()).collect();
-        assert_eq!(row.len(), self.titles.len(), "every column has a cell");
-        self.lines.push((row, dimmed));
+        let cells = make_row(name, cells);
+        assert_eq!(cells.len(), self.titles.len(), "every column has a cell");
+        self.lines.push(Line::Row { cells, dimmed });
     }
 
     /// Lays out the table. If a row does not fit the terminal, long names get a line of their own.
-    pub fn text(&self) -> String {
+    pub fn text(&self) -> Text {
         self.text_in(terminal_columns())
     }
 
-    fn text_in(&self, columns: usize) -> String {
-        let mut widths: Vec<usize> = self.titles.iter().map(|title| width(title)).collect();
+    fn text_in(&self, terminal: usize) -> Text {
+        let columns = self.lay_out(terminal);
+        // The title of the names is not indented.
+        let heading = Columns {
+            indent: 0,
+            name: INDENT + columns.name,
+            ..columns.clone()
+        };
+        let titles = self.row_text(&self.titles, &heading);
+        let mut text = bold(&titles.plain()) + "\n";
+        for line in &self.lines {
+            match line {
+                Line::Text(line) => text += line,
+                Line::Row { cells, dimmed } => {
+                    let row = self.row_text(cells, &columns);
+                    text += if *dimmed { faint(&row.plain()) } else { row };
+                }
+            }
+            text += "\n";
+        }
+        text
+    }
+
+    /// Finds the places of the cells of rows.
+    fn lay_out(&self, terminal: usize) -> Columns {
+        let mut widths: Vec<usize> = self.titles.iter().map(Text::width).collect();
         // The title of the names is not indented.
         widths[0] = widths[0].saturating_sub(INDENT);
-        for (cells, _) in self.lines.iter().filter(|(cells, _)| cells.len() > 1) {
-            for (widest, cell) in widths.iter_mut().zip(cells) {
-                *widest = width(cell).max(*widest);
+        for line in &self.lines {
+            if let Line::Row { cells, .. } = line {
+                for (widest, cell) in widths.iter_mut().zip(cells) {
+                    *widest = cell.width().max(*widest);
+                }
             }
         }
         let room = |gap: usize| {
             let others: usize = widths[1..].iter().map(|width| width + gap).sum();
-            columns.saturating_sub(INDENT + others)
+            terminal.saturating_sub(INDENT + others)
         };
         let gap = if room(GAPS[0]) >= widths[0] {
             GAPS[0]
         } else {
             GAPS[1]
         };
-        let name = widths[0].min(room(gap));
-        let titles = self.row_text(&self.titles, (INDENT + name, 0, gap), &widths);
-        let mut text = bold(&titles) + "\n";
-        for (cells, dimmed) in &self.lines {
-            text += &match cells.as_slice() {
-                [line] => line.clone(),
-                cells => {
-                    let row = self.row_text(cells, (name, INDENT, gap), &widths);
-                    if *dimmed { faint(&row) } else { row }
-                }
-            };
-            text += "\n";
+        Columns {
+            indent: INDENT,
+            name: widths[0].min(room(gap)),
+            gap,
+            widths,
         }
-        text
     }
 
-    /// Lays out cells: the first with its own width after an indent, the others after gaps.
-    fn row_text(
-        &self,
-        cells: &[String],
-        (name, indent, gap): (usize, usize, usize),
-        widths: &[usize],
-    ) -> String {
-        let mut text = " ".repeat(indent) + &cells[0];
-        let columns = width(&cells[0]);
-        if columns <= name {
-            text += &" ".repeat(name - columns)
+    /// Writes the cells of a row into their places.
+    fn row_text(&self, cells: &[Text], columns: &Columns) -> Text {
+        let mut text = Text::from(" ".repeat(columns.indent)) + &cells[0];
+        let width = cells[0].width();
+        // Spaces before the next word: none follow the last one.
+        let mut gap = if width <= columns.name {
+            " ".repeat(columns.name - width)
         } else {
-            text += &format!("\n{}", " ".repeat(indent + name))
-        }
+            format!("\n{}", " ".repeat(columns.indent + columns.name))
+        };
         for (column, cell) in cells.iter().enumerate().skip(1) {
-            let space = " ".repeat(widths[column].saturating_sub(width(cell)));
-            text += &" ".repeat(gap);
-            if self.left.contains(&column) {
-                text += &(cell.clone() + &space)
+            let space = " ".repeat(columns.widths[column].saturating_sub(cell.width()));
+            gap += &" ".repeat(columns.gap);
+            let (before, after) = if self.left.contains(&column) {
+                (String::new(), space)
             } else {
-                text += &(space + cell)
+                (space, String::new())
+            };
+            gap += &before;
+            if cell.width() > 0 {
+                text += std::mem::take(&mut gap);
+                text += cell;
             }
+            gap += &after;
         }
-        text.truncate(text.trim_end_matches(' ').len());
         text
     }
+}
+
+/// Makes the cells of a row, each of one line.
+fn make_row<T: Into<Text>>(
+    name: impl Into<Text>,
+    others: impl IntoIterator<Item = T>,
+) -> Vec<Text> {
+    let others = others.into_iter().map(Into::into);
+    let cells = std::iter::once(name.into()).chain(others);
+    cells.map(Text::into_line).collect()
 }
 
 #[cfg(test)]
@@ -137,8 +181,8 @@ mod tests {
     #[test]
     fn a_name_that_does_not_fit_has_a_line_of_its_own() {
         let mut table = Table::new("y".repeat(70), ["FLIP", "scene"]).with_words_in(2);
-        table.push("x".repeat(60), ["0.1".into(), "railing".into()]);
-        let text = table.text_in(40);
+        table.push("x".repeat(60), ["0.1", "railing"]);
+        let text = table.text_in(40).plain();
         let lines: Vec<&str> = text.lines().map(str::trim).collect();
         assert!(lines[0].ends_with(&"y".repeat(70)) && lines[1].starts_with("FLIP"));
         assert_eq!(lines[2..], [&"x".repeat(60)[..], "0.1 railing"]);

@@ -2,12 +2,11 @@
 
 use clap::Args;
 use filters::Gpu;
-use judge::SceneBounds;
+use judge::BoundedScene;
 use measure::{
     Error, FilterChoice, Sharing, estimate_case_seconds, estimate_render_seconds, lock_folder,
     open_gpu,
 };
-use scene::Scene;
 use terminal::arguments::{AdapterArgs, ProgramArgs, SceneArgs, parse_size};
 use terminal::expected::print_expected_time;
 use terminal::output::{count_text, make_monitor};
@@ -59,7 +58,7 @@ impl CandidateArgs {
     }
 
     /// Loads the scenes, with their bounds for the requested picture size.
-    pub fn load_scenes(&self) -> Result<Vec<(Scene, SceneBounds)>, Error> {
+    pub fn load_scenes(&self) -> Result<Vec<BoundedScene>, Error> {
         let SceneArgs { root, .. } = &self.scenes;
         load_scenes(&root.scenes_dir, &self.scenes.names()?, Some(self.size))
     }
@@ -98,7 +97,7 @@ impl CandidateArgs {
             None => Sharing::Together,
         };
         let SceneArgs { out, .. } = &self.scenes;
-        let locked = lock_folder(out, scenes.iter().map(|(scene, _)| scene), sharing)?;
+        let locked = lock_folder(out, scenes.iter().map(|known| &known.scene), sharing)?;
         let filter = &choice.filter;
         let rendered = render_scenes(&scenes, filter, &render, out, make_monitor())?;
         // A process that shares the folder has finished reading it.
@@ -111,7 +110,7 @@ impl CandidateArgs {
 /// Prints the expected time of scoring candidates on scenes that are not rendered yet. Scoring ends
 /// after `limit` seconds.
 pub fn print_expected_scoring(
-    scenes: &[(Scene, SceneBounds)],
+    scenes: &[BoundedScene],
     render: &RenderSettings,
     candidates: usize,
     limit: f64,

@@ -39,5 +39,5 @@ pub fn execute(args: &CompareArgs) -> Result<(), Error> {
     })?;
     let path = candidate.scenes.out.join("compare.json");
     let table = paired_table(&paired, presets.map(String::as_str));
-    write_result(&path, &paired, &table, args.json)
+    write_result(&path, &paired, table, args.json)
 }

@@ -84,7 +84,11 @@ pub fn execute(args: &SearchArgs) -> Result<(), Error> {
     options.check()?;
     let gpu = args.candidate.open_gpu(&options.choice)?;
     let scenes = options.scenes.iter().chain(&options.held_out);
-    let _lock = lock_folder(&options.out, scenes.map(|(scene, _)| scene), Sharing::Alone)?;
+    let _lock = lock_folder(
+        &options.out,
+        scenes.map(|known| &known.scene),
+        Sharing::Alone,
+    )?;
     // A race drops many candidates early.
     let limit = (options.time).map_or(f64::INFINITY, |time| time.as_secs_f64());
     print_expected_scoring(&options.scenes, &options.render, options.budget, limit);
@@ -117,7 +121,7 @@ fn make_options(args: &SearchArgs, choice: FilterChoice) -> Result<TuneOptions, 
     let mut open = candidate.load_scenes()?;
     if scene_args.scenes.is_empty() {
         // "All scenes" excludes the held-out ones.
-        open.retain(|(scene, _)| held_out.iter().all(|(other, _)| other.id != scene.id));
+        open.retain(|open| held_out.iter().all(|held| held.scene.id != open.scene.id));
     }
     let render = candidate.render_settings();
     Ok(TuneOptions {
@@ -161,6 +165,7 @@ fn write_tuning(tuning: &Tuning, options: &TuneOptions, as_json: bool) -> Result
             .map_err(|source| FileError::io(&preset, "remove", source))?,
         _ => {}
     }
-    let table = tuning_table(tuning) + "\n" + advice_text(tuning).trim_end();
-    write_result(&path("tune.json"), tuning, &table, as_json)
+    let advice = advice_text(tuning).plain();
+    let table = tuning_table(tuning) + "\n" + advice.trim_end();
+    write_result(&path("tune.json"), tuning, table, as_json)
 }

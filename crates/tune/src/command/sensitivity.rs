@@ -53,7 +53,7 @@ pub fn execute(args: &SensitivityArgs) -> Result<(), Error> {
     write_result(
         &path,
         &sensitivity,
-        &sensitivity_table(&sensitivity),
+        sensitivity_table(&sensitivity),
         args.json,
     )
 }

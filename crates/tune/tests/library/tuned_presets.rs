@@ -2,10 +2,9 @@
 
 use std::path::Path;
 
-use cli::{Programs, select_filters, select_scenes};
-use judge::{SceneBounds, read_bounds};
+use cli::{Programs, SceneChoice, select_filters, select_scenes};
+use judge::{BoundedScene, read_bounds};
 use measure::Monitor;
-use scene::Scene;
 use tests::{open_gpu, settings};
 use tune::{
     Evaluator, LEAST_BLEED, PairedComparison, Preference, compare_candidates, paired_table,
@@ -15,14 +14,16 @@ use tune::{
 const TUNED: [&str; 2] = ["jump_flood", "mcguire"];
 
 /// Loads the named shipped scenes, or all, except those used by a tuning.
-fn held_out(names: &[&str], used: &[String]) -> Vec<(Scene, SceneBounds)> {
+fn held_out(names: &[&str], used: &[String]) -> Vec<BoundedScene> {
     let root = tests::scenes();
     let names: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
     let mut choices = select_scenes(&root, &names).unwrap();
     choices.retain(|choice| !used.contains(&choice.scene.id.to_string()));
-    let bounds = |folder| read_bounds(&root, folder, None).unwrap();
-    let choices = choices.into_iter();
-    (choices.map(|choice| (choice.scene, bounds(choice.folder)))).collect()
+    let with_bounds = |choice: SceneChoice| BoundedScene {
+        scene: choice.scene,
+        bounds: read_bounds(&root, choice.folder, None).unwrap(),
+    };
+    choices.into_iter().map(with_bounds).collect()
 }
 
 /// Compares a filter's tuned preset with the search's start. Lengths in pixels are as written, or
@@ -49,7 +50,10 @@ fn compare(name: &str, names: &[&str], width: u32, as_written: bool) -> (PairedC
     let [published, tuned_preset] =
         [&tuned.from, "tuned"].map(|preset| choice.preset_at(preset, width).unwrap());
     let paired = compare_candidates(&mut evaluator, &published, &tuned_preset).unwrap();
-    let table = format!("{name}\n{}", paired_table(&paired, [&tuned.from, "tuned"]));
+    let table = format!(
+        "{name}\n{}",
+        paired_table(&paired, [&tuned.from, "tuned"]).plain()
+    );
     println!("{table}");
     (paired, table)
 }
