@@ -57,13 +57,7 @@ pub fn average_subframes(
     let reached = mark_reached(&capture.velocity, shutter);
     let restless = changed.zip(&reached, |changed, reached| *changed && !reached);
     let moving = changed.zip(&reached, |changed, reached| *changed || *reached);
-    let support = Support {
-        seen: (Picture::mean(&halves).coverage.iter())
-            .map(|coverage| coverage.map(|share| *share > 0.0))
-            .collect(),
-        unknowable: moving.map(|_| false),
-        moving,
-    };
+    let support = make_support(&halves, moving);
     let (width, height) = (capture.color.width, capture.color.height);
     let each = (capture.subframes.len() / HALVES) as u32;
     let replicates: Vec<Replicate> = (0..)
@@ -98,6 +92,17 @@ pub fn average_subframes(
             rungs,
         },
     }))
+}
+
+/// Marks what the open shutter saw of each object, in pixels where anything moves or not.
+fn make_support(halves: &Halves, moving: Raster<bool>) -> Support {
+    Support {
+        seen: (Picture::mean(halves).coverage.iter())
+            .map(|coverage| coverage.map(|share| *share > 0.0))
+            .collect(),
+        unknowable: moving.map(|_| false),
+        moving,
+    }
 }
 
 /// Makes the rungs of the ladder from the halves of means of sub-frames, each less its own half of
