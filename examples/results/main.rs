@@ -18,7 +18,7 @@ use std::process::ExitCode;
 use bench::Bench;
 use judge::Results;
 use measure::{ACCUMULATE, Case, Error, Run};
-use report::{write_case_strip, write_report};
+use report::{RunReport, write_case_strip, write_report};
 
 use crate::engines::list_engines;
 use crate::lengths::{Lengths, Panels};
@@ -146,7 +146,15 @@ fn write_site(folder: &Path, path: &Path) -> Result<(), Error> {
         frame::write_atomically(&live.join(format!("{name}.png")), &picture)?;
     }
     // Pictures and tables are files of their own, which the page loads when someone opens a case.
-    write_report(&run, &[], None, run_folder, &live.join("report.html"), 0)?;
+    let report = RunReport {
+        run: &run,
+        folder: run_folder,
+        findings: &[],
+        verdict: None,
+        additions: &[bench::add_costs(&run, run_folder)?],
+        largest: 0,
+    };
+    write_report(&report, &live.join("report.html"))?;
     println!("{}", folder.display());
     Ok(())
 }

@@ -3,6 +3,8 @@
 mod arguments;
 mod audit;
 mod baseline;
+#[path = "../../crates/bench/tests/program/mod.rs"]
+mod bench;
 #[cfg(unix)]
 mod blender;
 mod changes;
@@ -16,7 +18,6 @@ mod compilers;
 mod conventions;
 mod earlier_run;
 mod empty_folder;
-mod evaluate;
 mod exclusion;
 mod failures;
 mod fidelity;
@@ -59,7 +60,7 @@ mod summary;
 mod terminal;
 #[cfg(unix)]
 mod threejs;
-mod timing;
+#[path = "../../crates/tune/tests/program/mod.rs"]
 mod tune;
 mod variants;
 

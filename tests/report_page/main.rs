@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 
 use browser::{Browser, address_of};
 use numbers::read_out;
-use report::{LARGEST_PAGE, write_report};
+use report::{LARGEST_PAGE, RunReport, write_report};
 use sandbox::{Sandbox, split};
 use tests::text::assert_contains;
 
@@ -31,7 +31,15 @@ fn make_page_within(sandbox: &Sandbox, largest: usize) -> PathBuf {
     let (run, findings) = (sandbox.read_run(), sandbox.read_findings());
     let out = sandbox.path("out");
     let verdict = judge::Judgement::read(&run, &out).unwrap().unwrap().verdict;
-    write_report(&run, &findings, verdict.as_ref(), &out, &html, largest).unwrap();
+    let report = RunReport {
+        run: &run,
+        folder: &out,
+        findings: &findings,
+        verdict: verdict.as_ref(),
+        additions: &[bench::add_costs(&run, &out).unwrap()],
+        largest,
+    };
+    write_report(&report, &html).unwrap();
     html
 }
 

@@ -13,6 +13,7 @@ use terminal::output::make_monitor;
 use terminal::result::write_result;
 use terminal::selection::{Programs, select_filters};
 
+use crate::page::BENCH_FILE;
 use crate::{BenchPlan, bench, bench_table};
 
 /// Arguments of `bench`.
@@ -86,7 +87,7 @@ pub fn execute(args: &BenchArgs) -> Result<(), Error> {
     };
     print_expected_bench(&plan, &gpu);
     let done = make_monitor().watch("bench", |watch| bench(plan, &gpu, watch))?;
-    let path = args.out.join("bench.json");
+    let path = args.out.join(BENCH_FILE);
     write_result(&path, &done, &bench_table(&done), args.json)
 }
 

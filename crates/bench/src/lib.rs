@@ -3,6 +3,7 @@
 mod command;
 mod costs;
 mod file;
+mod page;
 mod panels;
 mod spread;
 mod table;
@@ -14,6 +15,7 @@ use filters::{AdapterDescription, Clock, Value};
 use serde::{Deserialize, Serialize};
 
 pub use self::command::{BenchArgs, execute};
+pub use self::page::add_costs;
 pub use self::spread::Spread;
 pub use self::table::bench_table;
 pub use self::timing::{BenchPlan, bench};

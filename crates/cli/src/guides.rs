@@ -7,11 +7,10 @@ use std::path::{Path, PathBuf};
 
 use clap::{Arg, Args, Command, CommandFactory, Id, Parser};
 
-use crate::arguments::{
-    AdapterArgs, CandidateArgs, MeasureArgs, ProgramArgs, RootArgs, RunOptions, SceneArgs,
-    SequenceArgs,
-};
 use crate::program::Cli;
+use terminal::arguments::{
+    AdapterArgs, MeasureArgs, ProgramArgs, RootArgs, RunOptions, SceneArgs, SequenceArgs,
+};
 use terminal::output::OutputArgs;
 
 /// Columns of help on the page of all commands.
@@ -40,6 +39,9 @@ fn read_pages() -> Vec<String> {
             }
         }
     }
+    let crates = fs::read_dir(root.join("crates")).unwrap();
+    let guides = crates.map(|entry| entry.unwrap().path().join("README.md"));
+    paths.extend(guides.filter(|path| path.is_file()));
     let pages = paths.iter().map(|path| fs::read_to_string(path).unwrap());
     pages.collect()
 }
@@ -100,7 +102,7 @@ const SHARED: [(&str, Group); 9] = [
     ("Measurement", MeasureArgs::augment_args),
     ("Sequences", SequenceArgs::augment_args),
     ("Intervals", RunOptions::augment_args),
-    ("Candidate", CandidateArgs::augment_args),
+    ("Candidate", tune::CandidateArgs::augment_args),
 ];
 
 /// Makes the page of all commands: its own introduction, each command's help, and the shared

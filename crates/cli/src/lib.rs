@@ -1,6 +1,5 @@
 //! The program `shuttertruth`: its arguments, its commands, and what they print.
 
-mod arguments;
 mod commands;
 mod environment;
 #[cfg(test)]
@@ -24,7 +23,7 @@ use tracer::TraceError;
 
 pub use gate::{annotations, check_text, junit, summary};
 pub use run::{ranking_text, run_table, score_table};
-pub use tables::{compare_table, paired_table};
+pub use tables::compare_table;
 pub use terminal::output::terminal_text;
 pub use terminal::selection::{Programs, SceneChoice, select_filters, select_scenes};
 pub use terminal::table::{list_once, markdown_table, range_text};

@@ -51,7 +51,7 @@ pub enum Command {
     Bench(bench::BenchArgs),
     /// Search, study and compare the parameters of a filter
     #[command(subcommand, disable_help_subcommand = true)]
-    Tune(TuneCommand),
+    Tune(tune::TuneCommand),
     /// Exchange scenes and frames with engines
     #[command(subcommand, disable_help_subcommand = true)]
     Engine(EngineCommand),
@@ -67,26 +67,6 @@ pub enum Command {
     /// Write the pages of the manual
     #[command(hide = true)]
     Man(description::ManArgs),
-}
-
-/// The commands of `tune`.
-#[derive(Debug, Subcommand)]
-pub enum TuneCommand {
-    /// Search for parameters that bring a filter nearer to the truth
-    ///
-    /// Writes journal.jsonl and tune.json.
-    Search(tune::TuneArgs),
-    /// Estimate which parameters of a filter matter, by Sobol indices
-    ///
-    /// Writes sensitivity.json.
-    Sensitivity(sensitivity::SensitivityArgs),
-    /// Compare two presets of a filter, scene by scene
-    ///
-    /// Writes compare.json.
-    #[command(alias = "compare-presets")]
-    Compare(compare_presets::ComparePresetsArgs),
-    /// Score one set of parameters; print JSON
-    Evaluate(evaluate::EvaluateArgs),
 }
 
 /// The commands of `engine`.
@@ -198,10 +178,7 @@ pub fn execute(program: &Cli) -> Result<Ending, Error> {
         Command::Compare(args) => compare::execute(args),
         Command::List(args) => list::execute(args),
         Command::Bench(args) => bench::execute(args),
-        Command::Tune(TuneCommand::Search(args)) => tune::execute(args),
-        Command::Tune(TuneCommand::Sensitivity(args)) => sensitivity::execute(args),
-        Command::Tune(TuneCommand::Compare(args)) => compare_presets::execute(args),
-        Command::Tune(TuneCommand::Evaluate(args)) => evaluate::execute(args),
+        Command::Tune(command) => tune::execute(command),
         Command::Engine(EngineCommand::Import(args)) => import::execute(args),
         Command::Engine(EngineCommand::Export(args)) => export::execute(args),
         Command::Engine(EngineCommand::Ingest(args)) => ingest::execute(args),

@@ -1,6 +1,8 @@
 //! Errors of loading and running filters.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
+
+use shader_import::{FileFault, ImportError};
 
 /// Error of a filter. Every message names the place, what was found, what is allowed, and the way
 /// out.
@@ -20,17 +22,8 @@ pub enum FilterError {
         String,
     ),
     /// A fault in a filter folder.
-    #[error("{}{}{}: {reason}", path.display(), after_colon(*line), after_colon(*column))]
-    Folder {
-        /// The file at fault, or the folder.
-        path: PathBuf,
-        /// Line in that file, from 1.
-        line: Option<usize>,
-        /// Column, from 1, if naga names one.
-        column: Option<usize>,
-        /// Fault, and what is allowed; naga adds the line itself and a mark below.
-        reason: String,
-    },
+    #[error(transparent)]
+    Folder(#[from] FileFault),
     /// A parameter that the filter does not have, or a value that it does not allow.
     #[error("{filter}.{parameter}: {reason}")]
     Parameter {
@@ -121,15 +114,15 @@ impl FilterError {
         line: impl Into<Option<usize>>,
         reason: impl Into<String>,
     ) -> Self {
-        Self::Folder {
-            path: path.to_owned(),
-            line: line.into(),
-            column: None,
-            reason: reason.into(),
-        }
+        FileFault::new(path, line, reason).into()
     }
 }
 
-fn after_colon(number: Option<usize>) -> String {
-    number.map_or(String::new(), |number| format!(":{number}"))
+impl From<ImportError> for FilterError {
+    fn from(error: ImportError) -> Self {
+        match error {
+            ImportError::File(fault) => Self::Folder(fault),
+            ImportError::Interrupted => Self::Interrupted,
+        }
+    }
 }

@@ -8,13 +8,14 @@
 //! |---|---|
 //! | `filter` | a filter as data: parameters, presets, passes, and the settings that it runs with |
 //! | `shader` | declarations and costs of WGSL kernels, found without an adapter |
-//! | `translate` | shaders in other languages, translated and bound as `filter.toml` says |
+//! | `bind` | shaders of engines, imported by `shader_import`, and bound as `filter.toml` says |
 //! | `manifest` | the parser of `filter.toml` |
 //! | `load` | loading: manifest and kernels of a folder, checked against each other |
 //! | `gpu` | running kernels on an adapter |
 //! | `live` | a filter as data, for pages that run it in a browser |
 //! | `command` | running programs |
 
+mod bind;
 mod command;
 mod error;
 mod expression;
@@ -26,7 +27,6 @@ mod load;
 mod manifest;
 mod one_line;
 mod shader;
-mod translate;
 
 pub use command::CommandBlur;
 pub use error::FilterError;
@@ -36,7 +36,7 @@ pub use filter::{
     Parameter, Preset, ReachBy, Scale, Settings, Source, Texture, TuningRecord, Unit, Value,
     VelocitySign, VelocityTime, VelocityUnit, VerticalDirection,
 };
-pub(crate) use filter::{Count, Pass, Rounding, Stage};
+pub(crate) use filter::{Count, Pass, Rounding};
 pub use gpu::{
     AdapterDescription, Blur, BufferCopy, Clock, Gpu, Kernels, Limits, LoadedBlur, LoopLimit,
     PassTime, list_adapters, try_out,

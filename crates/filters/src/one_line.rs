@@ -24,17 +24,6 @@ pub(crate) fn check_line(text: &str) -> Result<(), String> {
     }
 }
 
-/// Joins the messages of an error and of its causes.
-pub(crate) fn explain(error: &dyn std::error::Error) -> String {
-    let mut said = error.to_string();
-    let mut cause = error.source();
-    while let Some(inner) = cause {
-        said += &format!(": {inner}");
-        cause = inner.source();
-    }
-    said.replace('\n', " ")
-}
-
 /// Returns true for hidden characters and for those of no width.
 fn is_invisible(c: char) -> bool {
     is_hidden(c) || matches!(c, '\u{200b}'..='\u{200d}' | '\u{2060}'..='\u{2065}' | '\u{feff}')

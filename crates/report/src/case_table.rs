@@ -2,15 +2,13 @@
 
 use std::collections::HashMap;
 
-use bench::Bench;
 use measure::{Case, FilterId, Run};
 use tracer::SceneId;
 
 /// A run's cases with a row per filter and a column per scene.
 pub struct CaseTable<'a> {
+    /// The run.
     pub run: &'a Run,
-    /// Costs of the filters; none if nothing was timed.
-    pub bench: Option<Bench>,
     /// Filters and references in the order of their runs.
     pub filters: Vec<FilterId>,
     /// Scenes in the order of their runs.
@@ -22,7 +20,7 @@ pub struct CaseTable<'a> {
 
 impl<'a> CaseTable<'a> {
     /// Sorts the cases of a run into a table.
-    pub fn new(run: &'a Run, bench: Option<Bench>) -> Self {
+    pub fn new(run: &'a Run) -> Self {
         let own_filters: Vec<FilterId> = run.cases.iter().map(|case| case.filter_id()).collect();
         let (mut filters, mut scenes) = (Vec::new(), Vec::new());
         let mut places = HashMap::new();
@@ -37,7 +35,6 @@ impl<'a> CaseTable<'a> {
         }
         Self {
             run,
-            bench,
             filters,
             scenes,
             own_filters,

@@ -31,9 +31,11 @@ fn policy(siblings: Siblings) -> String {
 /// Files next to a page that it loads.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Siblings {
+    /// No files.
     None,
     /// Scripts with data.
     Scripts,
+    /// Pictures.
     Pictures,
 }
 
@@ -52,9 +54,11 @@ pub struct Document<'a> {
     pub heading: Markup,
     /// Words next to the heading.
     pub subtitle: &'a str,
+    /// Content below the title.
     pub body: Markup,
     /// Scripts in the order in which they run, after the theme's.
     pub scripts: &'a [&'a str],
+    /// Files that the page loads.
     pub siblings: Siblings,
 }
 

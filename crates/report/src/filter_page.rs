@@ -5,11 +5,11 @@ use maud::{Markup, html};
 use measure::{Case, FilterId};
 use metrics::Metric;
 
+use crate::addition::columns;
 use crate::address::{case_anchor, section_anchor};
 use crate::case_table::CaseTable;
 use crate::numbers::value_text;
-use crate::overview::bench_file::cost_of;
-use crate::overview::costs::cost_text;
+use crate::overview::Overview;
 use crate::table::Column::{Plain, Text};
 use crate::table::{Column, scroll_table};
 
@@ -25,8 +25,9 @@ const SCORES: [(Metric, &str); 8] = [
     (Metric::PSNR, "PSNR"),
 ];
 
-/// Writes the section of a filter; `thumbnails` are addresses of the scenes' truths.
-pub fn filter_section(table: &CaseTable, filter: &FilterId, thumbnails: &[String]) -> Markup {
+/// Writes the section of a filter.
+pub fn filter_section(overview: &Overview, filter: &FilterId) -> Markup {
+    let table = overview.table;
     let cases: Vec<&Case> = table.cases_of(filter).map(|(_, case)| case).collect();
     let Some(first) = cases.first() else {
         return html! {};
@@ -50,11 +51,13 @@ pub fn filter_section(table: &CaseTable, filter: &FilterId, thumbnails: &[String
                 dl.facts {
                     @if let Some(builtin) = &builtin { (about(builtin, first)) }
                     div { dt { "shutter" } dd { (filter.alignment) } }
-                    @if table.bench.is_some() { div { dt { "cost" } dd { (cost_text(cost_of(table, filter))) " ms" } } }
+                    @for column in columns(overview.additions) {
+                        div { dt { (column.name) } dd { (column.text(filter)) " " (column.unit) } }
+                    }
                     @if let Some(change) = first.input.change() { div { dt { "input" } dd { (change) } } }
                     @if let Some(command) = &first.command { div { dt { "command" } dd { code { (command.join(" ")) } } } }
                 }
-                (weakest(table, &cases, thumbnails))
+                (weakest(table, &cases, overview.thumbnails))
                 (parameters(builtin.as_ref(), first))
             }
         }

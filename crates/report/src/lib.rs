@@ -1,31 +1,33 @@
-//! Pages of a run, a comparison and a tuning. Each opens from disk and fetches nothing.
+//! Pages of runs and comparisons, and the building blocks of pages. Each page opens from disk and
+//! fetches nothing.
 
+mod addition;
 mod address;
 mod case;
 mod case_table;
-mod charts;
+pub mod charts;
 mod comparison;
-mod document;
+pub mod document;
 mod filter_page;
 mod finding_text;
 mod gallery;
 mod label;
 mod live;
-mod numbers;
+pub mod numbers;
 mod overview;
 mod pixels;
 mod run_facts;
 mod run_page;
 mod sequence;
-mod table;
-mod tuning;
+pub mod table;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+pub use addition::{Addition, FilterColumn, FilterNumber, FolderPage};
 use case::case_view::CaseView;
 use case::{CaseTables, case_section};
-use case_table::CaseTable;
+pub use case_table::CaseTable;
 pub use comparison::{ChangeCells, compare_page};
 use filter_page::filter_section;
 pub use finding_text::{
@@ -39,53 +41,68 @@ use live::LiveFiles;
 use live::scene::scene_json;
 use maud::{Markup, PreEscaped};
 use measure::{Case, Error, Run};
-use overview::bench_file::read_bench;
-use overview::overview;
+use overview::Overview;
 pub use pixels::report_files::LARGEST_PAGE;
 use pixels::report_files::{Place, SceneTexts};
 use pixels::scene_files::SceneFiles;
+pub use run_facts::adapter_text;
 use run_page::{PageContent, run_page};
 pub use sequence::{SEQUENCES_PAGE, sequences_page};
-pub use tuning::{TuneFolder, tuning_page};
 
 /// Approximate bytes of the tables of a case.
 const CASE_BYTES: usize = 25_000;
 
-/// Writes the page of the run in `folder` to `html`; returns its path, then the paths of the files
-/// next to it.
+/// A run and what its page shows of it.
+pub struct RunReport<'a> {
+    /// The run.
+    pub run: &'a Run,
+    /// Folder of the run's files.
+    pub folder: &'a Path,
+    /// Findings about the run; without any, the page shows no bounds.
+    pub findings: &'a [Finding],
+    /// Verdict of a check, which the page shows first.
+    pub verdict: Option<&'a Verdict>,
+    /// Contents of other crates.
+    pub additions: &'a [Addition],
+    /// Upper limit on the bytes of the page, such as [`LARGEST_PAGE`]. The numbers of a larger page
+    /// go into files; if its tables alone are larger, so do they.
+    pub largest: usize,
+}
+
+/// Writes the page of a run to `html`; returns its path, then the paths of the files next to it.
 ///
-/// Costs come from a bench.json in the folder. Without `findings` the page shows no bounds; a
-/// check's verdict comes first. If the page would have more than `largest` bytes, such as
-/// [`LARGEST_PAGE`], its numbers go into files; if its tables alone are larger, so do they. Filters
-/// and frames of live cases are always in files. The same run makes the same bytes. The page is
-/// written last: an existing page is complete.
+/// Filters and frames of live cases are always in files. The same run makes the same bytes. The
+/// page is written last: an existing page is complete.
 ///
 /// # Errors
 /// A file of the run is missing or broken, or a file of the report cannot be written.
-pub fn write_report(
-    run: &Run,
-    findings: &[Finding],
-    verdict: Option<&Verdict>,
-    folder: &Path,
-    html: &Path,
-    largest: usize,
-) -> Result<Vec<PathBuf>, Error> {
+pub fn write_report(report: &RunReport, html: &Path) -> Result<Vec<PathBuf>, Error> {
+    let RunReport { run, folder, .. } = *report;
     if run.cases.is_empty() {
         return Err(Error::Refused(
             "the run has no cases, and there is nothing to report; run some scenes and filters"
                 .to_owned(),
         ));
     }
-    let table = CaseTable::new(run, read_bench(folder)?);
-    let mut parts = Parts::new(run, folder, html, largest);
+    let table = CaseTable::new(run);
+    let mut parts = Parts::new(run, folder, html, report.largest);
     for scene in 0..table.scenes.len() {
-        parts.add_scene(scene, &table, findings, folder)?;
+        parts.add_scene(scene, &table, report.findings, folder)?;
     }
     parts.views.sort_by_key(|view| view.index);
+    let overview = Overview {
+        table: &table,
+        views: &parts.views,
+        thumbnails: &parts.thumbnails,
+        verdict: report.verdict,
+        additions: report.additions,
+    };
     let filters = table.filters.iter().filter(|filter| !filter.is_reference);
-    let sections = filters.map(|filter| filter_section(&table, filter, &parts.thumbnails));
+    let sections: Vec<Markup> = filters
+        .map(|filter| filter_section(&overview, filter))
+        .collect();
+    let first = overview.write();
     parts.sections.extend(sections);
-    let first = overview(&table, &parts.views, &parts.thumbnails, verdict);
     let text: usize = parts.sections.iter().map(|section| section.0.len()).sum();
     let numbers = parts.numbers.place(text + first.0.len())?;
     let content = PageContent {

@@ -5,7 +5,13 @@ use terminal::refuse;
 
 use judge::{Finding, Judgement, Verdict};
 use measure::{Error, Run, printable_path};
-use report::{LARGEST_PAGE, SEQUENCES_PAGE, sequences_page, write_report};
+use report::{Addition, LARGEST_PAGE, RunReport, SEQUENCES_PAGE, sequences_page, write_report};
+
+/// Makes contents of the page of a run in a folder.
+type Add = fn(&Run, &Path) -> Result<Addition, Error>;
+
+/// Contents that other crates add to the page of a run, in their order.
+const ADDITIONS: [Add; 1] = [bench::add_costs];
 
 /// A file that a command wrote.
 #[derive(serde::Serialize)]
@@ -61,7 +67,16 @@ pub fn write_run_page(
     folder: &Path,
     html: &Path,
 ) -> Result<Vec<WrittenFile>, Error> {
-    let mut files = write_report(run, findings, verdict, folder, html, LARGEST_PAGE)?;
+    let additions = ADDITIONS.map(|add| add(run, folder));
+    let report = RunReport {
+        run,
+        folder,
+        findings,
+        verdict,
+        additions: &additions.into_iter().collect::<Result<Vec<_>, _>>()?,
+        largest: LARGEST_PAGE,
+    };
+    let mut files = write_report(&report, html)?;
     if let Some(page) = sequences_page(run, findings) {
         let path = folder.join(SEQUENCES_PAGE);
         frame::write_atomically(&path, page.as_bytes())?;

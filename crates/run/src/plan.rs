@@ -3,19 +3,16 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use judge::{
-    BOUNDS_FILE, Margin, RunBounds, SceneBounds, read_bounds, read_bounds_beside_scenes,
-    read_bounds_file,
-};
+use judge::{BOUNDS_FILE, Margin, RunBounds, read_bounds_file};
 use measure::{Error, FolderLock, IngestedScene, Run, RunPlan, Sharing, lock_folder};
 use metrics::Metric;
-use tracer::{Location, RenderSettings, Scene, SceneId};
+use tracer::{Location, RenderSettings};
 
 use crate::ingested_scenes::{leave_out_filters, read_ingested_bounds, refuse_render_options};
 use crate::kept_truths::check_truths;
 use terminal::arguments::{MeasureArgs, RunOptions};
-use terminal::output::{make_monitor, print_scene_notes};
-use terminal::selection::{select_filters, select_ingested_scenes, select_scenes};
+use terminal::output::make_monitor;
+use terminal::selection::{load_scenes, read_scene_bounds, select_filters, select_ingested_scenes};
 
 /// Loads scenes with their bounds, and filters; renders nothing, and does not check the plan yet.
 /// The plan asks for no intervals.
@@ -97,38 +94,6 @@ pub fn add_bounds(bounds: &mut RunBounds, run: &Run, root: &Location) -> Result<
 /// Locks the folder of a run for this process alone.
 pub fn lock_out(plan: &RunPlan) -> Result<FolderLock, Error> {
     lock_folder(&plan.out, &plan.scenes, Sharing::Alone)
-}
-
-/// Loads the named scenes of the folder `root`, or all, with their bounds, including those for
-/// pictures of `size`.
-pub fn load_scenes(
-    root: &Location,
-    names: &[String],
-    size: Option<(u32, u32)>,
-) -> Result<Vec<(Scene, SceneBounds)>, Error> {
-    let choices = select_scenes(root, names)?;
-    print_scene_notes(choices.iter().map(|choice| &choice.scene));
-    (choices.into_iter())
-        .map(|choice| {
-            let bounds = read_scene_bounds(root, &choice.folder, &choice.scene.id, size)?;
-            Ok((choice.scene, bounds))
-        })
-        .collect()
-}
-
-/// Reads the bounds of a scene or a variant. A sealed one, or one at another frame rate, gets only
-/// the bounds common to all scenes: the scene's own limits were measured at other speeds.
-fn read_scene_bounds(
-    root: &Location,
-    folder: &Location,
-    id: &SceneId,
-    size: Option<(u32, u32)>,
-) -> Result<SceneBounds, Error> {
-    if id.seal.is_some() || id.rate.is_some() {
-        read_bounds_beside_scenes(root, size)
-    } else {
-        read_bounds(root, folder, size)
-    }
 }
 
 /// Margins by the names of metrics.

@@ -3,21 +3,20 @@
 mod bounds;
 mod layers;
 mod page;
-mod tuning;
 
 use crate::sandbox::Sandbox;
 
-const REPORT: &str = "report out/run.json --html page/report.html";
+pub const REPORT: &str = "report out/run.json --html page/report.html";
 
 /// Makes the page of the bench's last run.
-fn make_page(sandbox: &Sandbox) -> String {
+pub fn make_page(sandbox: &Sandbox) -> String {
     let printed = sandbox.done(REPORT);
     assert!(printed.contains("written: page/report.html ("), "{printed}");
     sandbox.text("page/report.html")
 }
 
 /// Finds every text between two texts.
-fn between<'a>(page: &'a str, before: &str, after: &str) -> Vec<&'a str> {
+pub fn between<'a>(page: &'a str, before: &str, after: &str) -> Vec<&'a str> {
     let rests = page.split(before).skip(1);
     rests
         .map(|rest| rest.split_once(after).expect("an end").0)

@@ -165,53 +165,6 @@ fn rankings_by_flip_are_grouped_by_shutter_and_rankings_by_skill_are_not() {
 }
 
 #[test]
-fn costs_come_from_the_bench_beside_the_run() {
-    let sandbox = Sandbox::new();
-    let words = "--filters identity,mcguire:paper --set mcguire.samples=7";
-    let overridden = "mcguire:paper samples=7";
-    for more in ["", "--table"] {
-        assert_contains(&sandbox.measure(&format!("{words} {more}")), &[overridden]);
-    }
-    let parts = ["This run has no bench.json.", overridden];
-    assert_contains(&make_page(&sandbox), &parts);
-    let output = "out/plate/mcguire_paper_samples_7/output.exr";
-    assert!(sandbox.path(output).is_file());
-    let filters = "identity,jump_flood:paper,mcguire:paper";
-    let bench = "bench --quiet --size 64x32 --out out --filters";
-    sandbox.done(&format!("{bench} {filters}"));
-    let page = make_page(&sandbox);
-    let mut timed: bench::Bench = sandbox.read_json("out/bench.json");
-    let mut costs = timed.cases.iter();
-    let timing = costs.find(|cost| cost.filter == "identity").unwrap();
-    // Every table of scores has one cell for the filter both run and timed. Filters that were only
-    // timed, or run with other parameters, have none.
-    let cell = "<td class=\"cost\" data-value";
-    let timed_cell = format!("{cell}=\"{}\">", timing.seconds.median);
-    for cell in [cell, &timed_cell] {
-        assert_eq!(page.matches(cell).count(), 11, "{cell}");
-    }
-    let costs = between(&page, "<section class=\"costs\">", "</section>")[0];
-    let adapter = timed.adapter.name.as_str();
-    let references = [
-        "identity:default",
-        "copy",
-        "256 px",
-        "accumulate:64 (trailing)",
-    ];
-    assert_contains(costs, &references);
-    assert_contains(costs, &[adapter]);
-    sandbox.edit("out/bench.json", "\"format\": 1", "\"format\": 0");
-    let parts = [
-        "out/bench.json: has format 0; allowed: 1",
-        "`shuttertruth bench`",
-    ];
-    sandbox.refuse(REPORT, &parts);
-    timed.cases[0].seconds.lower_quartile = 0.0;
-    sandbox.put("out/bench.json", serde_json::to_vec(&timed).unwrap());
-    sandbox.refuse(REPORT, &["holds a time of 0 s; allowed: 0.000000001 to"]);
-}
-
-#[test]
 fn a_run_keeps_the_jump_flood_s_dilated_map() {
     let sandbox = measured();
     let case = sandbox.path("out/plate/jump_flood_corrected/output.exr");

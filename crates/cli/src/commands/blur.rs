@@ -15,7 +15,7 @@ use measure::{
 
 use super::convention::read_convention;
 use super::show_texture::{check_shown, show_texture};
-use crate::arguments::{AdapterArgs, ProgramArgs, frame_count, parse_exposure};
+use terminal::arguments::{AdapterArgs, ProgramArgs, frame_count, parse_exposure};
 use terminal::output::{make_monitor, print};
 use terminal::selection::select_filters;
 

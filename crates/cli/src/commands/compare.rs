@@ -7,10 +7,10 @@ use judge::compare_runs;
 use measure::{Error, StoredRun};
 use report::compare_page;
 
-use crate::arguments::RootArgs;
 use crate::tables::compare_table;
 use run::read_margins;
 use run::write_page;
+use terminal::arguments::RootArgs;
 use terminal::output::{make_monitor, print, print_json};
 
 #[derive(Debug, Args)]

@@ -9,8 +9,8 @@ use measure::{Error, InputFormat, open_adapter};
 use tracer::{SceneListing, find_coincident_surfaces, list_scenes, load_scene};
 
 use super::copy::copy_scenes;
-use crate::arguments::{AdapterArgs, RootArgs};
 use crate::tables::{details_text, filter_json, filters_text, inputs_text, scenes_text};
+use terminal::arguments::{AdapterArgs, RootArgs};
 use terminal::output::{make_monitor, print, print_json, print_note, print_scene_notes};
 use terminal::selection::{is_pattern, load_filters, match_names, suggest_names};
 

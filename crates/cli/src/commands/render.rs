@@ -11,7 +11,7 @@ use measure::{
 };
 use tracer::{RenderSettings, Scene, check_next_frame};
 
-use crate::arguments::{
+use terminal::arguments::{
     Replicates, SceneArgs, above_zero, frame_count, parse_replicates, parse_size, within,
 };
 use terminal::expected::print_expected_time;

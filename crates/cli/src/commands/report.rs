@@ -6,10 +6,13 @@ use terminal::refuse;
 use clap::Args;
 use judge::Judgement;
 use measure::{Error, StoredRun, printable_path, write_layers};
-use report::{TuneFolder, tuning_page, write_gallery};
+use report::{FolderPage, write_gallery};
 
 use run::{WrittenFile, page_lines, page_path, write_page, write_run_page};
 use terminal::output::{make_monitor, print, print_json};
+
+/// Kinds of folders without a run that have a page.
+const FOLDER_PAGES: [FolderPage; 1] = [tune::TUNING_PAGE];
 
 #[derive(Debug, Args)]
 pub struct ReportArgs {
@@ -33,18 +36,13 @@ pub struct ReportArgs {
     pub json: bool,
 }
 
-/// Reads a finished run or a tuning, and writes its page, and its layers if requested.
+/// Reads a finished run or another folder with a page, and writes the page, and the run's layers if
+/// requested.
 pub fn execute(args: &ReportArgs) -> Result<(), Error> {
-    let path = args.run.as_path();
-    let file = path.file_name().unwrap_or_default();
-    // The file names that `run` and `tune search` use.
-    let tuning = match path.is_dir() {
-        true => Some(path).filter(|folder| !folder.join("run.json").is_file()),
-        false if file == "tune.json" || file == "sensitivity.json" => path.parent(),
-        false => None,
-    };
-    let (pages, layers) = match tuning {
-        Some(folder) => (write_tuning_report(args, folder)?, Vec::new()),
+    let find = |page: &FolderPage| (page.find)(&args.run);
+    let other = (FOLDER_PAGES.iter()).find_map(|page| Some((page, find(page)?)));
+    let (pages, layers) = match other {
+        Some((page, folder)) => (write_folder_page(args, page, folder)?, Vec::new()),
         None => write_run_report(args)?,
     };
     if args.json {
@@ -93,18 +91,24 @@ fn write_run_report(args: &ReportArgs) -> Result<(Vec<WrittenFile>, Vec<WrittenF
     Ok((pages, layers.collect::<Result<_, _>>()?))
 }
 
-fn write_tuning_report(args: &ReportArgs, folder: &Path) -> Result<Vec<WrittenFile>, Error> {
+/// Writes the page of a folder without a run.
+fn write_folder_page(
+    args: &ReportArgs,
+    page: &FolderPage,
+    folder: &Path,
+) -> Result<Vec<WrittenFile>, Error> {
     let options = [
         ("--exr", args.exr.is_some()),
         ("--gallery", args.gallery.is_some()),
     ];
     if let Some((option, _)) = options.iter().find(|(_, given)| *given) {
         refuse!(
-            "{option}: {} is a tuning, which keeps no pictures; give the folder of a run",
-            folder.display()
+            "{option}: {} is a {}, which keeps no pictures; give the folder of a run",
+            folder.display(),
+            page.kind
         );
     }
-    let page = tuning_page(&TuneFolder::read(folder)?)?;
+    let text = (page.make)(folder)?;
     let html = page_path(args.html.as_ref(), folder);
-    Ok(vec![write_page(&page, &html)?])
+    Ok(vec![write_page(&text, &html)?])
 }

@@ -11,8 +11,8 @@ use measure::{
 use metrics::Metric;
 
 use super::convention::read_convention;
-use crate::arguments::{RootArgs, above_zero, frame_count};
 use run::score_table;
+use terminal::arguments::{RootArgs, above_zero, frame_count};
 use terminal::output::{print, print_json};
 
 #[derive(Debug, Args)]

@@ -2,10 +2,8 @@
 
 mod comparison;
 mod listing;
-mod tuning;
 
 pub use terminal::table::*;
 
 pub use self::comparison::*;
 pub use self::listing::*;
-pub use self::tuning::*;

@@ -6,9 +6,8 @@ use std::process::Command as Process;
 use std::time::Duration;
 
 use frame::{ExrFile, Image, read_passes, write_exr};
-use process::{End, Limits, OutputFile, half_of_memory};
+use process::{End, Limits, OutputFile, collect_environment, half_of_memory};
 
-use super::environment::collect_environment;
 use super::output_tail::OutputTail;
 use crate::filter::fill_placeholders;
 use crate::input::{FRAMES_PER_SECOND, find_broken};

@@ -1,8 +1,6 @@
 //! Filters that are programs: a frame goes out as a file, and a picture comes back as one.
 
 mod blur;
-mod environment;
 mod output_tail;
 
 pub use blur::CommandBlur;
-pub(crate) use environment::collect_environment;

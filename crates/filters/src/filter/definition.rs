@@ -98,7 +98,7 @@ impl Filter {
         let mut listed = Vec::new();
         for pass in &self.passes {
             if let (Some(shader), Some(by)) = (&pass.shader, &self.shader(pass).compiled_by) {
-                let line = format!("{} compiled by {by}", shader.file.display());
+                let line = format!("{} compiled by {by}", shader.file.path.display());
                 if !listed.contains(&line) {
                     listed.push(line);
                 }

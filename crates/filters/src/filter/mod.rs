@@ -25,7 +25,7 @@ pub use history::History;
 pub use parameter::{Kind, Parameter, Scale, Unit, Value};
 pub(crate) use pass::{Count, Pass, Rounding};
 pub use pass::{Holds, Texture};
-pub(crate) use pass_shader::{Binding, BindingPlace, LabPass, PassShader, Stage, VertexShader};
+pub(crate) use pass_shader::{Binding, BindingPlace, PassShader, VertexShader};
 pub(crate) use placeholders::{PLACEHOLDERS, fill_placeholders};
 pub use preset::{Code, Preset, Source, TuningRecord};
 pub use reach::ReachBy;

@@ -67,7 +67,7 @@ impl Pass {
     /// Names the entry point.
     pub(crate) fn kernel(&self) -> &str {
         match &self.shader {
-            Some(shader) => &shader.entry,
+            Some(shader) => &shader.file.entry,
             None => &self.entry,
         }
     }

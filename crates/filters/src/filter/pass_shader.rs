@@ -2,34 +2,16 @@
 
 use std::path::PathBuf;
 
+use shader_import::{ShaderFile, Stage};
+
 use crate::Expression;
 use crate::shader::Sampling;
-
-/// Stage of a shader.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub(crate) enum Stage {
-    /// One invocation per texel writes storage textures.
-    #[default]
-    Compute,
-    /// A triangle over the whole picture; each fragment writes the render targets.
-    Fragment,
-    /// Corners of the triangle of a fragment shader. Not a stage of a pass by itself.
-    #[serde(skip)]
-    Vertex,
-}
 
 /// A shader in a file of its own, with bindings that filter.toml explains.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PassShader {
-    /// The file, relative to the filter's folder.
-    pub file: PathBuf,
-    /// Pass of a ShaderLab file, if it has several.
-    pub shader_pass: Option<LabPass>,
-    /// Entry point.
-    pub entry: String,
-    /// Stage of the entry point.
-    pub stage: Stage,
+    /// Its file, and how to compile it.
+    pub file: ShaderFile,
     /// Textures that a fragment shader writes, by location; `output` is the picture.
     pub targets: Vec<String>,
     /// Mip level of the targets that it writes; 0 if left out.
@@ -40,12 +22,6 @@ pub(crate) struct PassShader {
     pub bindings: Vec<Binding>,
     /// Values of specialisation constants (`override` of WGSL), by name or number.
     pub constants: Vec<(String, Expression)>,
-    /// Conditions of WESL that are true.
-    pub conditions: Vec<String>,
-    /// Macros of its compiler, each as `NAME=value`.
-    pub defines: Vec<String>,
-    /// Program that compiles it; the first that can if left out.
-    pub compiler: Option<String>,
 }
 
 impl PassShader {
@@ -63,9 +39,12 @@ impl PassShader {
     /// one.
     pub(crate) fn stages(&self) -> Vec<PassShader> {
         let vertex = self.vertex.as_ref().map(|vertex| PassShader {
-            file: vertex.file.clone(),
-            entry: vertex.entry.clone(),
-            stage: Stage::Vertex,
+            file: ShaderFile {
+                path: vertex.path.clone(),
+                entry: vertex.entry.clone(),
+                stage: Stage::Vertex,
+                ..self.file.clone()
+            },
             targets: Vec::new(),
             ..self.clone()
         });
@@ -73,21 +52,11 @@ impl PassShader {
     }
 }
 
-/// Pass of a file in Unity's ShaderLab.
-#[derive(Clone, Debug, PartialEq, Eq, serde::Deserialize)]
-#[serde(untagged)]
-pub(crate) enum LabPass {
-    /// Its place, from 0.
-    Place(usize),
-    /// Its `Name`.
-    Name(String),
-}
-
 /// Vertex stage of a fragment shader.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct VertexShader {
     /// The file, relative to the filter's folder.
-    pub file: PathBuf,
+    pub path: PathBuf,
     /// Entry point.
     pub entry: String,
 }

@@ -5,17 +5,17 @@ use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use std::sync::{Arc, Mutex};
 
+use shader_import::falls_through_wrongly;
 use wgpu::naga::ShaderStage;
 
 use super::binding::{CompiledStage, Pipeline, create_pipeline};
 use super::device::Gpu;
 use super::limits::Limits;
 use super::targets::list_target_formats;
+use crate::bind::{list_constants, specialise};
 use crate::shader::{
-    Shader, Varying, count_loop_iterations, falls_through_wrongly, follow_interpolation,
-    run_on_large_stack,
+    Shader, Varying, count_loop_iterations, follow_interpolation, run_on_large_stack,
 };
-use crate::translate::{list_constants, specialise};
 use crate::{Filter, FilterError, Pass, Settings};
 
 /// The compiled kernels of one filter, from which [`Blur::with_kernels`](super::Blur::with_kernels)

@@ -4,9 +4,9 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use super::stages::{check_coordinates, check_targets, check_vertex};
+use crate::bind::check_texture;
 use crate::filter::{FURTHER_INPUTS, INPUTS, PassShader};
 use crate::shader::{BlockNumber, EntryPoint, Role, Shader, Variable, written_texture};
-use crate::translate::check_texture;
 use crate::{Count, Expression, Filter, FilterError, Pass};
 
 impl Filter {

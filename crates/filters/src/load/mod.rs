@@ -7,9 +7,10 @@ use std::path::Path;
 
 use frame::{FileError, read_bounded};
 use include_dir::{Dir, include_dir};
+use shader_import::{MAX_MODULE_BYTES, stays_below};
 
+use crate::bind::import_stages;
 use crate::shader::Shader;
-use crate::translate::{MAX_MODULE_BYTES, stays_below, translate};
 use crate::{Filter, FilterError, manifest};
 
 static BUILTIN: Dir = include_dir!("$CARGO_MANIFEST_DIR/../../shaders");
@@ -102,7 +103,7 @@ fn parse_filter(
                 let bytes = read_file(&path, MAX_MODULE_BYTES)?;
                 Ok((path, bytes))
             };
-            let mut stages = translate(&filter, shader, &read_shader)?;
+            let mut stages = import_stages(&filter, shader, &read_shader)?;
             let mut entries = stages.iter().flat_map(|stage| &stage.entry_points);
             let is_noisy = entries.any(|entry| entry.draws_noise);
             (stages[0].entry_points.iter_mut()).for_each(|entry| entry.draws_noise = is_noisy);

@@ -1,8 +1,10 @@
 //! Agreement of fragment shaders with their targets and their vertex stages.
 
+use shader_import::Stage;
+
+use crate::Filter;
 use crate::filter::PassShader;
 use crate::shader::{EntryPoint, Varying};
-use crate::{Filter, Stage};
 
 /// Refuses a fragment shader whose colours are not the render targets that filter.toml names.
 pub(super) fn check_targets(
@@ -10,7 +12,7 @@ pub(super) fn check_targets(
     shader: &PassShader,
     entry: &EntryPoint,
 ) -> Result<(), String> {
-    if shader.stage == Stage::Compute {
+    if shader.file.stage == Stage::Compute {
         return Ok(());
     }
     let targets = &shader.targets;

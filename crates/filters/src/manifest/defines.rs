@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use shader_import::Language;
+
 use super::file::MAX_ENTRIES;
-use crate::translate::Language;
 
 /// Upper limit on the characters of a value.
 const MAX_DEFINE_CHARACTERS: usize = 200;

@@ -4,14 +4,14 @@ use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};
 
 use serde::Deserialize;
+use shader_import::{LabPass, Language, SHADER_LAB, ShaderFile, Stage};
 use toml::Spanned;
 
 use super::bindings::{BindingEntry, read_bindings};
 use super::defines::read_defines;
 use super::file::File;
 use super::number::NumberEntry;
-use crate::filter::{LabPass, PassShader, Stage, VertexShader};
-use crate::translate::{Language, SHADER_LAB};
+use crate::filter::{PassShader, VertexShader};
 use crate::{Count, Filter, FilterError};
 
 /// `[[pass]]`.
@@ -75,18 +75,20 @@ pub(super) fn read_shader(
     let constants: Result<_, String> = constants.collect();
     let defines = read_defines(&keys.defines, language);
     Ok(Some(PassShader {
-        file: relative,
-        shader_pass: keys.shader_pass.clone(),
-        entry: entry.to_owned(),
-        stage,
+        file: ShaderFile {
+            path: relative,
+            shader_pass: keys.shader_pass.clone(),
+            entry: entry.to_owned(),
+            stage,
+            conditions: keys.conditions.clone(),
+            defines: defines.map_err(|reason| file.at(pass, format!("defines: {reason}")))?,
+            compiler: keys.compiler.clone(),
+        },
         targets,
         bindings: read_bindings(file, &keys.binding, filter)?,
         level: (level.transpose()).map_err(|reason| file.at(pass, format!("level = {reason}")))?,
         vertex,
         constants: constants.map_err(|reason| file.at(pass, reason))?,
-        conditions: keys.conditions.clone(),
-        defines: defines.map_err(|reason| file.at(pass, format!("defines: {reason}")))?,
-        compiler: keys.compiler.clone(),
     }))
 }
 
@@ -197,7 +199,7 @@ fn read_vertex(
     let vertex_file = vertex_shader.as_ref();
     let vertex_file = vertex_file.map(|path| read_file(file, "vertex_shader", path));
     Ok(Some(VertexShader {
-        file: vertex_file
+        path: vertex_file
             .transpose()?
             .map_or(shader.to_owned(), |(path, _)| path),
         entry: vertex.clone().unwrap_or_else(|| "main".to_owned()),

@@ -1,12 +1,13 @@
 //! `[[texture]]` and `[[pass]]` of filter.toml.
 
 use serde::Deserialize;
+use shader_import::Stage;
 use toml::Spanned;
 
 use super::file::File;
 use super::number::{IDENTIFIER, NumberEntry, NumbersEntry, is_identifier};
 use super::pass_shader::{PassEntry, read_shader};
-use crate::filter::{EXCLUSION, PassShader, Stage};
+use crate::filter::{EXCLUSION, PassShader};
 use crate::{Count, Expression, Filter, FilterError, Format, Holds, Pass, Rounding, Texture};
 
 #[derive(Deserialize)]
@@ -162,7 +163,7 @@ fn read_pass(
         file.check_line(spanned, "entry", entry)?;
     }
     let shader = read_shader(file, spanned, filter)?;
-    let draws = (shader.iter()).any(|shader| shader.stage == Stage::Fragment);
+    let draws = (shader.iter()).any(|shader| shader.file.stage == Stage::Fragment);
     if draws && (over.is_some() || *workgroup_per_texel) {
         let reason = "pass: over and workgroup_per_texel are for kernels; a fragment shader runs over its `targets`";
         return Err(file.at(spanned, reason.into()));
@@ -203,8 +204,8 @@ fn read_pass(
 /// Names a pass with a shader of its own: after its entry point, or after its file if the entry
 /// point is just `main`.
 fn name_pass(shader: &PassShader) -> String {
-    let stem = shader.file.file_stem().and_then(|stem| stem.to_str());
-    match (&shader.entry[..], stem) {
+    let stem = shader.file.path.file_stem().and_then(|stem| stem.to_str());
+    match (&shader.file.entry[..], stem) {
         ("main", Some(stem)) => stem.to_owned(),
         (entry, _) => entry.to_owned(),
     }

@@ -40,8 +40,8 @@ fn join(mut failed: Vec<Failure>) -> FilterError {
     failed.dedup_by(|a, b| a.error == b.error);
     let reasons: Vec<String> = failed.iter().map(Failure::reason).collect();
     let mut error = (failed.into_iter().next().expect("a compiler was tried")).error;
-    if let (2.., FilterError::Folder { reason, .. }) = (reasons.len(), &mut error) {
-        *reason = reasons.join("\n");
+    if let (2.., FilterError::Folder(fault)) = (reasons.len(), &mut error) {
+        fault.reason = reasons.join("\n");
     }
     error
 }
@@ -50,10 +50,10 @@ impl Failure {
     /// Names the compiler, and says why it failed.
     fn reason(&self) -> String {
         match &self.error {
-            FilterError::Folder { reason, .. } if reason.starts_with(self.program) => {
-                reason.clone()
+            FilterError::Folder(fault) if fault.reason.starts_with(self.program) => {
+                fault.reason.clone()
             }
-            FilterError::Folder { reason, .. } => format!("{}: {reason}", self.program),
+            FilterError::Folder(fault) => format!("{}: {}", self.program, fault.reason),
             error => format!("{}: {error}", self.program),
         }
     }

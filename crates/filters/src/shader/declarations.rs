@@ -3,14 +3,12 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use wgpu::naga::valid::{Capabilities, ValidationFlags, Validator};
-use wgpu::naga::{GlobalVariable, Handle, Module, ShaderStage, front};
+use shader_import::WgslText;
+use wgpu::naga::{GlobalVariable, Handle, Module, ShaderStage};
 
 use super::block::UniformBlock;
 use super::compiled_by::CompiledBy;
 use super::entry_point::{EntryPoint, find_entry_points};
-use super::nesting::check_nesting;
-use super::source::Source;
 use super::stack::guard;
 use super::variable::{Variable, find_variable};
 use crate::FilterError;
@@ -39,52 +37,17 @@ pub(crate) struct Shader {
     pub compiled_by: Option<CompiledBy>,
 }
 
-/// Capabilities of every device; kernels can `enable` nothing more.
-pub(crate) const CAPABILITIES: Capabilities = Capabilities::MULTISAMPLED_SHADING
-    .union(Capabilities::CUBE_ARRAY_TEXTURES)
-    .union(Capabilities::SHADER_FLOAT16_IN_FLOAT32);
-
-/// Makes a validator of shaders that engines wrote, which may compute in 64 bits.
-pub(crate) fn engine_validator() -> Validator {
-    Validator::new(ValidationFlags::all(), CAPABILITIES | Capabilities::FLOAT64)
-}
-
-/// Parses WGSL without common.wgsl.
-pub(crate) fn parse_wgsl(path: &Path, text: &str) -> Result<Module, FilterError> {
-    check_nesting(path, text)?;
-    parse_source(&Source::new(path, text, ""))
-}
-
-fn parse_source(source: &Source) -> Result<Module, FilterError> {
-    let options = front::wgsl::Options {
-        capabilities: CAPABILITIES,
-        ..front::wgsl::Options::new()
-    };
-    let mut parser = front::wgsl::Frontend::new_with_options(options);
-    parser.parse(&source.text).map_err(|error| {
-        let message = error.emit_to_string_with_path(&source.text, source.name());
-        source.refuse(error.location(&source.text), &message)
-    })
-}
-
 impl Shader {
-    /// Parses and validates the kernels at `path`, with common.wgsl appended. Refuses text that is
-    /// nested too deeply before naga sees it.
+    /// Parses and validates the kernels at `path`, with common.wgsl appended.
     pub fn parse(path: &Path, kernels: &str) -> Result<Self, FilterError> {
-        check_nesting(path, kernels)?;
         guard(path, "reads WGSL", || Self::parse_here(path, kernels))
     }
 
     fn parse_here(path: &Path, kernels: &str) -> Result<Self, FilterError> {
-        let source = Source::new(path, kernels, COMMON);
-        let module = parse_source(&source)?;
+        let source = WgslText::new(path, kernels, COMMON);
+        let module = source.parse()?;
         source.refuse_overrides(&module)?;
-        let info = Validator::new(ValidationFlags::all(), CAPABILITIES)
-            .validate(&module)
-            .map_err(|error| {
-                let message = error.emit_to_string_with_path(&source.text, source.name());
-                source.refuse(error.location(&source.text), &message)
-            })?;
+        let info = source.validate(&module)?;
         let handles: Vec<Handle<GlobalVariable>> = module
             .global_variables
             .iter()
@@ -102,7 +65,7 @@ impl Shader {
         entry_points.retain(|entry| entry.stage == ShaderStage::Compute);
         for entry in &entry_points {
             let checked = entry.usage.check(&entry.name);
-            checked.map_err(|reason| source.at(entry.line, reason))?;
+            checked.map_err(|reason| source.fault(entry.line, reason))?;
         }
         Ok(Self {
             path: path.to_owned(),

@@ -8,7 +8,7 @@ use std::{panic, thread};
 use crate::FilterError;
 
 /// Bytes of stack for reading and compiling kernels. Naga takes less than 2 KB per level of
-/// [`MAX_NESTING`](super::MAX_NESTING), and less than 1 KB per declaration that refers to another
+/// the 1000 that `shader_import` allows, and less than 1 KB per declaration that refers to another
 /// one.
 const STACK_BYTES: usize = 64 << 20;
 

@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
+use shader_import::engine_validator;
 use wgpu::naga::{ImageClass, Module, ResourceBinding, Span, Type, TypeInner};
 
-use super::declarations::{Shader, engine_validator};
+use super::declarations::Shader;
 use super::texel::Format;
 use super::variable::Role;
 

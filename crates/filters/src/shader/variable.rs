@@ -1,5 +1,6 @@
 //! Resource variables of kernels: uniforms, and the textures that they read and write.
 
+use shader_import::{FileFault, WgslText};
 use wgpu::naga::{
     AddressSpace, GlobalVariable, Handle, ImageClass, ImageDimension, Module, ResourceBinding,
     ScalarKind, StorageAccess, TypeInner,
@@ -7,9 +8,8 @@ use wgpu::naga::{
 
 use super::block::UniformBlock;
 use super::sampling::Sampling;
-use super::source::Source;
 use super::texel::Format;
-use crate::{Expression, FilterError};
+use crate::Expression;
 
 /// A resource variable.
 #[derive(Clone, Debug)]
@@ -47,15 +47,15 @@ pub(crate) fn written_texture(variable: &str) -> &str {
 /// Finds the role of a variable, and adds the block of a uniform; refuses one that nothing can be
 /// bound to.
 pub(super) fn find_variable(
-    source: &Source,
+    source: &WgslText,
     module: &Module,
     handle: Handle<GlobalVariable>,
     blocks: &mut Vec<UniformBlock>,
-) -> Result<Variable, FilterError> {
+) -> Result<Variable, FileFault> {
     let variable = &module.global_variables[handle];
     let name = variable.name.clone().unwrap_or_default();
     let line = source.line(module, handle);
-    let refuse = |reason: String| source.at(Some(line), format!("\"{name}\" {reason}"));
+    let refuse = |reason: String| source.fault(Some(line), format!("\"{name}\" {reason}"));
     let ResourceBinding { group, binding } =
         variable.binding.expect("only bound variables are listed");
     if group != 0 {

@@ -5,24 +5,38 @@ use frame::{Plane, Raster};
 use crate::object::mover::Silhouette;
 use crate::object::sides::Side;
 
-/// Pools the matte outside the support by side, in pixels of silhouette growth: beside it over the
-/// length of both lateral silhouettes, ahead of it and behind it over the width across the motion.
+/// Mass outside the support by side, in pixels of silhouette growth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bleed {
+    /// Beside it.
+    pub lateral: f64,
+    /// Ahead of it.
+    pub leading: f64,
+    /// Behind it.
+    pub trailing: f64,
+}
+
+/// Pools the matte outside the support by side: beside it over the length of both lateral silhouettes, ahead of it and behind it over the width across the motion.
 /// `None` if the object shows no silhouette in the picture.
 pub fn measure_bleed(
     output: &Plane,
     sides: &Raster<Side>,
     silhouette: &Silhouette,
-) -> Option<[f64; 3]> {
+) -> Option<Bleed> {
     let mut masses = [0.0; 4];
     for (matte, side) in output.pixels.iter().zip(&sides.pixels) {
         masses[*side as usize] += f64::from(*matte);
     }
-    let [_inside, lateral, leading, trailing] = masses;
+    let mass = |side: Side| masses[side as usize];
     let Silhouette {
         lateral: length,
         across,
     } = *silhouette;
-    (length > 0.0 && across > 0.0).then(|| [lateral / length, leading / across, trailing / across])
+    (length > 0.0 && across > 0.0).then(|| Bleed {
+        lateral: mass(Side::Lateral) / length,
+        leading: mass(Side::Leading) / across,
+        trailing: mass(Side::Trailing) / across,
+    })
 }
 
 #[cfg(test)]
@@ -45,7 +59,14 @@ mod tests {
             let silhouette = Silhouette { lateral, across };
             measure_bleed(&output, &sides, &silhouette)
         };
-        assert_eq!(measure(2.0, 4.0), Some([0.25, 0.0625, 0.03125]));
+        assert_eq!(
+            measure(2.0, 4.0),
+            Some(Bleed {
+                lateral: 0.25,
+                leading: 0.0625,
+                trailing: 0.03125,
+            })
+        );
         assert_eq!(measure(0.0, 4.0), None);
         assert_eq!(measure(2.0, 0.0), None);
     }

@@ -4,7 +4,7 @@ use frame::{Frame, Picture, Plane, Raster, Region, Regions, Truth};
 
 use crate::label::average_on_object;
 use crate::object::along_motion::{AlongMotion, BORDER, NO_SILHOUETTE, touches_border};
-use crate::object::bleed::measure_bleed;
+use crate::object::bleed::{Bleed, measure_bleed};
 use crate::object::gradient::{gradient_error, gradient_magnitude};
 use crate::object::mass::{Mass, measure_mass};
 use crate::object::misplacement::{Misplacement, measure_misplacement};
@@ -37,13 +37,38 @@ pub struct ObjectReference {
 struct Moving {
     mover: Mover,
     sides: Option<Raster<Side>>,
-    /// Bleed of the truth's first half: lateral, leading and trailing.
-    bleed_noise: Option<[f64; 3]>,
+    /// Bleed of the truth's first half.
+    bleed_noise: Option<Bleed>,
     rows: Result<AlongMotion, String>,
     /// Gradient magnitude of the true matte; none if it is zero.
     gradient: Option<Patch>,
     /// Mean error of the first half's gradient where anything moves.
     gradient_noise: Option<f64>,
+}
+
+/// Scores of mass outside the support.
+pub(crate) struct BleedScores {
+    pub lateral: Measured,
+    pub leading: Measured,
+    pub trailing: Measured,
+}
+
+/// Scores of rows along the motion.
+struct RowScores {
+    growth: Measured,
+    gain: Measured,
+    loss: Measured,
+    misplacement: Measured,
+    centroid: Measured,
+    extent: Measured,
+    tv_excess: Measured,
+}
+
+/// Scores of mass inside the support.
+struct MassScores {
+    hole: Measured,
+    deficit: Measured,
+    energy: Measured,
 }
 
 impl ObjectReference {
@@ -101,35 +126,27 @@ impl ObjectReference {
     ) -> ObjectScores {
         let variation = average_on_object(&errors.label, &self.truth, &regions.moving);
         let flip = average_on_object(&errors.flip, &self.truth, &regions.moving);
-        let [bleed_lateral, bleed_leading, bleed_trailing] = self.score_bleed(matte);
-        let [
-            lateral_growth,
-            row_gain,
-            row_loss,
-            misplacement,
-            centroid,
-            extent,
-            tv_excess,
-        ] = self.score_rows(matte);
-        let [hole, deficit, energy] = self.score_mass(matte);
+        let bleed = self.score_bleed(matte);
+        let rows = self.score_rows(matte);
+        let mass = self.score_mass(matte);
         let moving = self.mover.as_ref();
         ObjectScores {
             object: self.name.clone(),
             moves: moving.is_ok(),
             displacement: moving.map_or([0.0; 2], |moving| moving.mover.displacement),
-            bleed_lateral,
-            bleed_leading,
-            bleed_trailing,
-            lateral_growth,
-            row_gain,
-            row_loss,
-            misplacement,
-            centroid,
-            extent,
-            tv_excess,
-            hole,
-            deficit,
-            energy,
+            bleed_lateral: bleed.lateral,
+            bleed_leading: bleed.leading,
+            bleed_trailing: bleed.trailing,
+            lateral_growth: rows.growth,
+            row_gain: rows.gain,
+            row_loss: rows.loss,
+            misplacement: rows.misplacement,
+            centroid: rows.centroid,
+            extent: rows.extent,
+            tv_excess: rows.tv_excess,
+            hole: mass.hole,
+            deficit: mass.deficit,
+            energy: mass.energy,
             label_total_variation: score(
                 ObjectMetric::LabelTotalVariation,
                 variation,
@@ -181,93 +198,102 @@ impl ObjectReference {
         }
     }
 
-    pub(crate) fn score_bleed(&self, matte: &Plane) -> [Measured; 3] {
+    pub(crate) fn score_bleed(&self, matte: &Plane) -> BleedScores {
         let moving = match self.moving() {
             Ok(moving) => moving,
-            Err(reason) => return [(); 3].map(|()| Measured::not_applicable(reason)),
+            Err(reason) => {
+                let none = || Measured::not_applicable(reason);
+                return BleedScores {
+                    lateral: none(),
+                    leading: none(),
+                    trailing: none(),
+                };
+            }
         };
-        let found = moving
+        let bleed = moving
             .sides
             .as_ref()
             .and_then(|sides| measure_bleed(matte, sides, &moving.mover.silhouette));
         let noise = moving.bleed_noise;
-        let pick = |metric, side: usize| {
-            let [found, noise] = [found, noise].map(|bleed| Some(bleed?[side]));
-            score(metric, found, noise, NO_SILHOUETTE)
+        let pick = |metric, side: fn(Bleed) -> f64| {
+            score(metric, bleed.map(side), noise.map(side), NO_SILHOUETTE)
         };
-        [
-            pick(ObjectMetric::BleedLateral, 0),
-            pick(ObjectMetric::BleedLeading, 1),
-            pick(ObjectMetric::BleedTrailing, 2),
-        ]
+        BleedScores {
+            lateral: pick(ObjectMetric::BleedLateral, |bleed| bleed.lateral),
+            leading: pick(ObjectMetric::BleedLeading, |bleed| bleed.leading),
+            trailing: pick(ObjectMetric::BleedTrailing, |bleed| bleed.trailing),
+        }
     }
 
-    /// Scores growth, gain, loss, misplacement, centroid, extent and excess of total variation.
-    fn score_rows(&self, matte: &Plane) -> [Measured; 7] {
+    fn score_rows(&self, matte: &Plane) -> RowScores {
         let (rows, mover) = match self.along_motion() {
-            Ok(found) => found,
-            Err(reason) => return [(); 7].map(|()| Measured::not_applicable(&reason)),
+            Ok(along) => along,
+            Err(reason) => return RowScores::not_applicable(&reason),
         };
         let grid = rows.rows.spread(matte);
-        let [growth, gain, loss] = match &rows.mass_floor {
-            Ok(floor) => {
-                let length = mover.silhouette.lateral;
-                let found = RowMass::new(&grid, &rows.truth, &rows.instant, length);
-                [
-                    Measured::score(found.growth, floor.growth),
-                    Measured::score(found.gain, floor.gain),
-                    Measured::score(found.loss, floor.loss),
-                ]
-            }
-            Err(reason) => [(); 3].map(|()| Measured::not_applicable(reason)),
+        let length = mover.silhouette.lateral;
+        let mass = (rows.mass_floor.as_ref()).map(|floor| {
+            (
+                RowMass::new(&grid, &rows.truth, &rows.instant, length),
+                floor,
+            )
+        });
+        let score_part = |part: fn(&RowMass) -> f64| match &mass {
+            Ok((mass, floor)) => Measured::score(part(mass), part(floor)),
+            Err(reason) => Measured::not_applicable(reason.as_str()),
         };
-        let found = measure_misplacement(&grid, &rows.truth);
+        let misplacement = measure_misplacement(&grid, &rows.truth);
         let noise = rows.misplacement_noise;
         let pick = |metric, part: fn(Misplacement) -> Option<f64>| {
-            let reason = match found {
+            let reason = match misplacement {
                 None => "has no mass where the truth has some",
                 Some(_) => "has negative mass, which leaves it no length",
             };
             let noise = noise.and_then(part);
-            score(metric, found.and_then(part), noise, reason)
+            score(metric, misplacement.and_then(part), noise, reason)
         };
-        [
-            growth,
-            gain,
-            loss,
-            pick(ObjectMetric::Misplacement, |found| Some(found.distance)),
-            pick(ObjectMetric::Centroid, |found| Some(found.centroid)),
-            pick(ObjectMetric::Extent, |found| found.extent),
-            Measured::score(
+        RowScores {
+            growth: score_part(|mass| mass.growth),
+            gain: score_part(|mass| mass.gain),
+            loss: score_part(|mass| mass.loss),
+            misplacement: pick(ObjectMetric::Misplacement, |place| Some(place.distance)),
+            centroid: pick(ObjectMetric::Centroid, |place| Some(place.centroid)),
+            extent: pick(ObjectMetric::Extent, |place| place.extent),
+            tv_excess: Measured::score(
                 grid.total_variation() / rows.truth.total_variation() - 1.0,
                 ObjectMetric::TvExcess
                     .row()
                     .ideal
                     .floor(rows.variation_noise),
             ),
-        ]
+        }
     }
 
-    fn score_mass(&self, matte: &Plane) -> [Measured; 3] {
+    fn score_mass(&self, matte: &Plane) -> MassScores {
         if let Err(reason) = self.moving() {
-            return [(); 3].map(|()| Measured::not_applicable(reason));
+            let none = || Measured::not_applicable(reason);
+            return MassScores {
+                hole: none(),
+                deficit: none(),
+                energy: none(),
+            };
         }
-        let found = measure_mass(matte, &self.truth, &self.core);
+        let mass = measure_mass(matte, &self.truth, &self.core);
         let pick = |metric, part: fn(Mass) -> Option<f64>, reason| {
-            let [found, noise] = [found, self.mass_noise].map(|mass| mass.and_then(part));
-            score(metric, found, noise, reason)
+            let [value, noise] = [mass, self.mass_noise].map(|mass| mass.and_then(part));
+            score(metric, value, noise, reason)
         };
         let unseen = "is not seen while the shutter is open";
         let uncovered = "covers no pixel throughout the shutter";
-        [
-            pick(ObjectMetric::Hole, |mass| mass.hole, uncovered),
-            pick(ObjectMetric::Deficit, |mass| Some(mass.deficit), unseen),
-            if self.is_at_border {
+        MassScores {
+            hole: pick(ObjectMetric::Hole, |mass| mass.hole, uncovered),
+            deficit: pick(ObjectMetric::Deficit, |mass| Some(mass.deficit), unseen),
+            energy: if self.is_at_border {
                 Measured::not_applicable(BORDER)
             } else {
                 pick(ObjectMetric::Energy, |mass| Some(mass.energy), unseen)
             },
-        ]
+        }
     }
 
     fn moving(&self) -> Result<&Moving, &'static str> {
@@ -278,6 +304,21 @@ impl ObjectReference {
         let moving = self.moving()?;
         let rows = moving.rows.as_ref().map_err(String::clone)?;
         Ok((rows, &moving.mover))
+    }
+}
+
+impl RowScores {
+    fn not_applicable(reason: &str) -> Self {
+        let none = || Measured::not_applicable(reason);
+        Self {
+            growth: none(),
+            gain: none(),
+            loss: none(),
+            misplacement: none(),
+            centroid: none(),
+            extent: none(),
+            tv_excess: none(),
+        }
     }
 }
 

@@ -9,10 +9,11 @@ impl Reference<'_> {
     /// first), as [`Reference::measure`] does; `None` if it applies to no object.
     pub fn measure_bleed_lateral(&self, coverage: &[Plane]) -> Option<f64> {
         let objects = self.objects.iter().zip(&coverage[1..]);
-        let bleeds = objects.filter_map(|(object, matte)| match &object.score_bleed(matte)[0] {
-            Measured::Score(score) => Some(score.value),
-            Measured::NotApplicable { .. } => None,
-        });
+        let bleeds =
+            objects.filter_map(|(object, matte)| match object.score_bleed(matte).lateral {
+                Measured::Score(score) => Some(score.value),
+                Measured::NotApplicable { .. } => None,
+            });
         bleeds.max_by(f64::total_cmp)
     }
 }

@@ -156,15 +156,16 @@ impl<'a> Reference<'a> {
             let (own, noise) = (pooled[region as usize], self.noise[region as usize]);
             own.zip(noise).ok_or(explain_empty(region))
         });
-        let [moving, support, still, full, knowable, unknowable] = &pooled;
+        let image = |region: Region| score_image(&pooled[region as usize]);
+        let moving = &pooled[Region::Moving as usize];
         let mut measurement = Measurement {
             scores: Scores {
-                moving: score_image(moving),
-                support: score_image(support),
-                still: score_image(still),
-                full: score_image(full),
-                knowable: score_image(knowable),
-                unknowable: score_image(unknowable),
+                moving: image(Region::Moving),
+                support: image(Region::Support),
+                still: image(Region::Still),
+                full: image(Region::Full),
+                knowable: image(Region::Knowable),
+                unknowable: image(Region::Unknowable),
                 frozen,
                 static_contamination: self.score_static_change(&static_change),
                 label_total_variation: score_labels(moving),

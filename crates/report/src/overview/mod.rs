@@ -1,20 +1,17 @@
 //! Overview: all scenes and all filters at a glance.
 
-pub mod bench_file;
 mod cell;
-pub mod costs;
-mod pareto;
 mod score_table;
 mod winners;
 
-use costs::costs;
 use judge::{Decision, Level, Verdict, lag_text};
 use maud::{Markup, html};
 use metrics::{Ideal, Metric};
-use score_table::score_table;
+use score_table::ScoreTable;
 use tracer::SceneId;
 use winners::{sequence_winners, winners};
 
+use crate::addition::Addition;
 use crate::case::bounds::broken_bounds;
 use crate::case::case_view::CaseView;
 use crate::case_table::CaseTable;
@@ -38,51 +35,60 @@ const TABLE_SCORES: [(Metric, &str); 11] = [
     (Metric::PSNR, "PSNR"),
 ];
 
-/// Shows the scores of all cases, costs, and what the run depended on. `thumbnails` are addresses
-/// of the scenes' truths.
-pub fn overview(
-    table: &CaseTable,
-    views: &[CaseView],
-    thumbnails: &[String],
-    verdict: Option<&Verdict>,
-) -> Markup {
-    let findings = || views.iter().flat_map(|view| &view.findings);
-    let required = Tally::of(findings(), Level::Required);
-    let is_checked = required.all > 0;
-    html! {
-        section #overview {
-            @if let Some(verdict) = verdict { (outcome(verdict, &required)) }
-            (winners(table))
-            (sequence_winners(table.run))
-            (counts(table, &Tally::of(findings(), Level::Report)))
-            (engines(table))
-            @if let Some(note) = table.run.scaling_note() { p.note { (note) } }
-            (broken_bounds(views))
-            div.toolbar #tables {
-                fieldset.choice {
-                    legend.unseen { "Score" }
-                    @for (index, (metric, title)) in TABLE_SCORES.iter().enumerate() {
-                        label {
-                            input type="radio" name="metric" value=(metric.name()) checked[index == 0];
-                            span { (title) }
+/// A run at a glance.
+pub struct Overview<'a> {
+    pub table: &'a CaseTable<'a>,
+    /// The cases in the order of the run.
+    pub views: &'a [CaseView<'a>],
+    /// Addresses of the scenes' truths.
+    pub thumbnails: &'a [String],
+    pub verdict: Option<&'a Verdict>,
+    /// Contents of other crates.
+    pub additions: &'a [Addition],
+}
+
+impl Overview<'_> {
+    /// Shows the scores of all cases, what other crates add, and what the run depended on.
+    pub fn write(&self) -> Markup {
+        let Self { table, views, .. } = self;
+        let findings = || views.iter().flat_map(|view| &view.findings);
+        let required = Tally::of(findings(), Level::Required);
+        let is_checked = required.all > 0;
+        html! {
+            section #overview {
+                @if let Some(verdict) = self.verdict { (outcome(verdict, &required)) }
+                (winners(table))
+                (sequence_winners(table.run))
+                (counts(table, &Tally::of(findings(), Level::Report)))
+                (engines(table))
+                @if let Some(note) = table.run.scaling_note() { p.note { (note) } }
+                (broken_bounds(views))
+                div.toolbar #tables {
+                    fieldset.choice {
+                        legend.unseen { "Score" }
+                        @for (index, (metric, title)) in TABLE_SCORES.iter().enumerate() {
+                            label {
+                                input type="radio" name="metric" value=(metric.name()) checked[index == 0];
+                                span { (title) }
+                            }
                         }
                     }
+                    input type="search" name="search" placeholder="Search filters" aria-label="Search filters";
+                    @if is_checked {
+                        label.check { input type="checkbox" name="failing"; " Only failing" }
+                    }
+                    label.check { input type="checkbox" name="references"; " References" }
                 }
-                input type="search" name="search" placeholder="Search filters" aria-label="Search filters";
-                @if is_checked {
-                    label.check { input type="checkbox" name="failing"; " Only failing" }
+                @for (metric, title) in TABLE_SCORES { (panel(self, metric, title)) }
+                p.nothing hidden { "No filter of this name." }
+                (key(is_checked))
+                div.peek hidden aria-hidden="true" {
+                    p {}
+                    @for title in ["truth", "output", "FLIP"] { figure { canvas width="48" height="48" {} figcaption { (title) } } }
                 }
-                label.check { input type="checkbox" name="references"; " References" }
+                @for addition in self.additions { (addition.section) }
+                (provenance(table))
             }
-            @for score in TABLE_SCORES { (panel(table, views, thumbnails, score)) }
-            p.nothing hidden { "No filter of this name." }
-            (key(is_checked))
-            div.peek hidden aria-hidden="true" {
-                p {}
-                @for title in ["truth", "output", "FLIP"] { figure { canvas width="48" height="48" {} figcaption { (title) } } }
-            }
-            (costs(table))
-            (provenance(table))
         }
     }
 }
@@ -140,20 +146,21 @@ fn engines(table: &CaseTable) -> Markup {
     }
 }
 
-fn panel(
-    table: &CaseTable,
-    views: &[CaseView],
-    thumbnails: &[String],
-    (metric, title): (Metric, &str),
-) -> Markup {
+fn panel(overview: &Overview, metric: Metric, title: &str) -> Markup {
     // One copy of the pictures is enough: the script moves them to the visible table.
     let is_first = metric == TABLE_SCORES[0].0;
+    let scores = ScoreTable {
+        overview,
+        metric,
+        title,
+        thumbnails: if is_first { overview.thumbnails } else { &[] },
+    };
     let content = html! {
         p.meaning {
             strong { (title) } ": " (metric.meaning()) "; " (better(metric)) "."
-            @if let Some(lag) = lag_text(&table.run.cases).filter(|_| metric == Metric::SKILL) { " " (lag) }
+            @if let Some(lag) = lag_text(&overview.table.run.cases).filter(|_| metric == Metric::SKILL) { " " (lag) }
         }
-        (score_table(table, views, if is_first { thumbnails } else { &[] }, (metric, title)))
+        (scores.write())
     };
     html! {
         div.panel data-metric=(metric.name()) {

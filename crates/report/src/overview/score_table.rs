@@ -6,9 +6,9 @@ use measure::{Case, FilterId, Overall};
 use metrics::{Ideal, Metric};
 use tracer::FrameRate;
 
-use super::bench_file::cost_of;
+use super::Overview;
 use super::cell::{Colors, cell};
-use super::costs::cost_text;
+use crate::addition::{FilterColumn, columns};
 use crate::address::section_anchor;
 use crate::case::case_view::CaseView;
 use crate::case_table::CaseTable;
@@ -75,54 +75,62 @@ fn rank_rows<'a>(table: &CaseTable<'a>, metric: Metric) -> Vec<Vec<Row<'a>>> {
     groups
 }
 
-/// Writes the table. A single scene has no means, and its table no columns for them.
-pub fn score_table(
-    table: &CaseTable,
-    views: &[CaseView],
-    thumbnails: &[String],
-    (metric, title): (Metric, &str),
-) -> Markup {
-    let scenes = &table.scenes;
-    let ideal = metric.ideal();
-    let groups = rank_rows(table, metric);
-    let rows = || groups.iter().flatten();
-    let measured = views.iter().filter(|view| !view.case.is_reference);
-    let colors = Colors::over(
-        ideal,
-        measured.filter_map(|view| view.case.estimate(metric)),
-    );
-    let has_means = rows().any(|row| row.overall.is_some());
-    let strip = strip_over(rows().filter(|row| !row.filter.is_reference), ideal);
-    let columns =
-        1 + scenes.len() + 3 * usize::from(has_means) + usize::from(table.bench.is_some());
-    // Best first.
-    let order = match ideal {
-        Ideal::Highest => "descending",
-        Ideal::Lowest | Ideal::Target(_) => "ascending",
-    };
-    html! {
-        div.scroll tabindex="0" role="region" aria-label=(format!("{title} of every case")) {
-            table.sortable.many[scenes.len() > MANY] data-first=(order) {
-                caption { (caption(metric, has_means, scenes.len())) }
-                thead { (heading(table, thumbnails, has_means.then(|| ends(metric, &strip)))) }
-                @for group in &groups {
-                    @if !metric.spans_alignments() {
-                        tbody.group {
-                            tr { th scope="rowgroup" colspan=(columns) { (group[0].filter.alignment) " shutter" } }
+/// A table of one score before it is written.
+pub struct ScoreTable<'a> {
+    pub overview: &'a Overview<'a>,
+    pub metric: Metric,
+    pub title: &'a str,
+    /// Addresses of the scenes' truths above their columns; none for a table without pictures.
+    pub thumbnails: &'a [String],
+}
+
+impl ScoreTable<'_> {
+    /// Writes the table. A single scene has no means, and its table no columns for them.
+    pub fn write(&self) -> Markup {
+        let Overview { table, views, .. } = self.overview;
+        let metric = self.metric;
+        let scenes = &table.scenes;
+        let ideal = metric.ideal();
+        let groups = rank_rows(table, metric);
+        let rows = || groups.iter().flatten();
+        let measured = views.iter().filter(|view| !view.case.is_reference);
+        let colors = Colors::over(
+            ideal,
+            measured.filter_map(|view| view.case.estimate(metric)),
+        );
+        let has_means = rows().any(|row| row.overall.is_some());
+        let strip = strip_over(rows().filter(|row| !row.filter.is_reference), ideal);
+        let added = columns(self.overview.additions).count();
+        let width = 1 + scenes.len() + 3 * usize::from(has_means) + added;
+        // Best first.
+        let order = match ideal {
+            Ideal::Highest => "descending",
+            Ideal::Lowest | Ideal::Target(_) => "ascending",
+        };
+        html! {
+            div.scroll tabindex="0" role="region" aria-label=(format!("{} of every case", self.title)) {
+                table.sortable.many[scenes.len() > MANY] data-first=(order) {
+                    caption { (caption(metric, has_means, scenes.len())) }
+                    thead { (self.heading(has_means.then(|| ends(metric, &strip)))) }
+                    @for group in &groups {
+                        @if !metric.spans_alignments() {
+                            tbody.group {
+                                tr { th scope="rowgroup" colspan=(width) { (group[0].filter.alignment) " shutter" } }
+                            }
                         }
-                    }
-                    tbody {
-                        @for row in group {
-                            tr.reference[row.filter.is_reference] data-failing[is_failing(table, views, &row.filter)] {
-                                th scope="row" { (name(metric, &row.filter)) }
-                                @if has_means { (mean_cells(table, metric, &strip, row)) }
-                                @for scene in scenes {
-                                    @match table.case_on(&row.filter, scene) {
-                                        Some(index) => (cell(metric, &colors, &views[index])),
-                                        None => td { "-" },
+                        tbody {
+                            @for row in group {
+                                tr.reference[row.filter.is_reference] data-failing[is_failing(table, views, &row.filter)] {
+                                    th scope="row" { (name(metric, &row.filter)) }
+                                    @if has_means { (mean_cells(table, metric, &strip, row)) }
+                                    @for scene in scenes {
+                                        @match table.case_on(&row.filter, scene) {
+                                            Some(index) => (cell(metric, &colors, &views[index])),
+                                            None => td { "-" },
+                                        }
                                     }
+                                    @for column in columns(self.overview.additions) { (added_cell(column, &row.filter)) }
                                 }
-                                @if table.bench.is_some() { (cost(table, &row.filter)) }
                             }
                         }
                     }
@@ -130,25 +138,27 @@ pub fn score_table(
             }
         }
     }
-}
 
-/// Writes the headings of the columns; `ends` of the means' scale are none without means.
-fn heading(table: &CaseTable, thumbnails: &[String], ends: Option<Markup>) -> Markup {
-    html! {
-        tr {
-            th scope="col" { button { "filter" } }
-            @if let Some(ends) = ends {
-                th scope="col" { button { "mean" } }
-                th.note scope="col" { "95 % CI" }
-                th.chart scope="col" { (ends) }
-            }
-            @for (index, scene) in table.scenes.iter().enumerate() {
-                th.scene scope="col" {
-                    img src=[thumbnails.get(index)] alt="";
-                    button { (breakable(&scene.to_string())) }
+    /// Writes the headings of the columns; `ends` of the means' scale are none without means.
+    fn heading(&self, ends: Option<Markup>) -> Markup {
+        html! {
+            tr {
+                th scope="col" { button { "filter" } }
+                @if let Some(ends) = ends {
+                    th scope="col" { button { "mean" } }
+                    th.note scope="col" { "95 % CI" }
+                    th.chart scope="col" { (ends) }
+                }
+                @for (index, scene) in self.overview.table.scenes.iter().enumerate() {
+                    th.scene scope="col" {
+                        img src=[self.thumbnails.get(index)] alt="";
+                        button { (breakable(&scene.to_string())) }
+                    }
+                }
+                @for column in columns(self.overview.additions) {
+                    th scope="col" { button { (column.name) ", " (column.unit) } }
                 }
             }
-            @if table.bench.is_some() { th scope="col" { button { "cost, ms" } } }
         }
     }
 }
@@ -253,8 +263,7 @@ fn strip_over<'a>(rows: impl Iterator<Item = &'a Row<'a>>, ideal: Ideal) -> Stri
     Strip::over(means.into_iter().filter(within).chain(perfect))
 }
 
-/// Writes the cost of a filter, which sorts like the scores.
-fn cost(table: &CaseTable, filter: &FilterId) -> Markup {
-    let cost = cost_of(table, filter);
-    html! { td.cost data-value=[cost.map(|cost| cost.seconds.median)] { (cost_text(cost)) } }
+/// Writes the number of a filter that another crate adds; it sorts like the scores.
+fn added_cell(column: &FilterColumn, filter: &FilterId) -> Markup {
+    html! { td class=(column.name) data-value=[column.value(filter)] { (column.text(filter)) } }
 }

@@ -1,4 +1,0 @@
-//! Tuning: known answers for every decision.
-
-mod deciding;
-mod searching;
