@@ -76,7 +76,7 @@ fn a_run_writes_scores_and_pictures_of_every_case() {
     assert_done(&sandbox.run(&["--filters", "identity,jump_flood:paper"]));
     let run = sandbox.read_run();
     assert_eq!(run.format, measure::FORMAT);
-    assert_eq!((run.render.width, run.render.height), (64, 32));
+    assert_eq!(run.render.size().to_string(), "64x32");
     assert_eq!(run.render.samples_per_pixel, 16);
     assert!(run.cases.is_sorted_by_key(|case| !case.is_reference));
     let names = |is_reference| {

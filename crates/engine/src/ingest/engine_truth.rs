@@ -3,7 +3,7 @@
 
 use frame::{
     Accumulation, Alignment, AtInstant, Ladder, Picture, Plane, Provenance, Raster, Replicate,
-    Shutter, ShutterProfile, Support, Truth,
+    Shutter, ShutterProfile, Size, Support, Truth,
 };
 use measure::{Error, LADDER};
 use tracer::{Progress, Watch};
@@ -183,7 +183,7 @@ fn read_subframes(
     watch: Watch,
 ) -> Result<(Vec<(u32, Halves)>, ColorRange), Error> {
     let count = capture.subframes.len();
-    let size = (capture.color.width, capture.color.height);
+    let size = capture.color.size();
     let mean = |subframes: u32, pick: &dyn Fn(usize) -> Vec<usize>| Mean {
         subframes,
         picks: [0, 1].map(pick),
@@ -229,7 +229,7 @@ struct Sum {
 }
 
 impl Sum {
-    fn new((width, height): (u32, u32), objects: usize) -> Self {
+    fn new(Size { width, height }: Size, objects: usize) -> Self {
         Self {
             colors: Raster::filled(width, height, [0.0; 3]),
             coverage: vec![Plane::filled(width, height, 0.0); objects],

@@ -7,6 +7,7 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use filters::{EXCLUSION, Filter, Input};
+use frame::Size;
 use measure::{
     Case, Error, FilterFrame, InputFormat, MEASURED_FILTERS, PROGRAM, Run, filter_input,
 };
@@ -131,7 +132,7 @@ fn describe_case(
     (scene, frame): (usize, &FilterFrame),
     (number, filter): (usize, &Filter),
 ) -> Result<String, String> {
-    let (width, height) = frame.size();
+    let Size { width, height } = frame.size();
     let is_missing = |name: &&str| match *name {
         EXCLUSION => frame.exclusion.is_none(),
         "velocity_z" => frame.velocity_z.is_none(),
