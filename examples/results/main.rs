@@ -17,7 +17,7 @@ use std::process::ExitCode;
 
 use bench::Bench;
 use judge::Results;
-use measure::{ACCUMULATE, Case, Error, Run};
+use measure::{Case, Error, ReferencePicture, Run};
 use report::{RunReport, write_case_strip, write_report};
 
 use crate::engines::list_engines;
@@ -131,7 +131,9 @@ fn write_pictures(all: &[Results], run: &Run, path: &Path) -> Result<(), Error> 
 fn write_site(folder: &Path, path: &Path) -> Result<(), Error> {
     let mut run = Run::read(path)?;
     // A scene's pictures are loaded together; live cases need no sub-frames next to them.
-    run.cases.retain(|case| case.filter != ACCUMULATE);
+    let is_accumulation =
+        |case: &Case| matches!(case.reference(), Some(ReferencePicture::Accumulation(_)));
+    run.cases.retain(|case| !is_accumulation(case));
     let names: BTreeSet<String> = (run.cases.iter())
         .map(|case| case.scene.to_string())
         .collect();

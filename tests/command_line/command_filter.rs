@@ -194,12 +194,12 @@ fn failing_programs_name_their_error_and_leave_no_picture() {
     let parts = ["ended well, but wrote no {out}", "printed:\n  | done"];
     refuse("echo done", &parts);
     for (lines, parts) in BROKEN_PROGRAMS {
-        refuse(lines, &parts);
+        refuse(lines, parts);
     }
     for (program, parts) in MISSING_PROGRAMS {
         let command = format!("command = [\"{program}\", \"{{frame}}\", \"{{out}}\"]");
         write_lines(&sandbox, "mine", &command);
-        assert_refused(&sandbox.shuttertruth(&blur("./mine")), 2, &parts);
+        assert_refused(&sandbox.shuttertruth(&blur("./mine")), 2, parts);
     }
 }
 
@@ -345,7 +345,7 @@ fn bad_folders_of_programs_are_refused_with_the_line() {
     let sandbox = Sandbox::new();
     for (lines, parts) in BAD_COMMANDS {
         write_lines(&sandbox, "mine", lines);
-        assert_refused(&sandbox.run(&["--filter", "mine"]), 2, &parts);
+        assert_refused(&sandbox.run(&["--filter", "mine"]), 2, parts);
         assert!(!sandbox.path("out").exists(), "{lines}");
     }
 }

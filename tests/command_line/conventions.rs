@@ -163,7 +163,7 @@ fn a_wrong_convention_is_refused_with_its_line() {
     sandbox.refuse(words, &["engine.toml: cannot read"]);
     for (text, parts) in BAD_CONVENTIONS {
         sandbox.put("engine.toml", text);
-        sandbox.refuse(words, &parts);
+        sandbox.refuse(words, parts);
     }
 }
 

@@ -117,7 +117,7 @@ fn assert_misfits_are_refused(sandbox: &Sandbox) {
         sandbox.refuse(&format!("score {files} --image {words}"), parts);
     };
     for (words, parts) in MISFITS {
-        refuse(&format!("mine {words}"), "", &parts);
+        refuse(&format!("mine {words}"), "", parts);
     }
     let parts = ["is no folder", "0001.exr"];
     refuse("mine/0000.exr --frames 3", "", &parts);

@@ -168,7 +168,7 @@ const BAD_MOTIONS: [(&str, &[&str]); 6] = [
 fn bad_requests_are_refused_with_the_way_out() {
     let sandbox = set_up();
     for (more, parts) in BAD_MOTIONS {
-        assert_refused(&import(&sandbox, more), 2, &parts);
+        assert_refused(&import(&sandbox, more), 2, parts);
     }
     for (out, parts) in [
         ("scenes/plate", ["scenes/plate", "exists already"]),

@@ -1,16 +1,13 @@
 //! The program `shuttertruth`: its arguments, its commands, and what they print.
 
 mod commands;
-mod environment;
 #[cfg(test)]
 mod guides;
 mod program;
 mod tables;
 
-use std::ffi::OsString;
 use std::process::ExitCode;
 
-use environment::set_environment;
 use filters::FilterError;
 use frame::TruthError;
 use measure::{Error, printable};
@@ -30,8 +27,6 @@ pub use terminal::table::{list_once, markdown_table, range_text};
 
 /// Runs the command of the command line and returns its exit code.
 pub fn run_program() -> ExitCode {
-    let is_verbose = |argument: OsString| argument == "-v" || argument == "--verbose";
-    set_environment(std::env::args_os().any(is_verbose));
     catch_interrupts();
     let arguments =
         Cli::parse_words(std::env::args_os()).unwrap_or_else(|error| refuse_arguments(&error));

@@ -37,7 +37,7 @@ pub use files::render_file::{
 pub use files::tracked::refuse_tracked;
 pub use filter_choice::FilterChoice;
 pub use fold::fold_runs;
-pub use identity::{CaseId, FilterId};
+pub use identity::{CaseId, FilterId, IDENTITY, ReferencePicture};
 pub use inputs::buffer_size::BufferSize;
 pub use inputs::camera_jitter::CameraJitter;
 pub use inputs::depth_format::DepthFormat;
@@ -70,7 +70,7 @@ pub use render::run_scene::RunScene;
 pub use render::settings::{SIDES, list_settings};
 pub use render::truths::deciding_floor;
 pub use render::velocities::read_further_velocities;
-pub use run::case::{ACCUMULATE, Case, IDENTITY, Intervals};
+pub use run::case::{Case, Intervals};
 pub use run::error_maps::ErrorMaps;
 pub use run::failure::{Failure, refuse_failures};
 pub use run::layers::write_layers;

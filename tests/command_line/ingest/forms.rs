@@ -176,7 +176,7 @@ fn raw_dumps_give_the_same_frame_and_need_their_layout() {
     assert_eq!(show(&sandbox), expected);
     for (from, to, parts) in BAD_LAYOUTS {
         capture.write("capture.toml", described.replace(from, to));
-        sandbox.refuse(INGEST, &parts);
+        sandbox.refuse(INGEST, parts);
     }
     capture.write("capture.toml", &described);
     for (name, each) in [("color", 2), ("velocity", 4), ("depth", 4)] {
@@ -261,7 +261,7 @@ fn what_an_engine_drew_is_not_rendered_otherwise() {
         // Notes about omitted filters may come before the refusal.
         let message = stderr(&output);
         assert_eq!(output.status.code(), Some(2), "{message}");
-        assert_contains(&message, &parts);
+        assert_contains(&message, parts);
     }
     let begun = sandbox.path("out/mine@Test_Engine_1.2");
     assert!(!begun.exists(), "a run began before it was refused");

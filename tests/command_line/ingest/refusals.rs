@@ -110,11 +110,11 @@ fn folders_that_are_no_captures_are_refused() {
     let bench = (&sandbox, &capture);
     for (name, parts) in MISSING_FILES {
         let remove = || fs::remove_file(capture.path(name)).unwrap();
-        refuse(bench, name, &parts, remove);
+        refuse(bench, name, parts, remove);
     }
     for (text, parts) in BAD_DESCRIPTIONS {
         let describe = || capture.write("capture.toml", text);
-        refuse(bench, "capture.toml", &parts, describe);
+        refuse(bench, "capture.toml", parts, describe);
     }
     let parts = ["color.png", "remove one of them"];
     refuse(bench, "color.png", &parts, || {
@@ -208,10 +208,10 @@ fn pictures_that_cannot_be_right_are_refused() {
     };
     for (name, channel, value, parts) in BAD_PIXELS {
         let change = || change_pixel(name, channel, value);
-        refuse(bench, name, &parts, change);
+        refuse(bench, name, parts, change);
     }
     for (name, channels, [width, height], value, parts) in BAD_SHAPES {
-        refuse(bench, name, &parts, || {
+        refuse(bench, name, parts, || {
             let plane = Plane::filled(width, height, value);
             let mut file = ExrFile::new(width, height);
             for channel in channels.chars() {

@@ -71,7 +71,7 @@ fn runs_of_other_settings_are_refused() {
     let sandbox = parts();
     for (more, message) in OTHER_RUNS {
         measure_other(&sandbox, &format!("--scenes slow --filter {more}"));
-        refuse(&sandbox, "plate other", &message);
+        refuse(&sandbox, "plate other", message);
     }
     sandbox.edit("slow/run.json", "\"driver\": \"", "\"driver\": \"other ");
     let message = [

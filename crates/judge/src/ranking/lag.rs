@@ -1,7 +1,7 @@
 //! Lag: the error of a frame that is not the middle of its shutter.
 
 use frame::Alignment;
-use measure::{Case, IDENTITY};
+use measure::{Case, ReferencePicture};
 use metrics::Metric;
 
 use crate::ranking::filters::list_summarized;
@@ -11,7 +11,7 @@ use crate::ranking::filters::list_summarized;
 pub fn mean_lag(cases: &[&Case]) -> Option<f64> {
     let lags = cases.iter().filter(|case| case.is_sharp()).map(|sharp| {
         let is_frame = |case: &&&Case| {
-            case.is_reference && case.filter == IDENTITY && case.scene == sharp.scene
+            case.reference() == Some(ReferencePicture::Identity) && case.scene == sharp.scene
         };
         let frame = cases.iter().find(is_frame)?;
         Some(frame.estimate(Metric::FLIP)? - sharp.estimate(Metric::FLIP)?)

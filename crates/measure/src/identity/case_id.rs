@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 use tracer::SceneId;
 
 use super::filter_id::FilterId;
+use super::reference_picture::ReferencePicture;
 use crate::InputFormat;
 use crate::filter_choice::overrides_text;
 
@@ -20,10 +21,10 @@ use crate::filter_choice::overrides_text;
 pub struct CaseId {
     /// Scene.
     pub scene: SceneId,
-    /// Filter name; [`IDENTITY`](crate::IDENTITY), [`SCATTER_ORACLE`](crate::SCATTER_ORACLE) or
-    /// `accumulate` for a reference picture.
+    /// Filter name; for a reference picture [`ReferencePicture::name`].
     pub filter: String,
-    /// Preset that the parameters started from; for `accumulate` the number of sub-frames.
+    /// Preset that the parameters started from; for a reference picture
+    /// [`ReferencePicture::preset`].
     pub preset: String,
     /// True for a reference picture to compare filters with: no filter made it, and no bound limits
     /// it.
@@ -49,6 +50,12 @@ impl CaseId {
         name += &overrides_text(&self.overrides);
         name.extend(self.input.change().map(|change| format!(" {change}")));
         name
+    }
+
+    /// Returns the reference picture; none for a filter's picture.
+    pub fn reference(&self) -> Option<ReferencePicture> {
+        let picture = ReferencePicture::find(&self.filter, &self.preset);
+        picture.filter(|_| self.is_reference)
     }
 
     /// Returns the identity of the preset alone, so that cases with other overrides compare.

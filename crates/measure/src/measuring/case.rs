@@ -20,6 +20,7 @@ use super::scene::SceneContext;
 use super::stored_frames::StoredFrame;
 use crate::Error;
 use crate::filter_choice::FilterChoice;
+use crate::identity::ReferencePicture;
 use crate::inputs::depth_of_field::DepthOfField;
 use crate::inputs::input_format::InputFormat;
 use crate::render::exclusion::FilterFrame;
@@ -95,11 +96,13 @@ impl CaseContext<'_> {
     /// names.
     pub fn measure(&self, planned: &PlannedCase) -> Result<(Case, Vec<String>), Error> {
         let measured = match &planned.source {
-            PictureSource::Identity => self.measure_reference(self.frame.cropped().picture())?,
-            PictureSource::ScatterOracle => {
+            PictureSource::Reference(ReferencePicture::Identity) => {
+                self.measure_reference(self.frame.cropped().picture())?
+            }
+            PictureSource::Reference(ReferencePicture::ScatterOracle) => {
                 self.measure_reference(self.references.oracle.clone())?
             }
-            PictureSource::Accumulation(subframes) => {
+            PictureSource::Reference(ReferencePicture::Accumulation(subframes)) => {
                 self.measure_accumulation(&(self.read_rung)(*subframes)?.rungs[0])?
             }
             PictureSource::Filter(choice, input) => self.measure_filter(choice, *input)?,

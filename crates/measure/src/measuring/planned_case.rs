@@ -6,11 +6,10 @@ use frame::Alignment;
 
 use super::plan::RunPlan;
 use crate::filter_choice::FilterChoice;
-use crate::identity::CaseId;
+use crate::identity::{CaseId, ReferencePicture};
 use crate::inputs::input_format::InputFormat;
 use crate::render::ingested_scene::IngestedScene;
 use crate::render::run_scene::RunScene;
-use crate::run::case::{ACCUMULATE, IDENTITY, SCATTER_ORACLE};
 
 /// Numbers of sub-frames in the accumulations that filters are compared with, rungs of the ladder.
 const SUBFRAMES: [u32; 4] = [4, 8, 16, 64];
@@ -25,12 +24,8 @@ pub(crate) struct PlannedCase<'a> {
 
 /// A maker of pictures: a filter, or a reference to compare filters with.
 pub(crate) enum PictureSource<'a> {
-    /// The frame as it is.
-    Identity,
-    /// The one-frame oracle.
-    ScatterOracle,
-    /// The mean of a number of sub-frames.
-    Accumulation(u32),
+    /// A reference to compare filters with.
+    Reference(ReferencePicture),
     /// A filter, for the picture width at which it gets the frame, and the form of the frame.
     Filter(Box<FilterChoice>, InputFormat),
     /// The engine that drew the frame.
@@ -46,11 +41,13 @@ impl<'a> PlannedCase<'a> {
         let alignments = scene.alignments(plan.alignments());
         let references = alignments.iter().flat_map(|alignment| {
             let accumulations = scene.accumulations(&SUBFRAMES, *alignment, plan.ladders);
-            let accumulations = accumulations.into_iter().map(PictureSource::Accumulation);
-            [PictureSource::Identity, PictureSource::ScatterOracle]
+            let accumulations = accumulations
+                .into_iter()
+                .map(ReferencePicture::Accumulation);
+            [ReferencePicture::Identity, ReferencePicture::ScatterOracle]
                 .into_iter()
                 .chain(accumulations)
-                .map(|source| Self::new(scene, *alignment, source))
+                .map(|picture| Self::new(scene, *alignment, PictureSource::Reference(picture)))
         });
         let engine = scene.ingested().filter(|engine| engine.has_picture);
         let engine_case =
@@ -75,9 +72,7 @@ impl<'a> PlannedCase<'a> {
 
     fn new(scene: RunScene, alignment: Alignment, source: PictureSource<'a>) -> Self {
         let (filter, preset) = match &source {
-            PictureSource::Identity => (IDENTITY, String::new()),
-            PictureSource::ScatterOracle => (SCATTER_ORACLE, String::new()),
-            PictureSource::Accumulation(subframes) => (ACCUMULATE, subframes.to_string()),
+            PictureSource::Reference(picture) => (picture.name(), picture.preset()),
             PictureSource::Filter(choice, _) => (&*choice.filter.name, choice.preset.clone()),
             PictureSource::Engine(scene) => (scene.filter_name(), String::new()),
         };
@@ -85,12 +80,11 @@ impl<'a> PlannedCase<'a> {
             PictureSource::Filter(choice, input) => (*input, choice.overrides.clone()),
             _ => Default::default(),
         };
-        let is_reference = !matches!(source, PictureSource::Filter(..) | PictureSource::Engine(_));
         let id = CaseId {
             scene: scene.id().clone(),
             filter: filter.to_owned(),
             preset,
-            is_reference,
+            is_reference: matches!(source, PictureSource::Reference(_)),
             input,
             overrides,
             alignment,

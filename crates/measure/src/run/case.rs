@@ -11,7 +11,8 @@ use metrics::{ImageScores, Interval, Jitter, Metric, Scores};
 use serde::{Deserialize, Serialize};
 use tracer::{Family, FrameRate};
 
-use crate::identity::CaseId;
+use crate::SHARP;
+use crate::identity::{CaseId, ReferencePicture};
 use crate::render::ingested_scene::Drawn;
 
 /// Confidence intervals of scores.
@@ -73,7 +74,7 @@ impl Case {
     /// Returns whether this is the reference that shows the shutter's middle sharply, if the frame
     /// does not.
     pub fn is_sharp(&self) -> bool {
-        self.is_reference && self.filter == ACCUMULATE && self.preset == SHARP.to_string()
+        self.reference() == Some(ReferencePicture::Accumulation(SHARP))
     }
 
     /// Names a rendered file of its scene; `folder` is run.json's.
@@ -99,10 +100,3 @@ impl Deref for Case {
         &self.id
     }
 }
-
-/// Name of the reference picture that is the frame itself.
-pub const IDENTITY: &str = "identity";
-/// Name of the reference picture of [`metrics::scatter_oracle`].
-pub const SCATTER_ORACLE: &str = "scatter_oracle";
-/// Name of the reference pictures that are means of sub-frames.
-pub const ACCUMULATE: &str = "accumulate";

@@ -2,7 +2,8 @@
 
 use metrics::{Interval, Measured, Metric};
 
-use super::case::{Case, IDENTITY, SCATTER_ORACLE};
+use super::case::Case;
+use crate::identity::ReferencePicture;
 
 impl Case {
     /// Returns a score.
@@ -48,13 +49,13 @@ impl Case {
         };
         let error = |is_wanted: fn(&Case) -> bool| {
             let case = cases.iter().find(|case| {
-                (case.is_reference && is_wanted(case))
-                    && (&case.scene, case.alignment) == (&self.scene, self.alignment)
+                is_wanted(case) && (&case.scene, case.alignment) == (&self.scene, self.alignment)
             });
             case?.scores.get(skill.error()).value()
         };
         // The frame is the sharp picture if its instant is the middle of the shutter.
-        let sharp = error(Case::is_sharp).or_else(|| error(|case| case.filter == IDENTITY));
-        Some(sharp? - error(|case| case.filter == SCATTER_ORACLE)?)
+        let sharp = error(Case::is_sharp)
+            .or_else(|| error(|case| case.reference() == Some(ReferencePicture::Identity)));
+        Some(sharp? - error(|case| case.reference() == Some(ReferencePicture::ScatterOracle))?)
     }
 }

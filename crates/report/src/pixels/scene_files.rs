@@ -8,7 +8,7 @@ use frame::{
     regions,
 };
 use measure::{
-    ACCUMULATE, Case, Error, ErrorMaps, FilterFrame, RenderFile, Run, read_exclusion,
+    Case, Error, ErrorMaps, FilterFrame, ReferencePicture, RenderFile, Run, read_exclusion,
     read_further_velocities,
 };
 use metrics::{Side, object_sides};
@@ -265,7 +265,7 @@ fn check_size(path: &Path, size: Size, expected: Size) -> Result<(), Error> {
 
 /// Returns whether a case is the accumulation in every profile.
 fn is_in_profiles(case: &Case) -> bool {
-    case.is_reference && case.filter == ACCUMULATE && case.preset == "16"
+    case.reference() == Some(ReferencePicture::Accumulation(16))
 }
 
 /// Reads beside, ahead and behind: the sum over moving objects of their matte where the truth never

@@ -2,7 +2,7 @@
 //! cost of each input form.
 
 use judge::{RankedFilter, list_summarized};
-use measure::{Case, FilterId, InputFormat};
+use measure::{Case, FilterId, InputFormat, ReferencePicture};
 use metrics::Metric;
 use tracer::{FrameRate, SceneId};
 
@@ -112,7 +112,7 @@ pub fn twins_text(cases: &[Case], ranked: &[Vec<RankedFilter>]) -> String {
     let engines = list_once(drawn().filter_map(|case| case.scene.variant.clone()));
     let is_row = |case: &Case| {
         if case.is_reference {
-            case.filter == measure::IDENTITY
+            case.reference() == Some(ReferencePicture::Identity)
         } else {
             (ranked.iter().flatten()).any(|filter| filter.name == case.name())
         }
@@ -202,13 +202,13 @@ impl Row {
 /// Names a case's column, without its input form; none for a reference other than doing nothing.
 fn column(case: &Case) -> Option<String> {
     let name = case.name();
-    match (case.is_reference, case.filter.as_str()) {
-        (false, _) => {
+    match case.reference() {
+        Some(ReferencePicture::Identity) => Some(format!("[{name}] {}", case.alignment)),
+        _ if case.is_reference => None,
+        _ => {
             let form = case.input.change().map(|change| format!(" {change}"));
             let full = name.strip_suffix(form.as_deref().unwrap_or_default());
             Some(full.unwrap_or(&name).to_owned())
         }
-        (true, measure::IDENTITY) => Some(format!("[{name}] {}", case.alignment)),
-        _ => None,
     }
 }

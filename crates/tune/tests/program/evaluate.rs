@@ -49,7 +49,7 @@ fn parameters_of_a_file_are_checked() {
     let words = "tune evaluate --quiet --filter jump_flood --params p.json --out out";
     for (text, parts) in BAD_PARAMETERS {
         sandbox.put("p.json", text);
-        sandbox.refuse(words, &parts);
+        sandbox.refuse(words, parts);
     }
     fs::remove_file(sandbox.path("p.json")).unwrap();
     sandbox.refuse(words, &["p.json: cannot read"]);
