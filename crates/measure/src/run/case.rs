@@ -11,7 +11,6 @@ use metrics::{ImageScores, Interval, Jitter, Metric, Scores};
 use serde::{Deserialize, Serialize};
 use tracer::{Family, FrameRate};
 
-use crate::SHARP;
 use crate::identity::{CaseId, ReferencePicture};
 use crate::render::ingested_scene::Drawn;
 
