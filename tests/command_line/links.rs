@@ -95,7 +95,7 @@ fn links_lead_from_the_readme_to_every_guide() {
             pending.extend(paths.filter_map(|path| path.canonicalize().ok()));
         }
     }
-    for guide in ["docs", "results"]
+    for guide in ["docs", "results", "crates/engine/guides"]
         .map(|folder| find_pages(&root().join(folder)))
         .concat()
     {
