@@ -8,9 +8,10 @@ use frame::{Frame, Image, Region, Size, Truth, regions};
 use judge::{Bounds, Level, Outcome, SceneBounds, judge_scores, read_bounds};
 use measure::{Case, Error, FilterChoice, RunPlan, measure_scenes, read_finished_picture};
 use metrics::Measured;
+use scene::Scene;
 use tempfile::TempDir;
 use tests::filter_folder::{copy_changed_filter, shipped_filter};
-use tracer::{RenderSettings, Scene};
+use tracer::RenderSettings;
 
 use crate::mutant::Mutant;
 

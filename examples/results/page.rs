@@ -10,7 +10,7 @@ use judge::{
 };
 use measure::{Error, IDENTITY, escape_markdown, markdown_code};
 use metrics::Metric;
-use tracer::SceneId;
+use scene::SceneId;
 
 use super::change::Change;
 use super::engines::{Engine, Measured, Shape, list_engines, measured};

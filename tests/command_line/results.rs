@@ -22,10 +22,10 @@ use frame::Alignment;
 use judge::{Agreement, Results, compare_sizes};
 use measure::{IDENTITY, Run};
 use metrics::Metric;
+use scene::{Location, SceneId, Seal, list_scenes};
 use tests::filter_folder::copy_changed_filter;
 use tests::root;
 use tests::text::assert_contains;
-use tracer::{Location, SceneId, Seal, list_scenes};
 
 use self::engines::{Engine, list_engines};
 use self::lengths::Panels;

@@ -3,12 +3,13 @@
 use filters::Input;
 use frame::{FAR_DEPTH, Frame, FrameOptions, Image, Size, VelocityKind};
 use glam::{DQuat, DVec3, Vec3};
+use scene::{Background, Key, Motion, Scene};
 use tests::near::{assert_near, assert_within};
 use tests::picture::{frame_input, make_blur};
 use tests::shapes::*;
 use tests::text::assert_contains;
 use tests::unwatched;
-use tracer::{Background, Key, Motion, RenderSettings, Scene, trace_frame};
+use tracer::{RenderSettings, trace_frame};
 
 use crate::reference::{read_clamped, sample_linear};
 

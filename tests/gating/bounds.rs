@@ -50,7 +50,7 @@ fn read(shared: &str, of_fan: &str) -> Result<SceneBounds, String> {
     let root = scenes.0.path();
     let check = || {
         let bounds = scenes.read(None)?;
-        let fan = tracer::SceneId::new("fan", None);
+        let fan = scene::SceneId::new("fan", None);
         let all = std::iter::once((&fan, &bounds));
         judge::require_bounds(root, all, &identity(), Frames::default())?;
         Ok(bounds)

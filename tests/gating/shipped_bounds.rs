@@ -13,8 +13,8 @@ use judge::{
 };
 use measure::{FilterChoice, Monitor, Rendering, RunPlan, measure_scenes};
 use metrics::Reference;
+use scene::Scene;
 use tests::{open_gpu, settings};
-use tracer::Scene;
 
 /// Scenes with quick truths.
 const FEW: [&str; 2] = ["sliding_panel", "two_spheres"];

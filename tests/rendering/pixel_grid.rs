@@ -2,9 +2,10 @@
 
 use frame::{ColorSampling, Frame, VelocityKind};
 use glam::{DVec3, Vec3};
+use scene::{Background, Key, Scene, SizeError};
 use tracer::{
-    Background, Key, PixelGrid, PointMotion, RenderSettings, Scene, TraceError, frame_hash,
-    trace_frame_part, trace_motion_on,
+    PixelGrid, PointMotion, RenderSettings, TraceError, frame_hash, trace_frame_part,
+    trace_motion_on,
 };
 
 use crate::renders::*;
@@ -142,5 +143,8 @@ fn a_grid_without_pixels_is_refused() {
     let grid = PixelGrid::of_picture(0, 4);
     let settings = settings([WIDTH, HEIGHT]);
     let refused = trace_frame_part(&drifting_sphere(), &settings, &grid, None, &unwatched);
-    assert!(matches!(refused, Err(TraceError::Size { width: 0, .. })));
+    assert!(matches!(
+        refused,
+        Err(TraceError::Size(SizeError { width: 0, .. }))
+    ));
 }

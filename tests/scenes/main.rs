@@ -14,8 +14,8 @@ mod refusals;
 use std::path::PathBuf;
 
 use frame::{Raster, write_png};
+use scene::{Scene, SceneError, list_scenes, load_scene};
 use tests::scenes;
-use tracer::{Scene, SceneError, list_scenes, load_scene};
 
 /// Loads a shipped scene, `name` or `name@variant`.
 fn load_shipped(name: &str) -> Scene {

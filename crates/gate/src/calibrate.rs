@@ -9,7 +9,7 @@ use metrics::{
     Ideal, Interval, LabelMetric, Measured, Metric, ObjectMetric, PERFECT_JOD, ProbeMetric, Score,
     SequenceMetric,
 };
-use tracer::SceneId;
+use scene::SceneId;
 
 use judge::SceneBounds;
 use judge::find_sequence;

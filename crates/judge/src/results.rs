@@ -6,8 +6,8 @@ use std::path::Path;
 use frame::{Alignment, Size};
 use measure::{Case, Error, IDENTITY, InputFormat, Run, read_text, refuse_failures, to_lines};
 use metrics::Metric;
+use scene::{Family, SceneId};
 use serde::{Deserialize, Serialize};
-use tracer::{Family, SceneId};
 
 use crate::groups::group_by;
 use crate::numbers::round_to_digits;

@@ -37,8 +37,8 @@ use frame::write_atomically;
 pub use gallery::{write_case_strip, write_gallery};
 use judge::{Finding, Verdict};
 pub use label::label;
-use live::LiveFiles;
 use live::scene::scene_json;
+use live::{Live, LiveFiles};
 use maud::{Markup, PreEscaped};
 use measure::{Case, Error, Run};
 use overview::Overview;
@@ -169,7 +169,7 @@ impl<'a> Parts<'a> {
         for (index, _) in table.cases_on(id) {
             let view = CaseView::read(table.run, index, scene, &findings, &mut files)?;
             let live = self.live.describe(view.case, scene, &files.whole)?;
-            is_live |= matches!(live, Some(Ok(_)));
+            is_live |= matches!(live, Live::Data(_));
             let tables = CaseTables::new(&view, table);
             let shown = self.has_tables.then_some(&tables);
             self.sections[index] = case_section(&view, &live, shown);

@@ -6,7 +6,7 @@ use filters::AdapterDescription;
 use frame::Alignment;
 use maud::{Markup, html};
 use measure::{Case, Run};
-use tracer::SceneId;
+use scene::SceneId;
 
 use crate::case_table::CaseTable;
 use crate::table::Column::{Plain, Text};

@@ -6,7 +6,8 @@ use std::path::PathBuf;
 use judge::{BOUNDS_FILE, Margin, RunBounds, read_bounds_file};
 use measure::{Error, FolderLock, IngestedScene, Run, RunPlan, Sharing, lock_folder};
 use metrics::Metric;
-use tracer::{Location, RenderSettings};
+use scene::Location;
+use tracer::RenderSettings;
 
 use crate::ingested_scenes::{leave_out_filters, read_ingested_bounds, refuse_render_options};
 use crate::kept_truths::check_truths;

@@ -3,9 +3,9 @@
 use std::fmt::Debug;
 
 use frame::{Alignment, FrameOptions, Provenance};
+use scene::Scene;
 
 use crate::pixel_grid::PixelGrid;
-use crate::scene::Scene;
 use crate::settings::RenderSettings;
 use crate::stage::Stage;
 

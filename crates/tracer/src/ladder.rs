@@ -6,6 +6,7 @@ use frame::{
     Accumulation, Alignment, ColorSampling, Image, Ladder, MOST_GROUPS, Picture, Plane, Raster,
     Shutter, Size, Tile, Truth, motion_margin,
 };
+use scene::Scene;
 
 use crate::content_hash::{ladder_hash, provenance};
 use crate::error::TraceError;
@@ -20,7 +21,6 @@ use crate::limits::MAX_SAMPLES;
 use crate::path::integrator::Integrator;
 use crate::progress::{Meter, Progress, Watch};
 use crate::sampler::Stream;
-use crate::scene::Scene;
 use crate::settings::RenderSettings;
 use crate::stage::Stage;
 

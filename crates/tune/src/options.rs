@@ -6,7 +6,8 @@ use std::time::Duration;
 
 use judge::SceneBounds;
 use measure::{Error, FilterChoice, Monitor};
-use tracer::{RenderSettings, Scene};
+use scene::Scene;
+use tracer::RenderSettings;
 
 use crate::loss::LEAST_BLEED;
 use crate::selection::ChoiceLimits;

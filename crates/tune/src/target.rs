@@ -8,8 +8,9 @@ use frame::{Image, Plane, Truth};
 use judge::{Bounds, SceneBounds};
 use measure::{Error, FilterFrame, Monitor, Rendering};
 use metrics::{Metric, ObjectMetric, Reference, Viewing, flip_ldr};
+use scene::Scene;
 use serde::{Deserialize, Serialize};
-use tracer::{RenderSettings, Scene};
+use tracer::RenderSettings;
 
 /// A scene, rendered once and used for hundreds of measurements.
 pub struct RenderedScene {

@@ -32,10 +32,13 @@ fn the_page_of_limits_agrees_with_the_constants() {
             listed.push(name);
         }
     }
-    let source = fs::read_to_string(root().join("crates/tracer/src/limits.rs")).unwrap();
-    for line in source.lines().filter(|line| line.starts_with("pub const")) {
-        let name = line.split([' ', ':']).nth(2).unwrap();
-        assert!(listed.contains(&name), "docs/limits.md lacks {name}");
+    for crate_name in ["scene", "tracer"] {
+        let source = format!("crates/{crate_name}/src/limits.rs");
+        let source = fs::read_to_string(root().join(source)).unwrap();
+        for line in source.lines().filter(|line| line.starts_with("pub const")) {
+            let name = line.split([' ', ':']).nth(2).unwrap();
+            assert!(listed.contains(&name), "docs/limits.md lacks {name}");
+        }
     }
 }
 
@@ -158,7 +161,7 @@ fn pictures_and_records_beyond_a_limit_are_refused_before_allocation() {
     sandbox.refuse(RUN, &["scene.toml:12:", "1800000000 texels; allowed: 1 to"]);
     // A sparse file takes no disk space.
     let file = fs::File::create(sandbox.path("scenes/plate/plate.obj")).unwrap();
-    file.set_len(tracer::limits::LARGEST_MESH_FILE + 1).unwrap();
+    file.set_len(scene::limits::LARGEST_MESH_FILE + 1).unwrap();
     sandbox.write("scene.toml", SCENE);
     sandbox.refuse(RUN, &["scene.toml:15: mesh", "at most 2147483648 are read"]);
 

@@ -2,7 +2,8 @@
 
 use frame::{Alignment, AtInstant, Frame, Picture, Truth};
 use glam::{DQuat, DVec2, DVec3, EulerRot};
-use tracer::{PixelGrid, Scene, trace_frame_part};
+use scene::Scene;
+use tracer::{PixelGrid, trace_frame_part};
 
 use super::with_lens;
 use crate::renders::*;

@@ -5,9 +5,10 @@ use std::cell::OnceCell;
 use filters::{Blur, Filter};
 use frame::{Alignment, Frame, Image, Picture, Size, Truth};
 use metrics::{Metric, Reference, Scores, scatter_oracle};
+use scene::Scene;
 use tests::picture::frame_input;
 use tests::{shared_gpu, unwatched};
-use tracer::{RenderSettings, Scene, trace_frame, trace_truth};
+use tracer::{RenderSettings, trace_frame, trace_truth};
 
 use crate::load_shipped;
 

@@ -9,7 +9,8 @@ use measure::{
     Error, LADDER, MAX_REPLICATES, Rendering, Sharing, deciding_floor, estimate_render_seconds,
     lock_folder, printable_path, scene_folder,
 };
-use tracer::{RenderSettings, Scene, check_next_frame};
+use scene::Scene;
+use tracer::{RenderSettings, check_next_frame};
 
 use terminal::arguments::{
     Replicates, SceneArgs, above_zero, frame_count, parse_replicates, parse_size, within,

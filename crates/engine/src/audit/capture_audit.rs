@@ -2,8 +2,8 @@
 
 use frame::Size;
 use measure::Error;
+use scene::Scene;
 use serde::Serialize;
-use tracer::Scene;
 
 use crate::audit::cause::Cause;
 use crate::audit::clear_pixels::select_clear_pixels;

@@ -1,7 +1,8 @@
 //! Audit of colour, in scenes with colours independent of light.
 
 use frame::{ColorSampling, Image};
-use tracer::{Scene, TraceError};
+use scene::Scene;
+use tracer::TraceError;
 
 use crate::audit::cause::Cause;
 use crate::audit::clear_pixels::{ClearPixels, select_judged};

@@ -1,7 +1,8 @@
 //! Velocity that an engine should have output, and its variants under known mistakes.
 
 use frame::{Raster, Size, Vectors, VelocityKind};
-use tracer::{PointLayers, PointMotion, RenderSettings, Scene, TraceError, trace_motion};
+use scene::Scene;
+use tracer::{PointLayers, PointMotion, RenderSettings, TraceError, trace_motion};
 
 use crate::audit::cause::Cause;
 use crate::export::FRAMES_PER_SECOND;

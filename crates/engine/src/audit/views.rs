@@ -3,7 +3,8 @@
 use std::ops::ControlFlow;
 
 use frame::{ColorSampling, Frame, FrameOptions, Image, Plane, Raster, Size};
-use tracer::{RenderSettings, Scene, TraceError, trace_frame};
+use scene::Scene;
+use tracer::{RenderSettings, TraceError, trace_frame};
 
 use crate::audit::cause::Cause;
 use crate::audit::defect::{Buffer, Defect, Explanation};

@@ -8,7 +8,7 @@ use frame::{
     read_png, scene_linear,
 };
 use measure::{Error, SIDES, printable};
-use tracer::limits::BRIGHTEST;
+use scene::limits::BRIGHTEST;
 
 use crate::capture::description::{CAPTURE_FILE, CaptureDescription};
 use crate::files::{name_of, refuse};

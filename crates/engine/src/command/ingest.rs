@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use frame::{Display, Region, Truth};
 use measure::{Error, IngestedScene, printable_path};
+use scene::{Location, Scene};
 use terminal::arguments::RootArgs;
 use terminal::output::{make_monitor, print, print_note};
 use terminal::refuse;
-use tracer::{Location, Scene};
 
 use super::capture::{load_drawn_scene, name_folder};
 use crate::capture::folder::Capture;

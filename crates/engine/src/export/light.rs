@@ -5,8 +5,8 @@ use std::path::Path;
 
 use frame::{ExrFile, FileError, Image, Size, write_exr};
 use glam::{DQuat, DVec3};
+use scene::{Background, Sun};
 use serde_json::{Value, json};
-use tracer::{Background, Sun};
 
 use crate::export::document::{Document, widen};
 

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use frame::{Alignment, Shutter, Size};
+use scene::{Background, Lens, Scene};
 use serde::Serialize;
-use tracer::{Background, Lens, Scene};
 
 use crate::export::light::SKY;
 use crate::export::timeline::{FRAMES_PER_SECOND, Timeline};

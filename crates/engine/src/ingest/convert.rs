@@ -12,7 +12,8 @@ use measure::{
     RenderFile, Sharing, engine_name, ladder_folder, lock_folder, name_in_one_word,
     refuse_long_names, refuse_scene, velocity_wheel,
 };
-use tracer::{SceneId, Watch};
+use scene::SceneId;
+use tracer::Watch;
 
 use crate::capture::folder::Capture;
 use crate::ingest::engine_truth::{EngineTruth, NOT_TRACED, average_subframes, part_of};

@@ -6,9 +6,10 @@ use std::process::Output;
 
 use engine::CaptureDescription;
 use frame::Frame;
+use scene::load_scene;
 use tests::near::assert_near;
 use tests::{settings, unwatched};
-use tracer::{load_scene, trace_frame};
+use tracer::trace_frame;
 
 use crate::sandbox::{Sandbox, assert_done, assert_refused, split, stdout};
 

@@ -165,7 +165,7 @@ fn find_stored_format(
     let texture = texture.unwrap_or_else(|| written_texture(name));
     let format = match (filter.texture(texture), texture) {
         (Some(declared), _) => Some(declared.format),
-        (None, "output") => Some(filter.convention.format_of("output")),
+        (None, "output") => Some(filter.convention.output_format()),
         _ => None,
     };
     format.map(crate::Format::stored)

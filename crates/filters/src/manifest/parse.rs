@@ -148,7 +148,7 @@ fn read_history(file: &File, manifest: &Manifest) -> Result<Vec<History>, Filter
         if history.contains(entry.get_ref()) {
             let reason = format!(
                 "history names \"{}\" twice; allowed: once",
-                entry.get_ref().input()
+                entry.get_ref().layer().name()
             );
             return Err(file.at(entry, reason));
         }

@@ -6,9 +6,9 @@ use std::path::PathBuf;
 use frame::Size;
 use measure::{Error, SIDES, printable, printable_path, read_text};
 use metrics::Metric;
+use scene::Location;
 use serde::Deserialize;
 use toml::Spanned;
-use tracer::Location;
 
 use crate::bounds::{Bound, Bounds, Length, Level};
 

@@ -8,9 +8,9 @@ mod sized;
 
 use frame::Size;
 use metrics::Metric;
+use scene::Location;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use tracer::Location;
 
 use measure::{Error, Frames};
 

@@ -2,7 +2,7 @@
 
 use frame::Size;
 use measure::{Error, SIDES};
-use tracer::Location;
+use scene::Location;
 
 use crate::bounds::{BOUNDS_FILE, BoundsFile, read_bounds_file};
 

@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use frame::{Alignment, Size};
 use measure::{Error, Random, SceneMean, TWO_SIDED, plain_mean};
 use metrics::Metric;
-use tracer::SceneId;
+use scene::SceneId;
 
 use crate::results::Results;
 

@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use frame::{Frame, Raster, Size, Vectors, VelocityKind};
-use tracer::{PointMotion, Scene, trace_motion};
+use scene::Scene;
+use tracer::{PointMotion, trace_motion};
 
 use super::camera_jitter::jitter_motion;
 use crate::render::settings::settings_of;

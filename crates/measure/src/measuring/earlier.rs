@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use filters::AdapterDescription;
 use frame::Size;
-use tracer::SceneId;
+use scene::SceneId;
 
 use crate::fold::fold_runs;
 use crate::identity::FilterId;

@@ -19,6 +19,14 @@ use crate::run::case::Case;
 use crate::run::failure::Failure;
 use crate::stats::parts::Groups;
 
+/// What came of measuring a case.
+pub(super) enum Attempt {
+    /// Its scores.
+    Measured(Box<Case>),
+    /// Its filter made no measurable picture.
+    Failed(Failure),
+}
+
 impl SceneContext<'_> {
     /// Measures some cases, and writes each record as soon as it is complete.
     pub(super) fn measure(
@@ -26,7 +34,7 @@ impl SceneContext<'_> {
         missing: &[&PlannedCase],
         frame: &Frame,
         watch: Watch,
-    ) -> Result<Vec<Result<Case, Failure>>, Error> {
+    ) -> Result<Vec<Attempt>, Error> {
         if missing.is_empty() {
             return Ok(Vec::new());
         }
@@ -117,21 +125,16 @@ impl SceneContext<'_> {
         }
     }
 
-    /// Measures a case and writes its record; returns a failure if the error concerns this case
-    /// alone.
-    fn measure_case(
-        &self,
-        context: &CaseContext,
-        planned: &PlannedCase,
-    ) -> Result<Result<Case, Failure>, Error> {
+    /// Measures a case and writes its record. An error that concerns this case alone is its failure.
+    fn measure_case(&self, context: &CaseContext, planned: &PlannedCase) -> Result<Attempt, Error> {
         let (case, files) = match context.measure(planned) {
             Ok(measured) => measured,
-            Err(error) => return Ok(Err(self.failure(error, planned)?)),
+            Err(error) => return Ok(Attempt::Failed(self.failure(error, planned)?)),
         };
         if let Some(key) = self.case_keys(planned).into_iter().next() {
             put(&self.case_record(planned), key, &files, &case)?;
         }
-        Ok(Ok(case))
+        Ok(Attempt::Measured(Box::new(case)))
     }
 
     /// Turns an error of one case into its failure. Returns any other error, which ends the run.

@@ -1,7 +1,7 @@
 //! The frame in the forms that filters get, and the previous frame for filters that read it.
 
 use frame::{Frame, Picture};
-use tracer::Scene;
+use scene::Scene;
 
 use super::plan::RunPlan;
 use crate::Error;

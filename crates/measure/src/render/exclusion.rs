@@ -5,7 +5,7 @@ use std::path::Path;
 
 use filters::EXCLUSION;
 use frame::{ExrFile, FileError, Frame, Plane, read_exr, write_exr};
-use tracer::{Parent, Scene};
+use scene::{Parent, Scene};
 
 /// Name of the mask's file in the folder of a scene.
 pub const EXCLUSION_FILE: &str = "exclusion.exr";

@@ -5,11 +5,13 @@
 
 use std::path::{Path, PathBuf};
 
+use scene::SceneId;
+
 use crate::{Error, FilterChoice, RenderFile, hash_inputs, put, read_record, read_text};
-use filters::EXCLUSION;
+use filters::{EXCLUSION, Layer};
 use frame::{Alignment, Frame, Picture, Plane, Size, read_exr};
 use serde::{Deserialize, Serialize};
-use tracer::{RenderSettings, SceneId};
+use tracer::RenderSettings;
 
 use super::exclusion::EXCLUSION_FILE;
 
@@ -152,7 +154,8 @@ impl IngestedScene {
             ));
         }
         let is_there = |name: &&str| self.further_inputs.iter().any(|input| input == name);
-        let mut further = choice.filter.further_inputs().into_iter();
+        let further = choice.filter.further_inputs().into_iter();
+        let mut further = further.map(Layer::name);
         let lacking = if choice.filter.reads_camera(&choice.settings) {
             "the camera"
         } else {

@@ -3,9 +3,11 @@
 
 use std::path::{Path, PathBuf};
 
+use scene::{Family, Scene, SceneId};
+
 use crate::{Error, LADDER, RenderFile, hash_inputs};
 use frame::Alignment;
-use tracer::{Family, RenderSettings, Scene, SceneId};
+use tracer::RenderSettings;
 
 use super::ingested_scene::{Drawn, IngestedScene};
 use super::memory::{Measured, bound_memory, count_measured, refuse_beyond_free};

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use frame::{ExrFile, FileError, Frame, Size, read_exr, write_exr};
-use tracer::{PixelGrid, RenderSettings, Scene, trace_further_velocities};
+use scene::Scene;
+use tracer::{PixelGrid, RenderSettings, trace_further_velocities};
 
 use crate::Error;
 

@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use frame::{Frame, Image, Size, Truth};
 use metrics::{Instant, SequenceMeasurement, SequenceReference};
-use tracer::{RenderSettings, Scene, truth_hash};
+use scene::Scene;
+use tracer::{RenderSettings, truth_hash};
 
 use crate::Error;
 use crate::measuring::points_of_frame::{make_instant, trace_points};

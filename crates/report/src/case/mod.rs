@@ -99,9 +99,9 @@ pub fn case_section(view: &CaseView, live: &Live, tables: Option<&CaseTables>) -
 fn live_place(live: &Live) -> Markup {
     html! {
         @match live {
-            Some(Ok(data)) => div.live hidden data-live=(data) { button type="button" { "Try it" } },
-            Some(Err(reason)) => p.note.live_not { (reason) },
-            None => {},
+            Live::Data(data) => div.live hidden data-live=(data) { button type="button" { "Try it" } },
+            Live::Not(reason) => p.note.live_not { (reason) },
+            Live::Never => {},
         }
     }
 }

@@ -6,7 +6,7 @@ pub mod scene;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-use filters::{EXCLUSION, Filter, Input};
+use filters::{Filter, Input, Layer};
 use frame::Size;
 use measure::{
     Case, Error, FilterFrame, InputFormat, MEASURED_FILTERS, PROGRAM, Run, filter_input,
@@ -19,9 +19,23 @@ use crate::pixels::report_files::write_script;
 /// Most pixels of a frame that can be tried; the file of such a scene has about 15 MB.
 const MOST_PIXELS: u32 = 1280 * 720;
 
-/// A live case as JSON, or the sentence that says why it is not live; none if nobody expects it to
-/// be.
-pub type Live = Option<Result<String, String>>;
+/// Whether a case can be tried in the browser.
+pub enum Live {
+    /// It can, with this JSON.
+    Data(String),
+    /// It cannot; the sentence says why.
+    Not(String),
+    /// Nobody expects it to.
+    Never,
+}
+
+/// Whether a filter runs in the browser.
+enum LiveFilter {
+    /// It does; its file has this number.
+    Runs(usize, Box<Filter>),
+    /// It does not; the sentence says why.
+    Not(String),
+}
 
 /// Live filters of a run, and the files written for them.
 pub struct LiveFiles<'a> {
@@ -30,8 +44,8 @@ pub struct LiveFiles<'a> {
     folder: &'a Path,
     /// Path of the page.
     html: &'a Path,
-    /// Filters by name: each with the number of its file, or the reason why it is not live.
-    filters: HashMap<&'a str, Result<(usize, Filter), String>>,
+    /// Filters by name.
+    filters: HashMap<&'a str, LiveFilter>,
     pub written: Vec<PathBuf>,
 }
 
@@ -57,17 +71,19 @@ impl<'a> LiveFiles<'a> {
     ) -> Result<Live, Error> {
         // An engine's own picture has no preset.
         if case.is_reference || case.preset.is_empty() {
-            return Ok(None);
+            return Ok(Live::Never);
         }
         if !self.filters.contains_key(&case.filter[..]) {
             let filter = self.find_filter(case)?;
             self.filters.insert(&case.filter, filter);
         }
         let described = match &self.filters[&case.filter[..]] {
-            Ok((number, filter)) => describe_case(case, (scene, frame), (*number, filter)),
-            Err(reason) => Err(reason.clone()),
+            LiveFilter::Runs(number, filter) => {
+                describe_case(case, (scene, frame), (*number, filter))
+            }
+            LiveFilter::Not(reason) => Err(reason.clone()),
         };
-        Ok(Some(described))
+        Ok(described.map_or_else(Live::Not, Live::Data))
     }
 
     /// Writes a file that the page loads as `name`.
@@ -78,7 +94,7 @@ impl<'a> LiveFiles<'a> {
 
     /// Finds the filter that a case ran, as its run's folder or this program has it, and writes its
     /// file.
-    fn find_filter(&mut self, case: &Case) -> Result<Result<(usize, Filter), String>, Error> {
+    fn find_filter(&mut self, case: &Case) -> Result<LiveFilter, Error> {
         let folder = self.folder.join(MEASURED_FILTERS).join(&case.filter);
         let filter = if folder.join("filter.toml").is_file() {
             Filter::load(&folder)
@@ -93,7 +109,7 @@ impl<'a> LiveFiles<'a> {
                     "This page cannot run the filter: the run's folder does not hold it in WGSL."
                 }
             };
-            return Ok(Err(reason.to_owned()));
+            return Ok(LiveFilter::Not(reason.to_owned()));
         };
         let is_as_written = |other: &Case| {
             let mut presets = filter
@@ -105,15 +121,15 @@ impl<'a> LiveFiles<'a> {
         };
         let as_written = self.run.cases.iter().any(is_as_written);
         Ok(match filter.live(self.run.render.width, as_written) {
-            Err(reason) => Err(reason),
+            Err(reason) => LiveFilter::Not(reason),
             Ok(live) => {
                 let number = self
                     .filters
                     .values()
-                    .filter(|filter| filter.is_ok())
+                    .filter(|filter| matches!(filter, LiveFilter::Runs(..)))
                     .count();
                 self.write(&format!("live_filter_{number}"), &live.to_string())?;
-                Ok((number, filter))
+                LiveFilter::Runs(number, Box::new(filter))
             }
         })
     }
@@ -133,10 +149,11 @@ fn describe_case(
     (number, filter): (usize, &Filter),
 ) -> Result<String, String> {
     let Size { width, height } = frame.size();
-    let is_missing = |name: &&str| match *name {
-        EXCLUSION => frame.exclusion.is_none(),
-        "velocity_z" => frame.velocity_z.is_none(),
-        _ => frame.velocity_next.is_none(),
+    let is_missing = |layer: &Layer| match layer {
+        Layer::Color | Layer::Velocity | Layer::Depth => false,
+        Layer::VelocityNext => frame.velocity_next.is_none(),
+        Layer::VelocityZ => frame.velocity_z.is_none(),
+        Layer::Exclusion => frame.exclusion.is_none(),
     };
     let missing = filter.further_inputs().into_iter().find(is_missing);
     let refused = if width * height > MOST_PIXELS {
@@ -146,7 +163,8 @@ fn describe_case(
         format!("its frame had another form ({change})")
     } else if case.scene.frame > 0 && !filter.history.is_empty() {
         "it needs the frame before".to_owned()
-    } else if let Some(name) = missing {
+    } else if let Some(layer) = missing {
+        let name = layer.name();
         format!("the run's folder does not hold {name}, which the filter reads")
     } else {
         String::new()

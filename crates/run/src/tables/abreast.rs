@@ -4,7 +4,7 @@
 use judge::{RankedFilter, list_summarized};
 use measure::{Case, FilterId, InputFormat, ReferencePicture};
 use metrics::Metric;
-use tracer::{FrameRate, SceneId};
+use scene::{FrameRate, SceneId};
 
 use super::{Table, bracket_name, cell, legend_text, list_once, mean_text};
 

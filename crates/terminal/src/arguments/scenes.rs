@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use frame::{ColorSampling, FrameOptions, Size, VelocityKind};
 use measure::Error;
-use tracer::{RenderSettings, SceneId};
+use scene::SceneId;
+use tracer::RenderSettings;
 
 use super::{FrameRateArgs, RootArgs, parse_exposure, parse_samples, thread_count};
 use crate::selection::split_scene;

@@ -3,7 +3,7 @@
 use frame::Size;
 use judge::{SceneBounds, read_bounds, read_bounds_beside_scenes};
 use measure::Error;
-use tracer::{Location, Scene, SceneId};
+use scene::{Location, Scene, SceneId};
 
 use super::select_scenes;
 use crate::output::print_scene_notes;

@@ -1,7 +1,8 @@
 //! Motion and points of a velocity buffer.
 
-use crate::motion::camera::{View, ViewRate};
-use crate::scene::Scene;
+use scene::Scene;
+
+use crate::motion::view::{View, ViewRate};
 
 /// Motion and points of a velocity buffer: the right ones, or a broken buffer's.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -91,11 +92,11 @@ impl PointMotion {
 
     /// The view at the time of the motion, and its derivative just before.
     pub(super) fn view(&self, scene: &Scene, [width, height]: [u32; 2]) -> (View, ViewRate) {
-        let view = scene.camera.view(self.moved_at, width, height);
+        let view = View::new(&scene.camera, self.moved_at, width, height);
         let rate = if self.camera_stands {
             ViewRate::STILL
         } else {
-            scene.camera.view_rate_before(self.moved_at, &view)
+            ViewRate::before(&scene.camera, self.moved_at, &view)
         };
         (view, rate)
     }

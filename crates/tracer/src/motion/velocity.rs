@@ -2,11 +2,11 @@
 
 use frame::{Camera, Reprojection, VelocityKind};
 use glam::DVec3;
+use scene::Scene;
 
-use crate::geometry::ray::Hit;
-use crate::motion::camera::{Target, View, ViewRate};
+use crate::hit::Hit;
 use crate::motion::point_motion::{ObjectsBefore, PointMotion};
-use crate::scene::Scene;
+use crate::motion::view::{Target, View, ViewRate};
 
 /// Step of the difference quotient, in frames.
 const STEP: f64 = 1e-5;
@@ -117,7 +117,7 @@ impl TrackedPoint {
     ) -> Option<[f64; 3]> {
         let now = motion.moved_at;
         let camera_time = if motion.camera_stands { now } else { time };
-        let view = scene.camera.view(camera_time, width, height);
+        let view = View::new(&scene.camera, camera_time, width, height);
         let (target, depth) = match *self {
             TrackedPoint::Surface(hit) => {
                 let [shape_time, own_time, parents_time] = motion.times(time);
@@ -171,7 +171,7 @@ fn surface_motion(
 
 /// The map from this frame's picture to the last one's, for points that stand still in the world.
 pub(crate) fn reprojection(scene: &Scene, [width, height]: [u32; 2]) -> Reprojection {
-    let [now, then] = [0.0, -1.0].map(|time| scene.camera.view(time, width, height));
+    let [now, then] = [0.0, -1.0].map(|time| View::new(&scene.camera, time, width, height));
     if now == then {
         // Without rounding, so that a point keeps its place exactly.
         return Reprojection::STILL;
@@ -183,7 +183,8 @@ pub(crate) fn reprojection(scene: &Scene, [width, height]: [u32; 2]) -> Reprojec
 
 /// The camera at the instant and one frame before.
 pub(crate) fn camera(scene: &Scene, [width, height]: [u32; 2]) -> Camera {
-    let [now, before] = [0.0, -1.0].map(|time| scene.camera.view(time, width, height).pose());
+    let [now, before] =
+        [0.0, -1.0].map(|time| View::new(&scene.camera, time, width, height).pose());
     Camera { now, before }
 }
 

@@ -8,11 +8,12 @@ use measure::{
     Error, FilterChoice, Sharing, estimate_case_seconds, estimate_render_seconds, lock_folder,
     open_gpu,
 };
+use scene::Scene;
 use terminal::arguments::{AdapterArgs, ProgramArgs, SceneArgs, parse_size};
 use terminal::expected::print_expected_time;
 use terminal::output::{count_text, make_monitor};
 use terminal::selection::{load_scenes, select_filters};
-use tracer::{RenderSettings, Scene};
+use tracer::RenderSettings;
 
 use crate::evaluator::Evaluator;
 use crate::target::render_scenes;

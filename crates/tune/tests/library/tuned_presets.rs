@@ -5,8 +5,8 @@ use std::path::Path;
 use cli::{Programs, select_filters, select_scenes};
 use judge::{SceneBounds, read_bounds};
 use measure::Monitor;
+use scene::Scene;
 use tests::{open_gpu, settings};
-use tracer::Scene;
 use tune::{
     Evaluator, LEAST_BLEED, PairedComparison, Preference, compare_candidates, paired_table,
     render_scenes,

@@ -14,8 +14,9 @@ use engine::{
 };
 use filters::Convention;
 use frame::{FAR_DEPTH, Vectors, VelocityKind};
+use scene::{Scene, load_scene};
 use tests::unwatched;
-use tracer::{PointMotion, RenderSettings, Scene, load_scene, trace_frame, trace_motion};
+use tracer::{PointMotion, RenderSettings, trace_frame, trace_motion};
 
 use crate::{load_shipped, shipped};
 

@@ -105,7 +105,7 @@ fn other_numbers_of_depth_are_named() {
     let is_100 =
         |cause: &Cause| matches!(cause, Cause::DepthScale(by) if (by - 100.0).abs() < 0.01);
     expect(&scaled, Buffer::Depth, None, is_100);
-    let view = scene.camera.view(0.0, WIDTH, HEIGHT);
+    let view = tracer::View::new(&scene.camera, 0.0, WIDTH, HEIGHT);
     let (_, along_ray) = audit_depth(&scene, |at, depth| {
         let [x, y] = [at as u32 % WIDTH, at as u32 / WIDTH].map(|place| f64::from(place) + 0.5);
         let ray = view.ray(x, y);

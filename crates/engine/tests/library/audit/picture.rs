@@ -2,7 +2,7 @@
 
 use engine::{Buffer, Capture, Cause};
 use frame::Raster;
-use tracer::Scene;
+use scene::Scene;
 
 use super::*;
 

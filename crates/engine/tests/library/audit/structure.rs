@@ -3,7 +3,8 @@
 
 use engine::{Buffer, CaptureAudit, Cause, Defect};
 use glam::Vec3;
-use tracer::{Parent, PointMotion, Scene, Shape};
+use scene::{Parent, Scene, Shape};
+use tracer::PointMotion;
 
 use super::*;
 

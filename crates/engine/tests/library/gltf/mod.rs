@@ -5,10 +5,10 @@ mod played;
 use engine::{Timeline, export_gltf};
 use glam::{DAffine3, DVec3};
 use played::Played;
+use scene::{Interpolation, Key, Mesh, Motion, Scene, Turn};
 use serde_json::Value;
 use tempfile::TempDir;
 use tests::random::Random;
-use tracer::{Interpolation, Key, Mesh, Motion, Scene, Turn};
 
 use crate::{load_shipped, shipped_with_variants};
 

@@ -7,8 +7,9 @@ use frame::{
     Alignment, Channel, ExrFile, FAR_DEPTH, Frame, Image, Raster, Samples, VelocityKind, read_exr,
     write_exr, write_half_exr,
 };
+use scene::load_scene;
 use tests::{settings, unwatched};
-use tracer::{load_scene, trace_frame};
+use tracer::trace_frame;
 
 use crate::sandbox::Sandbox;
 
