@@ -40,7 +40,7 @@ impl Multisampling {
         let samples = SAMPLES.iter().zip(sample_settings(&frame));
         let samples = samples.map(|(place, settings)| {
             let grid = PixelGrid {
-                size: [settings.width, settings.height],
+                size: settings.size(),
                 offset: place.map(|part| part - 0.5),
             };
             renderer.frame("frame with 4 samples per pixel", &settings, &grid)
