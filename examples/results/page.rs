@@ -94,10 +94,9 @@ impl<'a> Kept<'a> {
         if self.groups.iter().any(|group| has_effects(group)) {
             rule += &format!(" {SIDE_EFFECTS_RULE}");
         }
-        let [width, height] = results.size;
         let settings = [
             ("{SCENES}", results.scenes().len().to_string()),
-            ("{SIZE}", format!("{width}x{height}")),
+            ("{SIZE}", results.size.to_string()),
             ("{SAMPLES}", results.samples_per_pixel.to_string()),
             (
                 "{ADAPTER}",

@@ -107,7 +107,7 @@ fn a_frame_inside_its_guard_band_equals_the_bare_frame() {
         let mut padded = settings;
         padded.guard_band = 5;
         let padded = render_frame(&scene, &padded);
-        assert_eq!(padded.size(), (SIZE[0] + 10, SIZE[1] + 10));
+        assert_eq!(padded.size(), [SIZE[0] + 10, SIZE[1] + 10].into());
         let mut cropped = padded.cropped();
         cropped.provenance = bare.provenance.clone();
         assert_eq!(cropped, bare, "{velocity}");

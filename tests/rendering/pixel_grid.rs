@@ -31,7 +31,10 @@ fn drifting_sphere() -> Scene {
 }
 
 fn render_on(size: [u32; 2], offset: [f64; 2]) -> Frame {
-    let grid = PixelGrid { size, offset };
+    let grid = PixelGrid {
+        size: size.into(),
+        offset,
+    };
     let settings = settings([WIDTH, HEIGHT]);
     let traced = trace_frame_part(&drifting_sphere(), &settings, &grid, None, &unwatched);
     traced.expect("allowed").frame

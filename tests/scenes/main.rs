@@ -1,13 +1,13 @@
 //! Scenes: reading and refusing folders, and the shipped scenes.
 
 mod appearance;
-mod audit;
 mod built_in;
 mod catalogue;
 mod coincident;
+#[path = "../../crates/engine/tests/library/mod.rs"]
+mod engine;
 mod frame_rates;
 mod given_variants;
-mod gltf;
 mod reading;
 mod refusals;
 

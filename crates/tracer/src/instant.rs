@@ -278,13 +278,7 @@ pub fn trace_further_velocities(
 
 /// Makes the canvas of a grid; refuses a grid of an impossible size.
 fn check_canvas(settings: &RenderSettings, grid: &PixelGrid) -> Result<Canvas, TraceError> {
-    let [width, height] = grid.size;
-    let grid_settings = RenderSettings {
-        width,
-        height,
-        ..*settings
-    };
-    grid_settings.check_sizes()?;
+    settings.with_size(grid.size).check_sizes()?;
     let band = settings.guard_band;
     Ok(Canvas::new(settings.width, settings.height, band, grid))
 }
@@ -299,7 +293,7 @@ fn sample_points(
     let scene = stage.scene;
     let options = settings.options;
     let size = canvas.view;
-    let view = View::new(&scene.camera, motion.seen_at, size[0], size[1]);
+    let view = View::new(&scene.camera, motion.seen_at, size.width, size.height);
     let before = reprojection(scene, size);
     let points = (canvas.pixels().into_par_iter())
         .map_init(

@@ -1,6 +1,6 @@
 //! Settings of renders, and their check.
 
-use frame::{Alignment, FrameOptions, Shutter};
+use frame::{Alignment, FrameOptions, Shutter, Size};
 use scene::{Scene, check_size};
 use serde::{Deserialize, Serialize};
 
@@ -51,6 +51,20 @@ impl Default for RenderSettings {
 }
 
 impl RenderSettings {
+    /// Returns the size of the picture.
+    pub fn size(&self) -> Size {
+        Size::new(self.width, self.height)
+    }
+
+    /// Returns the same settings for a picture of another size.
+    pub fn with_size(&self, Size { width, height }: Size) -> Self {
+        Self {
+            width,
+            height,
+            ..*self
+        }
+    }
+
     /// Samples per pixel of each replicate.
     pub fn samples_per_replicate(&self) -> u32 {
         self.samples_per_pixel / self.replicates

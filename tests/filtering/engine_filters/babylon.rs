@@ -1,6 +1,6 @@
 //! Both modes of Babylon.js's blur.
 
-use frame::{FAR_DEPTH, Frame, Image};
+use frame::{FAR_DEPTH, Frame, Image, Size};
 use tests::near::{assert_near, assert_within};
 use tests::picture::{Picture, moving_edge, ramp_length, white};
 
@@ -57,7 +57,7 @@ fn by_camera(frame: &Frame) -> Image {
 fn the_screen_based_mode_equals_its_source_in_64_bits() {
     let frame = render_frame(0);
     let output = by_camera(&frame);
-    let (width, height) = frame.size();
+    let Size { width, height } = frame.size();
     let mut blurred = 0;
     for (x, y) in (0..width).flat_map(|x| (0..height).map(move |y| (x, y))) {
         if *frame.depth.at(x, y) == FAR_DEPTH {

@@ -46,7 +46,7 @@ pub fn audit_color(
     if !scene.is_unlit() {
         return Ok(Vec::new());
     }
-    let size = [picture.width, picture.height];
+    let size = picture.size();
     let right = render_view(scene, size, SAMPLES, ColorSampling::default())?.color;
     let colors: Vec<ObjectColor> = (select_judged(regions).into_iter())
         .map(|region| ObjectColor {

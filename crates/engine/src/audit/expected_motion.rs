@@ -1,6 +1,6 @@
 //! Velocity that an engine should have output, and its variants under known mistakes.
 
-use frame::{Raster, Vectors, VelocityKind};
+use frame::{Raster, Size, Vectors, VelocityKind};
 use scene::Scene;
 use tracer::{PointLayers, PointMotion, RenderSettings, TraceError, trace_motion};
 
@@ -20,12 +20,8 @@ pub struct ExpectedMotion {
 
 impl ExpectedMotion {
     /// Traces all of them, with a dozen rays per pixel.
-    pub fn trace(scene: &Scene, [width, height]: [u32; 2]) -> Result<Self, TraceError> {
-        let mut since_last = RenderSettings {
-            width,
-            height,
-            ..RenderSettings::default()
-        };
+    pub fn trace(scene: &Scene, size: Size) -> Result<Self, TraceError> {
+        let mut since_last = RenderSettings::default().with_size(size);
         since_last.options.velocity = VelocityKind::PreviousFrame;
         let trace = |motion: PointMotion| trace_motion(scene, &since_last, &motion);
         let right = trace(PointMotion::RIGHT)?;

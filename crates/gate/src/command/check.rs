@@ -184,7 +184,7 @@ fn run_and_judge(args: &CheckArgs, judging: &Judging) -> Result<Judged, Error> {
     let (mut plan, bounds) = make_plan(&args.measure, args.measure.scenes.out.clone())?;
     let asked = args.measure.size;
     if let Some(size) = size_for_bounds(bounds.values(), &plan.filters, asked)? {
-        (plan.render.width, plan.render.height) = size;
+        plan.render = plan.render.with_size(size);
     }
     check_lengths(bounds.values(), &plan.filters, args.sequence.frames())?;
     plan.frames = args.sequence.frames();

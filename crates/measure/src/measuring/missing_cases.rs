@@ -33,7 +33,7 @@ impl SceneContext<'_> {
         let is_needed = |input: &&InputFormat| missing.iter().any(|case| case.id.input == **input);
         let inputs: Vec<InputFormat> = self.plan.inputs.iter().filter(is_needed).copied().collect();
         let replicates = read_replicates(self.plan, self.scene)?;
-        let stored_frames = store_frames(self.plan, self.scene, &inputs, (frame, &replicates))?;
+        let stored_frames = store_frames(self.plan, self.scene, &inputs, frame, &replicates)?;
         let depth_of_field = self.prepare_passes(&inputs, frame)?;
         let common_alignment = self.plan.common_alignment();
         let has_others = (missing.iter()).any(|case| case.id.alignment != common_alignment);

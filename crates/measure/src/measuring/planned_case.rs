@@ -77,10 +77,10 @@ impl<'a> PlannedCase<'a> {
             alignments.contains(&choice.filter.alignment)
                 && !scene.ingested().is_some_and(is_left_out)
         };
-        let picture = [plan.render.width, plan.render.height];
+        let picture = plan.render.size();
         let filters = plan.filters.iter().filter(is_measured).flat_map(|choice| {
             plan.inputs.iter().map(move |input| {
-                let [width, _] = input.scale.blurred_size(picture);
+                let width = input.scale.blurred_size(picture).width;
                 let source = PictureSource::Filter(Box::new(choice.scaled_to(width)), *input);
                 Self::new(scene, choice.filter.alignment, source)
             })

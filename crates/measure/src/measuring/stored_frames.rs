@@ -29,7 +29,8 @@ pub(super) fn store_frames(
     plan: &RunPlan,
     scene: RunScene,
     formats: &[InputFormat],
-    (frame, replicates): (&Frame, &[Picture]),
+    frame: &Frame,
+    replicates: &[Picture],
 ) -> Result<Vec<StoredFrame>, Error> {
     let whole = read_further_velocities(plan, scene)?;
     if let Some(whole) = whole.as_ref().filter(|_| scene.id().frame == 0) {

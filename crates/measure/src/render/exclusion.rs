@@ -58,6 +58,6 @@ pub fn read_exclusion(frame: &Frame, folder: &Path) -> Result<Option<Plane>, Fil
     }
     let file = read_exr(&path)?;
     let hash: String = file.get("content_hash")?;
-    let is_own = hash == frame.provenance.content_hash && (file.width, file.height) == frame.size();
+    let is_own = hash == frame.provenance.content_hash && file.size() == frame.size();
     is_own.then(|| file.plane(EXCLUSION)).transpose()
 }

@@ -9,7 +9,7 @@ use scene::SceneId;
 
 use crate::{Error, FilterChoice, RenderFile, hash_inputs, put, read_record, read_text};
 use filters::{EXCLUSION, Layer};
-use frame::{Alignment, Frame, Picture, Plane, read_exr};
+use frame::{Alignment, Frame, Picture, Plane, Size, read_exr};
 use serde::{Deserialize, Serialize};
 use tracer::RenderSettings;
 
@@ -38,8 +38,8 @@ pub struct IngestedScene {
     pub engine: String,
     /// Scene of the suite that the engine drew.
     pub scene: Option<SceneId>,
-    /// Columns and rows of all pictures.
-    pub size: [u32; 2],
+    /// Size of all pictures.
+    pub size: Size,
     /// Time that the shutter is open, in frames.
     pub exposure: f64,
     /// Alignment of the shutter.
@@ -233,16 +233,15 @@ impl IngestedScene {
     }
 
     /// Refuses a run with pictures of another size.
-    pub fn check_size(&self, (width, height): (u32, u32)) -> Result<(), Error> {
-        if self.size == [width, height] {
+    pub fn check_size(&self, size: Size) -> Result<(), Error> {
+        if self.size == size {
             Ok(())
         } else {
             Err(Error::Refused(format!(
-                "{}: was drawn at {}x{} pixels, and the pictures of this run are to have {width}x{height}; scenes of one run \
+                "{}: was drawn at {} pixels, and the pictures of this run are to have {size}; scenes of one run \
                  have one size: run it apart, or at its own size",
                 self.folder.display(),
-                self.size[0],
-                self.size[1]
+                self.size
             )))
         }
     }

@@ -11,8 +11,18 @@ use serde::Serialize;
 use tracer::RenderSettings;
 
 use super::ingested_scene::{Drawn, IngestedScene};
-use super::ladders::needed_rungs;
 use super::memory::{Measured, bound_memory, count_measured, refuse_beyond_free};
+
+/// Lists the rungs that measuring against a truth needs: all if ladders are requested. Otherwise
+/// only the sharp picture of the shutter's middle, the zero of skill, unless that is the frame
+/// itself.
+pub(crate) fn needed_rungs(alignment: Alignment, ladders: bool) -> &'static [u32] {
+    match (ladders, alignment) {
+        (true, _) => &LADDER,
+        (false, Alignment::Centred) => &[],
+        (false, _) => &LADDER[..1],
+    }
+}
 
 /// A scene of a run.
 #[derive(Clone, Copy, Debug)]

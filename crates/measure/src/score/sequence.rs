@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use frame::{Frame, Image, Truth};
+use frame::{Frame, Image, Size, Truth};
 use metrics::{Instant, SequenceMeasurement, SequenceReference};
 use scene::Scene;
 use tracer::{RenderSettings, truth_hash};
@@ -56,7 +56,7 @@ pub fn score_sequence(
 
 /// Returns a truth's render settings, as stated in its files.
 fn settings_of(frame_truth: &SequenceTruth) -> RenderSettings {
-    let (width, height) = frame_truth.truth.size();
+    let Size { width, height } = frame_truth.truth.size();
     let provenance = &frame_truth.truth.provenance;
     RenderSettings {
         width,

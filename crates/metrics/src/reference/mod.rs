@@ -12,7 +12,7 @@ mod shared_noise;
 mod sharp;
 mod still;
 
-use frame::{Frame, Image, Ladder, Picture, Plane, Raster, Truth, regions};
+use frame::{Frame, Image, Ladder, Picture, Plane, Raster, Size, Truth, regions};
 use rayon::prelude::*;
 
 use crate::color::flip::Displayed;
@@ -271,7 +271,7 @@ impl<'a> Reference<'a> {
 }
 
 /// Marks the pixels with their SSIM window in the picture.
-fn mark_whole_windows((width, height): (u32, u32)) -> Raster<bool> {
+fn mark_whole_windows(Size { width, height }: Size) -> Raster<bool> {
     Raster::from_fn(width, height, |x, y| {
         x.min(y) >= SSIM_BORDER && x + SSIM_BORDER < width && y + SSIM_BORDER < height
     })

@@ -7,6 +7,7 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use filters::{Filter, Input, Layer};
+use frame::Size;
 use measure::{
     Case, Error, FilterFrame, InputFormat, MEASURED_FILTERS, PROGRAM, Run, filter_input,
 };
@@ -150,7 +151,7 @@ fn describe_case(
     number: usize,
     filter: &Filter,
 ) -> Result<String, String> {
-    let (width, height) = frame.size();
+    let Size { width, height } = frame.size();
     let is_missing = |layer: &Layer| match layer {
         Layer::Color | Layer::Velocity | Layer::Depth => false,
         Layer::VelocityNext => frame.velocity_next.is_none(),

@@ -1,6 +1,7 @@
 //! The camera and all poses, at the time of one sample after the other.
 
 use bvh::Ray;
+use frame::Size;
 use scene::Scene;
 
 use crate::film::canvas::Canvas;
@@ -26,7 +27,7 @@ pub(crate) struct Eye<'a> {
     pub instant: Poses<'a>,
     view: View,
     moves: bool,
-    size: [u32; 2],
+    size: Size,
 }
 
 impl<'a> Eye<'a> {
@@ -37,7 +38,12 @@ impl<'a> Eye<'a> {
         instant.at(0.0);
         Self {
             scene,
-            view: View::new(&scene.camera, poses.time(), canvas.view[0], canvas.view[1]),
+            view: View::new(
+                &scene.camera,
+                poses.time(),
+                canvas.view.width,
+                canvas.view.height,
+            ),
             poses,
             instant,
             moves: !scene.camera.stands_still(),
@@ -59,7 +65,7 @@ impl<'a> Eye<'a> {
     fn view_at(&mut self, time: f64) -> &View {
         self.poses.at(time);
         if self.moves {
-            self.view = View::new(&self.scene.camera, time, self.size[0], self.size[1]);
+            self.view = View::new(&self.scene.camera, time, self.size.width, self.size.height);
         }
         &self.view
     }

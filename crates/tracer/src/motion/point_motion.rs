@@ -1,5 +1,6 @@
 //! Motion and points of a velocity buffer.
 
+use frame::Size;
 use scene::Scene;
 
 use crate::motion::view::{View, ViewRate};
@@ -91,7 +92,7 @@ impl PointMotion {
     };
 
     /// The view at the time of the motion, and its derivative just before.
-    pub(super) fn view(&self, scene: &Scene, [width, height]: [u32; 2]) -> (View, ViewRate) {
+    pub(super) fn view(&self, scene: &Scene, Size { width, height }: Size) -> (View, ViewRate) {
         let view = View::new(&scene.camera, self.moved_at, width, height);
         let rate = if self.camera_stands {
             ViewRate::STILL

@@ -1,6 +1,6 @@
 //! Screen velocity of a visible point, from its exact position as a function of time.
 
-use frame::{Camera, Reprojection, VelocityKind};
+use frame::{Camera, Reprojection, Size, VelocityKind};
 use glam::DVec3;
 use scene::Scene;
 
@@ -39,7 +39,7 @@ impl TrackedPoint {
     pub fn velocity(
         &self,
         scene: &Scene,
-        size: [u32; 2],
+        size: Size,
         kind: VelocityKind,
         motion: &PointMotion,
     ) -> [f64; 3] {
@@ -96,7 +96,7 @@ impl TrackedPoint {
     fn difference_quotient(
         &self,
         scene: &Scene,
-        size: [u32; 2],
+        size: Size,
         motion: &PointMotion,
     ) -> Option<[f64; 3]> {
         let at = |steps: f64| self.project(scene, size, motion.moved_at - steps * STEP, motion);
@@ -111,7 +111,7 @@ impl TrackedPoint {
     fn project(
         &self,
         scene: &Scene,
-        [width, height]: [u32; 2],
+        Size { width, height }: Size,
         time: f64,
         motion: &PointMotion,
     ) -> Option<[f64; 3]> {
@@ -170,7 +170,7 @@ fn surface_motion(
 }
 
 /// The map from this frame's picture to the last one's, for points that stand still in the world.
-pub(crate) fn reprojection(scene: &Scene, [width, height]: [u32; 2]) -> Reprojection {
+pub(crate) fn reprojection(scene: &Scene, Size { width, height }: Size) -> Reprojection {
     let [now, then] = [0.0, -1.0].map(|time| View::new(&scene.camera, time, width, height));
     if now == then {
         // Without rounding, so that a point keeps its place exactly.
@@ -182,7 +182,7 @@ pub(crate) fn reprojection(scene: &Scene, [width, height]: [u32; 2]) -> Reprojec
 }
 
 /// The camera at the instant and one frame before.
-pub(crate) fn camera(scene: &Scene, [width, height]: [u32; 2]) -> Camera {
+pub(crate) fn camera(scene: &Scene, Size { width, height }: Size) -> Camera {
     let [now, before] =
         [0.0, -1.0].map(|time| View::new(&scene.camera, time, width, height).pose());
     Camera { now, before }

@@ -146,7 +146,7 @@ fn a_run_on_a_capture_scores_near_our_own_scene_and_ranks_the_engine() {
     let run = sandbox.read_run();
     let scaled = find(&run, NAME, "jump_flood").reference_width;
     assert!(scaled.is_some_and(|width| width != 96), "{scaled:?}");
-    assert_eq!((run.render.width, run.render.height), (96, 54));
+    assert_eq!(run.render.size().to_string(), "96x54");
     for filter in ["identity", "jump_flood", "scatter_oracle"] {
         let [engines, ours] = read_scores(&run, filter, "flip_moving");
         // The truths differ by strobing of 0.29 px, and the regions by the pixels at their borders.

@@ -5,7 +5,7 @@ use std::fs;
 use serde_json::Value;
 use tests::text::{assert_contains, squeeze};
 
-use crate::ingest::capture::{CONVENTION, Capture, DESCRIPTION};
+use super::ingest::capture::{CONVENTION, Capture, DESCRIPTION};
 use crate::sandbox::{Sandbox, split, stderr, stdout};
 
 /// Audits the capture, with an exit code; returns the words of the output, and audit.json.

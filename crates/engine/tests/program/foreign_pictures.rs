@@ -7,7 +7,7 @@ use serde_json::Value;
 use tests::exr_attribute::{ACES_CG, REC_709, bytes_of, set_exr_attribute, to_aces_cg};
 use tests::text::assert_contains;
 
-use crate::ingest::capture::{CONVENTION, Capture};
+use super::ingest::capture::{CONVENTION, Capture};
 use crate::sandbox::{Sandbox, split, stderr};
 
 const SCORE: &str =

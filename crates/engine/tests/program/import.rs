@@ -15,8 +15,8 @@ use crate::sandbox::{Sandbox, assert_done, assert_refused, split, stdout};
 
 /// House far from the origin, as exporters write one: Windows line ends, quads, a pentagon, indices
 /// counted from the end, no normals, names with spaces.
-const HOUSE: &str = include_str!("../fixtures/models/the_house.obj");
-const MATERIALS: &str = include_str!("../fixtures/models/the_house.mtl");
+const HOUSE: &str = include_str!("../fixtures/the_house.obj");
+const MATERIALS: &str = include_str!("../fixtures/the_house.mtl");
 
 /// Makes a folder with the house and its materials.
 fn set_up() -> Sandbox {

@@ -11,7 +11,7 @@ use frame::{ExrFile, FAR_DEPTH, Frame, Image, Plane, Raster, Vectors, write_exr}
 use tests::text::assert_contains;
 use tests::{root, scenes};
 
-use crate::ingest::capture::{HEIGHT, WIDTH, render_instant};
+use super::ingest::capture::{HEIGHT, WIDTH, render_instant};
 use crate::sandbox::{Sandbox, split, stderr, stdout};
 
 /// Number of pictures over the shutter.
