@@ -106,8 +106,9 @@ image: archive
 
 # Publishes nothing: packs the libraries that others can use, compiles each from its package, and builds their pages.
 publish:
-	cargo publish --dry-run --locked -p shuttertruth-frame -p shuttertruth-metrics -p shuttertruth-tracer
-	RUSTDOCFLAGS="-D warnings" cargo doc --no-deps --locked -p shuttertruth-frame -p shuttertruth-metrics -p shuttertruth-tracer
+	cargo publish --dry-run --locked -p shuttertruth-bvh -p shuttertruth-frame -p shuttertruth-metrics -p shuttertruth-scene \
+		-p shuttertruth-source-hash -p shuttertruth-tracer
+	RUSTDOCFLAGS="-D warnings" cargo doc --no-deps --locked -p shuttertruth-bvh -p shuttertruth-frame -p shuttertruth-metrics -p shuttertruth-scene -p shuttertruth-tracer
 
 # The Python that has these packages; one of your own is used as it is. Its pip is called through it: in a copied folder the script
 # `pip` still belongs to the original.

@@ -31,7 +31,7 @@ fn print_tables(paths: &[String]) -> Result<(), Error> {
         .map(|path| read(Path::new(path)))
         .collect::<Result<_, _>>()?;
     let mut results: Vec<&Results> = results.iter().collect();
-    results.sort_by_key(|results| u64::from(results.size[0]) * u64::from(results.size[1]));
+    results.sort_by_key(|results| results.size.pixels());
     for metric in [Metric::FLIP, Metric::LABEL] {
         for comparison in compare_sizes(&results, metric)? {
             println!(
@@ -106,10 +106,10 @@ fn print_agreement(comparison: &SizeComparison) {
 }
 
 fn print_reversals(comparison: &SizeComparison) {
-    for ((width, height), agreement) in comparison.sizes.iter().zip(&comparison.agreement) {
+    for (size, agreement) in comparison.sizes.iter().zip(&comparison.agreement) {
         for reversal in &agreement.reversed {
             println!(
-                "- {width}x{height} says that {} is better than {} by {:.3}; the largest size says that it is worse by {:.3}.",
+                "- {size} says that {} is better than {} by {:.3}; the largest size says that it is worse by {:.3}.",
                 markdown_code(&reversal.better_here),
                 markdown_code(&reversal.better_at_largest),
                 reversal.differences[0],
@@ -123,6 +123,6 @@ fn print_reversals(comparison: &SizeComparison) {
 /// ` 160x90 | 320x180 |`
 fn size_columns(comparison: &SizeComparison) -> String {
     (comparison.sizes.iter())
-        .map(|(width, height)| format!(" {width}x{height} |"))
+        .map(|size| format!(" {size} |"))
         .collect()
 }

@@ -9,7 +9,8 @@ use std::process::ExitCode;
 use filters::{Filter, Gpu};
 use measure::{Error, FilterChoice, Monitor, RunPlan, measure_scenes, open_gpu};
 use metrics::{Ideal, Interval, Metric};
-use tracer::{RenderSettings, load_scene};
+use scene::load_scene;
+use tracer::RenderSettings;
 
 /// One filter per shutter: trailing and centred.
 const FILTERS: [(&str, &str); 2] = [("jump_flood", "paper"), ("mcguire", "paper")];

@@ -11,7 +11,8 @@ use measure::Error;
 use metrics::scatter_oracle;
 use metrics::{MeasureError, Reference};
 use rayon::prelude::*;
-use tracer::{Progress, RenderSettings, Scene, list_scenes, load_scene, trace_frame, trace_truth};
+use scene::{Scene, list_scenes, load_scene};
+use tracer::{Progress, RenderSettings, trace_frame, trace_truth};
 
 /// FLIP over *moving* and over *support*.
 type Errors = [f64; 2];

@@ -4,19 +4,20 @@ use std::fs;
 
 use cli::{Programs, select_filters, select_scenes};
 use filters::{Convention, Gpu};
-use frame::{Frame, Image, Region, Truth, regions};
+use frame::{Frame, Image, Region, Size, Truth, regions};
 use judge::{Bounds, Level, Outcome, SceneBounds, judge_scores, read_bounds};
 use measure::{Case, Error, FilterChoice, RunPlan, measure_scenes, read_finished_picture};
 use metrics::Measured;
+use scene::Scene;
 use tempfile::TempDir;
 use tests::filter_folder::{copy_changed_filter, shipped_filter};
-use tracer::{RenderSettings, Scene};
+use tracer::RenderSettings;
 
 use crate::mutant::Mutant;
 
 const SCENES: [&str; 5] = ["fan", "railing", "two_spheres", "roll", "crossing"];
 /// Columns and rows of the pictures, those of the shipped limits.
-const SIZE: (u32, u32) = (160, 90);
+const SIZE: Size = Size::new(160, 90);
 const SAMPLES_PER_PIXEL: u32 = 64;
 /// Mutants of each operator and filter, at most.
 const PER_OPERATOR: usize = 6;

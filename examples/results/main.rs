@@ -111,7 +111,7 @@ fn write_pictures(all: &[Results], run: &Run, path: &Path) -> Result<(), Error> 
     let Some(results) = main_results(all) else {
         return Ok(());
     };
-    if [run.render.width, run.render.height] != results.size {
+    if run.render.size() != results.size {
         return Ok(());
     }
     let folder = path.parent().unwrap_or(Path::new(""));

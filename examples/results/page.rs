@@ -10,7 +10,7 @@ use judge::{
 };
 use measure::{Error, IDENTITY, escape_markdown, markdown_code};
 use metrics::Metric;
-use tracer::SceneId;
+use scene::SceneId;
 
 use super::change::Change;
 use super::engines::{Engine, Measured, Shape, list_engines, measured};
@@ -94,10 +94,9 @@ impl<'a> Kept<'a> {
         if self.groups.iter().any(|group| has_effects(group)) {
             rule += &format!(" {SIDE_EFFECTS_RULE}");
         }
-        let [width, height] = results.size;
         let settings = [
             ("{SCENES}", results.scenes().len().to_string()),
-            ("{SIZE}", format!("{width}x{height}")),
+            ("{SIZE}", results.size.to_string()),
             ("{SAMPLES}", results.samples_per_pixel.to_string()),
             (
                 "{ADAPTER}",

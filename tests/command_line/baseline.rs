@@ -108,17 +108,6 @@ fn assert_page(sandbox: &Sandbox, verdict: &str, line: &str) {
 }
 
 #[test]
-fn a_score_that_improved_on_one_scene_is_no_worse() {
-    let sandbox = set_up();
-    // A sharp picture loses no rows.
-    write_gather(&sandbox, &sharp_block([24, 12, 42, 20]));
-    let (text, rows) = compare(&sandbox, 1, "row_loss");
-    let [worse, high] = [&rows["worse"], &rows["bounds"][1]].map(|value| value.as_f64().unwrap());
-    assert!(worse < -0.1 && high > 0.1, "{rows}");
-    assert_eq!(rows["kind"], "no_worse", "{text}");
-}
-
-#[test]
 fn bounds_and_comparisons_are_counted_apart() {
     let sandbox = set_up();
     sandbox.write_bound(0.9);

@@ -73,7 +73,7 @@ fn runs_of_two_sizes_lie_side_by_side() {
     assert_contains(&stdout(&check), &["report: out/48x24/report.html"]);
     assert!(contents() == before, "the run was changed");
     let run: measure::Run = sandbox.read_json("out/48x24/run.json");
-    assert_eq!((run.render.width, run.render.height), (48, 24));
+    assert_eq!(run.render.size().to_string(), "48x24");
     // Both runs are read back.
     assert_eq!(stdout(&sandbox.outside_ci(&few)), stdout(&check));
     let again = sandbox.measure("--filters identity");

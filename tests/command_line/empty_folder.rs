@@ -3,9 +3,9 @@
 use std::fs;
 use std::process::Command;
 
+use scene::{Location, load_scene};
 use serde_json::Value;
 use tests::{root, scenes};
-use tracer::{Location, load_scene};
 
 use crate::sandbox::{Sandbox, assert_same_files, files_below, read_below, split};
 

@@ -1,11 +1,8 @@
 //! The mask of what a blur leaves alone, for filters that read it.
 
-use std::fs;
-
-use frame::{ExrFile, Frame, Image, Raster, read_exr, write_exr};
+use frame::{Frame, Image, read_exr};
 use tests::root;
 
-use crate::ingest::capture::{Capture, HEIGHT, WIDTH};
 use crate::sandbox::{SCENE, Sandbox};
 
 /// Two plates that follow the camera, the second one as a part of the first.
@@ -31,7 +28,7 @@ fn add_held(sandbox: &Sandbox) {
 }
 
 /// Writes a filter that shows the mask.
-fn write_mask(sandbox: &Sandbox) {
+pub fn write_mask(sandbox: &Sandbox) {
     let shows = "textureStore(output, pixel, vec4<f32>(textureLoad(exclusion, pixel, 0).x));";
     sandbox.write_kernel("mask", "", &["exclusion"], shows);
 }
@@ -93,38 +90,4 @@ fn the_example_leaves_excluded_pixels_alone() {
             .count()
     });
     assert!(changes[0] > 10 && changes[1] == 0, "{changes:?}");
-}
-
-#[test]
-fn a_capture_may_have_a_mask() {
-    let sandbox = Sandbox::new();
-    let capture = Capture::new(&sandbox).with_subframes(4);
-    write_mask(&sandbox);
-    let ingest = "engine ingest capture --quiet -o out/engine/mine";
-    let run = "run --quiet --scenes out/engine/mine --filter ./mask --input border=clamp";
-    sandbox.done(ingest);
-    let leaves_out = "leaves out 1 preset because the capture does not have exclusion";
-    sandbox.refuse(run, &[leaves_out, "no filter is left"]);
-    let write = |left: f32| {
-        let mut file = ExrFile::new(WIDTH, HEIGHT);
-        let mask = Raster::from_fn(WIDTH, HEIGHT, |x, _| if x < 9 { left } else { 0.0 });
-        file.push_plane("R", &mask);
-        write_exr(&capture.path("exclusion.exr"), &file).unwrap();
-    };
-    write(1.5);
-    sandbox.refuse(
-        ingest,
-        &["capture/exclusion.exr", "1 where the blur must not"],
-    );
-    write(1.0);
-    sandbox.done(ingest);
-    sandbox.done(run);
-    let cases = sandbox.read_filter_cases().into_iter();
-    for case in cases.filter(|case| case.filter == "mask") {
-        let output = sandbox.read_color(&format!("out/{}/output.exr", case.folder.display()));
-        assert_eq!([8, 9].map(|x| output.at(x, 20)[0]), [1.0, 0.0]);
-    }
-    fs::remove_file(capture.path("exclusion.exr")).unwrap();
-    sandbox.done(ingest);
-    sandbox.refuse(run, &[leaves_out]);
 }

@@ -6,10 +6,10 @@ use std::fs;
 use frame::Image;
 use measure::{Case, Run, ShutterRule};
 use metrics::{Metric, SequenceMetric};
+use scene::{FrameRate, SceneId};
 use tests::filter_folder::{write_manifest, write_script};
 use tests::root;
 use tests::text::{assert_contains, squeeze};
-use tracer::{FrameRate, SceneId};
 
 use crate::sandbox::{Sandbox, split};
 

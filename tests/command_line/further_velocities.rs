@@ -5,18 +5,17 @@ use std::fs;
 use frame::{Frame, Image};
 use tests::near::assert_near;
 
-use crate::ingest::capture::Capture;
 use crate::sandbox::Sandbox;
 
 /// Writes a filter that shows both.
-fn write_next(sandbox: &Sandbox) {
+pub fn write_next(sandbox: &Sandbox) {
     let shows = "let z = textureLoad(velocity_z, pixel, 0).x;
         textureStore(output, pixel, vec4<f32>(textureLoad(velocity_next, pixel, 0).xy, z, 1.0));";
     sandbox.write_kernel("next", "", &["velocity_next", "velocity_z"], shows);
 }
 
 /// Reads what the filter showed of the only scene, in each form of its input.
-fn read_outputs(sandbox: &Sandbox) -> Vec<Image> {
+pub fn read_outputs(sandbox: &Sandbox) -> Vec<Image> {
     let cases = sandbox.read_filter_cases().into_iter();
     (cases.filter(|case| case.filter == "next"))
         .map(|case| sandbox.read_color(&format!("out/{}/output.exr", case.folder.display())))
@@ -59,30 +58,4 @@ fn run_hands_them_to_filters_that_read_them_and_leaves_the_frame_s_file_as_it_is
     let whole = Frame::read(&sandbox.path("more/plate/frame.exr")).unwrap();
     assert_eq!(whole.provenance, frame.provenance);
     assert_eq!(whole.color, frame.color);
-}
-
-#[test]
-fn a_capture_may_have_them() {
-    let sandbox = Sandbox::new();
-    let capture = Capture::new(&sandbox).with_subframes(4);
-    let ingest = "engine ingest capture --quiet -o out/engine/mine";
-    let run = "run --quiet --scenes out/engine/mine --filter ./next";
-    write_next(&sandbox);
-    for missing in ["velocity_next", "velocity_z"] {
-        sandbox.done(ingest);
-        let leaves_out = format!("leaves out 1 preset because the capture does not have {missing}");
-        sandbox.refuse(run, &[&leaves_out, "no filter is left"]);
-        let names = ["velocity.exr".to_owned(), format!("{missing}.exr")];
-        let [from, to] = names.map(|name| capture.path(&name));
-        fs::copy(from, to).unwrap();
-    }
-    sandbox.done(ingest);
-    sandbox.done(run);
-    let frame = Frame::read(&sandbox.path("out/engine/mine/frame.exr")).unwrap();
-    assert_eq!(frame.velocity_next.as_ref(), Some(&frame.velocity));
-    let [right, down] = *frame.velocity.at(48, 27);
-    // The channel R of the copy: normalised device coordinates.
-    let [x, y, z] = *read_outputs(&sandbox)[0].at(48, 27);
-    assert_eq!([x, y], [right, down]);
-    assert_near(z, f64::from(right) * 2.0 / 96.0, 1e-6);
 }

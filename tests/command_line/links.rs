@@ -95,7 +95,7 @@ fn links_lead_from_the_readme_to_every_guide() {
             pending.extend(paths.filter_map(|path| path.canonicalize().ok()));
         }
     }
-    for guide in ["docs", "results"]
+    for guide in ["docs", "results", "crates/engine/guides"]
         .map(|folder| find_pages(&root().join(folder)))
         .concat()
     {
@@ -113,14 +113,14 @@ fn the_page_of_evidence_names_tests_that_exist() {
         let cell = row.rsplit('|').nth(1).unwrap();
         for name in cell.split('`').skip(1).step_by(2) {
             count += 1;
+            let is_test = |path: PathBuf| path.is_dir() || path.with_extension("rs").is_file();
             let exists = match name.split_once(' ') {
                 Some(("make", target)) => makefile.contains(&format!("\n{target}:")),
                 Some((program, module)) => {
                     let module = module.replace("::", "/");
-                    let path = root().join("tests").join(program).join(module);
-                    path.is_dir() || path.with_extension("rs").is_file()
+                    is_test(root().join("tests").join(program).join(module))
                 }
-                None => root().join(name).is_dir(),
+                None => is_test(root().join(name)),
             };
             assert!(exists, "docs/evidence.md: no test is called {name}");
         }

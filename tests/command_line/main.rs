@@ -1,12 +1,9 @@
 //! The program as its user sees it: output, files and exit codes.
 
 mod arguments;
-mod audit;
 mod baseline;
 #[path = "../../crates/bench/tests/program/mod.rs"]
 mod bench;
-#[cfg(unix)]
-mod blender;
 mod changes;
 mod check;
 mod child;
@@ -18,11 +15,12 @@ mod compilers;
 mod conventions;
 mod earlier_run;
 mod empty_folder;
+#[path = "../../crates/engine/tests/program/mod.rs"]
+mod engine;
 mod exclusion;
 mod failures;
 mod fidelity;
 mod finished_sequence;
-mod foreign_pictures;
 mod frame_rates;
 mod further_velocities;
 #[cfg(unix)]
@@ -30,8 +28,6 @@ mod growth;
 mod guides;
 mod half_floats;
 mod hostile;
-mod import;
-mod ingest;
 mod input_forms;
 #[cfg(unix)]
 mod interrupts;
@@ -58,11 +54,10 @@ mod snapshots;
 mod studies;
 mod summary;
 mod terminal;
-#[cfg(unix)]
-mod threejs;
 #[path = "../../crates/tune/tests/program/mod.rs"]
 mod tune;
 mod variants;
+mod written_files;
 
 use std::fs;
 use std::path::Path;
@@ -76,7 +71,7 @@ fn a_run_writes_scores_and_pictures_of_every_case() {
     assert_done(&sandbox.run(&["--filters", "identity,jump_flood:paper"]));
     let run = sandbox.read_run();
     assert_eq!(run.format, measure::FORMAT);
-    assert_eq!((run.render.width, run.render.height), (64, 32));
+    assert_eq!(run.render.size().to_string(), "64x32");
     assert_eq!(run.render.samples_per_pixel, 16);
     assert!(run.cases.is_sorted_by_key(|case| !case.is_reference));
     let names = |is_reference| {

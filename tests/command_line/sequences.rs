@@ -8,8 +8,8 @@ use std::time::SystemTime;
 use judge::{RANKED_BY, RankedSequence, rank_sequences, rank_sequences_on};
 use measure::{Run, Sequence};
 use metrics::{Measured, PERFECT_JOD, SequenceMetric};
+use scene::SceneId;
 use tests::text::assert_contains;
-use tracer::SceneId;
 
 use crate::sandbox::{
     IDENTITY, SCENE, Sandbox, assert_done, assert_refused, files_below, split, stdout,

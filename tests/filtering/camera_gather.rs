@@ -1,14 +1,15 @@
 //! The blur without a velocity buffer, against the gather with only the camera's velocity.
 
 use filters::Input;
-use frame::{FAR_DEPTH, Frame, FrameOptions, Image, VelocityKind};
+use frame::{FAR_DEPTH, Frame, FrameOptions, Image, Size, VelocityKind};
 use glam::{DQuat, DVec3, Vec3};
+use scene::{Background, Key, Motion, Scene};
 use tests::near::{assert_near, assert_within};
 use tests::picture::{frame_input, make_blur};
 use tests::shapes::*;
 use tests::text::assert_contains;
 use tests::unwatched;
-use tracer::{Background, Key, Motion, RenderSettings, Scene, trace_frame};
+use tracer::{RenderSettings, trace_frame};
 
 use crate::reference::{read_clamped, sample_linear};
 
@@ -92,7 +93,7 @@ fn depth_and_the_previous_camera_give_the_camera_s_velocity() {
 fn armory_s_mode_camera_equals_its_source_in_64_bits() {
     let frame = render_frame(0);
     let output = blur_frame(&frame, "camera_gather", Some("armory"), "");
-    let (width, height) = frame.size();
+    let Size { width, height } = frame.size();
     let size = [width, height].map(f64::from);
     let [mut blurred, mut sky] = [0; 2];
     for (x, y) in (0..width).flat_map(|x| (0..height).map(move |y| (x, y))) {
@@ -126,7 +127,7 @@ fn armory_s_mode_camera_equals_its_source_in_64_bits() {
 fn urp_s_mode_camera_equals_its_source_in_64_bits() {
     let frame = render_frame(0);
     let output = blur_frame(&frame, "urp", Some("camera_only"), "");
-    let (width, height) = frame.size();
+    let Size { width, height } = frame.size();
     let size = [width, height].map(f64::from);
     let [mut cut, mut same] = [0; 2];
     for (x, y) in (0..width).flat_map(|x| (0..height).map(move |y| (x, y))) {

@@ -5,12 +5,14 @@ use std::fs;
 use std::path::Path;
 
 use filters::{Blur, Filter, FilterError};
+use frame::Size;
 use serde::Deserialize;
 use tests::text::assert_contains;
 use tests::{root, shared_gpu};
 
 /// Prepares the first preset of a filter for pictures of a size, in pixels.
-pub fn ready(filter: &Filter, (width, height): (u32, u32)) -> Result<Blur<'static>, FilterError> {
+pub fn ready(filter: &Filter, size: impl Into<Size>) -> Result<Blur<'static>, FilterError> {
+    let Size { width, height } = size.into();
     let settings = filter.settings(None).unwrap();
     Blur::new(shared_gpu(), filter, &settings, width, height)
 }

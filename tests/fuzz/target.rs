@@ -38,10 +38,15 @@ pub struct Program {
 }
 
 impl Target {
+    /// Returns the name of the folder of its inputs.
+    pub fn corpus_name(&self) -> &str {
+        self.corpus.as_ref().unwrap_or(&self.name)
+    }
+
     /// Returns the file's content in the fixture, and the inputs of the corpus.
     pub fn inputs(&self, fixture: &Path) -> Vec<Vec<u8>> {
         let folder = tests::root().join("tests/fuzz/corpus");
-        let folder = folder.join(self.corpus.as_ref().unwrap_or(&self.name));
+        let folder = folder.join(self.corpus_name());
         let mut inputs: Vec<Vec<u8>> = fs::read(fixture.join(&self.file)).into_iter().collect();
         let entries = fs::read_dir(folder).into_iter().flatten().flatten();
         let mut paths: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
@@ -83,7 +88,8 @@ impl Target {
         }
         let outside = WalkDir::new(outer.path()).into_iter();
         let outside = outside.filter_entry(|entry| entry.path() != folder);
-        let files = outside.filter(|entry| entry.as_ref().is_ok_and(|it| !it.file_type().is_dir()));
+        let files =
+            outside.filter(|entry| entry.as_ref().is_ok_and(|file| !file.file_type().is_dir()));
         if files.count() != 1 || fs::read_to_string(&canary).ok().as_deref() != Some(CANARY) {
             return Err("a file outside was changed".to_owned());
         }

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use cli::{Programs, select_filters};
+use frame::Size;
 use judge::{Level, SceneBounds, check_names, read_bounds, size_for_bounds};
 use measure::{Error, FilterChoice, Frames};
 use metrics::{Metric, SequenceMetric};
@@ -29,7 +30,7 @@ impl Scenes {
     }
 
     /// Reads the bounds of `fan` for pictures of a size, and checks the names in them.
-    fn read(&self, size: Option<(u32, u32)>) -> Result<SceneBounds, Error> {
+    fn read(&self, size: Option<Size>) -> Result<SceneBounds, Error> {
         let bounds = read_bounds(self.0.path(), self.fan(), size)?;
         check_names(self.0.path(), std::iter::once(&bounds), &identity())?;
         Ok(bounds)
@@ -49,7 +50,7 @@ fn read(shared: &str, of_fan: &str) -> Result<SceneBounds, String> {
     let root = scenes.0.path();
     let check = || {
         let bounds = scenes.read(None)?;
-        let fan = tracer::SceneId::new("fan", None);
+        let fan = scene::SceneId::new("fan", None);
         let all = std::iter::once((&fan, &bounds));
         judge::require_bounds(root, all, &identity(), Frames::default())?;
         Ok(bounds)
@@ -96,16 +97,19 @@ fn limits_hold_only_at_their_own_size() {
         let size = size_for_bounds(bounds.iter().copied(), &identity(), asked);
         size.map_err(|error| error.to_string())
     };
-    let asked = Some((160, 90));
+    let asked = Some(Size::new(160, 90));
     assert_eq!(size(&[&any, &small], None), Ok(asked));
     assert_eq!(size(&[&small, &another], asked), Ok(asked));
-    assert_eq!(size(&[&any, &another], Some((64, 32))), Ok(Some((64, 32))));
+    assert_eq!(
+        size(&[&any, &another], Some(Size::new(64, 32))),
+        Ok(Some(Size::new(64, 32)))
+    );
     assert_eq!(size(&[&any], None), Ok(None));
     let parts = [
         "fan/bounds.toml:2: the limit on flip_moving holds for 160x90, and the pictures are to have 320x180",
         "`shuttertruth limits calibrate`",
     ];
-    let refused = size(&[&small], Some((320, 180)));
+    let refused = size(&[&small], Some(Size::new(320, 180)));
     assert_contains(&refused.unwrap_err(), &parts);
     let parts = [
         "fan/bounds.toml:2: ",
@@ -116,7 +120,10 @@ fn limits_hold_only_at_their_own_size() {
     assert_contains(&refused.unwrap_err(), &parts);
     // At another size, the limit for any size remains.
     let left = |size| small.clone().at(size).of("identity", "default")[&Metric::FLIP].limit;
-    assert_eq!([left((160, 90)), left((320, 180))], [0.2, 0.1]);
+    assert_eq!(
+        [left(Size::new(160, 90)), left(Size::new(320, 180))],
+        [0.2, 0.1]
+    );
 }
 
 #[test]
@@ -165,14 +172,17 @@ fn limits_for_a_second_size_stand_in_a_file_of_their_own() {
     };
     let refused =
         |asked, part: &str| assert_contains(&read(asked).unwrap_err().to_string(), &[part]);
-    let large = Some((1280, 720));
+    let large = Some(Size::new(1280, 720));
     write("", &table(0.2, "size = [160, 90],"));
     write("_1280x720", &table(0.1, ""));
-    assert_eq!(read(None).unwrap(), (0.2, Some((160, 90))));
-    assert_eq!(read(Some((160, 90))).unwrap(), (0.2, Some((160, 90))));
+    assert_eq!(read(None).unwrap(), (0.2, Some(Size::new(160, 90))));
+    assert_eq!(
+        read(Some(Size::new(160, 90))).unwrap(),
+        (0.2, Some(Size::new(160, 90)))
+    );
     assert_eq!(read(large).unwrap(), (0.1, large));
     let way_out = "put them into bounds_320x180.toml beside the scene";
-    refused(Some((320, 180)), way_out);
+    refused(Some(Size::new(320, 180)), way_out);
 
     write("_1280x720", &table(0.1, "size = [160, 90],"));
     // Files for other sizes are checked as well.

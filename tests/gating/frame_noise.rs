@@ -3,8 +3,9 @@
 use filters::{Filter, Gpu};
 use measure::{FilterChoice, Monitor, RunPlan, measure_scenes};
 use metrics::Interval;
+use scene::load_scene;
 use tests::{open_gpu, settings};
-use tracer::{RenderSettings, load_scene};
+use tracer::RenderSettings;
 
 const SIZE: [u32; 2] = [160, 90];
 const SAMPLES: u32 = 64;

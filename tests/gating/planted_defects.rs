@@ -12,10 +12,10 @@ use gate::{Check, check};
 use judge::{Decision, Finding, RunBounds, judge};
 use measure::{FilterChoice, Run, RunPlan, measure_scenes};
 use metrics::Metric;
+use scene::SceneId;
 use tests::filter_folder::copy_changed_filter;
 use tests::limits::calibrate_scene;
 use tests::open_gpu;
-use tracer::SceneId;
 
 /// Scenes: one object that slides, far and at an angle; two that pass one another; many that turn,
 /// fly and hide one another; many that cross; some that leave the picture; thin ones.

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use cli::{Programs, SceneChoice, select_filters, select_scenes};
-use frame::Alignment;
+use frame::{Alignment, Size};
 use gate::check;
 use judge::{
     Decision, JudgedScore, Level, Outcome, SceneBounds, judge, judge_scores, read_bounds,
@@ -13,8 +13,8 @@ use judge::{
 };
 use measure::{FilterChoice, Monitor, Rendering, RunPlan, measure_scenes};
 use metrics::Reference;
+use scene::Scene;
 use tests::{open_gpu, settings};
-use tracer::Scene;
 
 /// Scenes with quick truths.
 const FEW: [&str; 2] = ["sliding_panel", "two_spheres"];
@@ -28,7 +28,7 @@ const GUARDED: &str = "jump_flood:paper jump_flood:corrected mcguire:paper guert
 const REQUIRED: [&str; 2] = ["flip_moving", "bleed_lateral"];
 
 /// Size of the required bounds.
-const SIZE: (u32, u32) = (160, 90);
+const SIZE: Size = Size::new(160, 90);
 
 /// Locks and returns the folder of truths, which are kept between runs of the tests: two tests that
 /// need the same truths render them once.

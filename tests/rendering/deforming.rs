@@ -2,10 +2,10 @@
 
 use frame::{Alignment, Shutter, VelocityKind};
 use glam::{DQuat, DVec2, DVec3, Vec3};
+use scene::{Key, Mesh, Motion, Scene, Shape};
 use tests::brute_force::expect_what_every_triangle_gives;
 use tests::half_plane::half_plane;
 use tests::random::Numbers;
-use tracer::{Key, Mesh, Motion, Scene, Shape};
 
 use crate::intersection::expect_no_leak;
 use crate::moving_shapes::{DISTANCE, HEIGHT, WIDTH, expect_coverage, pixel_corner};

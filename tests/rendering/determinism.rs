@@ -5,9 +5,10 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use frame::{Alignment, Efficiency, Frame, Ladder, Picture, Truth, VelocityKind};
 use glam::{DVec3, Vec3};
+use scene::{Background, Lens, Scene};
 use tracer::{
-    Background, Lens, PixelGrid, Progress, RenderSettings, Scene, TraceError, frame_hash,
-    ladder_hash, replicate_hash, trace_frame_part, trace_ladder, trace_truth, truth_hash,
+    PixelGrid, Progress, RenderSettings, TraceError, frame_hash, ladder_hash, replicate_hash,
+    trace_frame_part, trace_ladder, trace_truth, truth_hash,
 };
 
 use crate::lens::with_lens;

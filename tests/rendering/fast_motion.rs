@@ -2,7 +2,8 @@
 
 use frame::{Frame, VelocityKind};
 use glam::{DQuat, DVec2, DVec3, Vec3};
-use tracer::{Parent, PixelGrid, Scene, Shape, trace_further_velocities};
+use scene::{Parent, Scene, Shape};
+use tracer::{PixelGrid, trace_further_velocities};
 
 use crate::renders::{self, *};
 

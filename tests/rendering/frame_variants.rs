@@ -3,7 +3,8 @@
 
 use frame::{ColorSampling, VelocityKind};
 use glam::{DQuat, DVec3, Vec3};
-use tracer::{Background, Key, Scene, TraceError, Turn, trace_frame};
+use scene::{Background, Key, Scene, SizeError, Turn};
+use tracer::{TraceError, trace_frame};
 
 use crate::renders::*;
 
@@ -106,7 +107,7 @@ fn a_frame_inside_its_guard_band_equals_the_bare_frame() {
         let mut padded = settings;
         padded.guard_band = 5;
         let padded = render_frame(&scene, &padded);
-        assert_eq!(padded.size(), (SIZE[0] + 10, SIZE[1] + 10));
+        assert_eq!(padded.size(), [SIZE[0] + 10, SIZE[1] + 10].into());
         let mut cropped = padded.cropped();
         cropped.provenance = bare.provenance.clone();
         assert_eq!(cropped, bare, "{velocity}");
@@ -140,6 +141,9 @@ fn a_guard_band_that_is_too_wide_is_refused() {
     let mut settings = settings(SIZE, 4);
     settings.guard_band = 9000;
     let refused = trace_frame(&spheres_scene(), &settings, &unwatched);
-    let is_size = matches!(refused, Err(TraceError::Size { width: 18036, .. }));
+    let is_size = matches!(
+        refused,
+        Err(TraceError::Size(SizeError { width: 18036, .. }))
+    );
     assert!(is_size, "{refused:?}");
 }

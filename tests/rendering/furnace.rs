@@ -4,8 +4,8 @@ use std::f64::consts::{PI, TAU};
 
 use frame::Truth;
 use glam::{DQuat, DVec3, Vec2, Vec3};
+use scene::{Background, EnvironmentMap, Key, Scene, Texture};
 use tests::statistics::{estimate_pixels, expect_pooled_agreement};
-use tracer::{Background, EnvironmentMap, Key, Scene, Texture};
 
 use crate::deforming::deforming_mesh;
 use crate::renders::*;

@@ -1,10 +1,10 @@
 //! Rays against trees of many meshes and objects in every motion, compared with brute force.
 
 use glam::Vec3;
+use scene::{Interpolation, Object, Parent, Scene};
 use tests::brute_force::expect_what_every_triangle_gives;
 use tests::random::Numbers;
 use tests::shapes::*;
-use tracer::{Interpolation, Object, Parent, Scene};
 
 use crate::motion::random_motion;
 

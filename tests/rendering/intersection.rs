@@ -5,8 +5,9 @@ use std::f64::consts::PI;
 use frame::Alignment;
 use glam::{DQuat, DVec3, Vec3};
 use rayon::prelude::*;
+use scene::{Background, Key, Mesh, Motion, Scene};
 use tests::random::{Numbers, hash};
-use tracer::{Background, Key, Mesh, Motion, Ray, Scene, Stage};
+use tracer::{Ray, Stage};
 
 use crate::renders::*;
 

@@ -1,7 +1,7 @@
 //! Renders of glossy materials, against known answers.
 
 use glam::{DVec3, Vec3};
-use tracer::{Background, Finish, Material};
+use scene::{Background, Finish, Material};
 
 use crate::renders::*;
 

@@ -2,8 +2,9 @@
 
 use frame::Alignment;
 use glam::{DAffine3, DQuat, DVec3};
+use scene::{Interpolation, Key, Motion, Turn};
 use tests::random::Numbers;
-use tracer::{Interpolation, Key, Motion, TraceError, Turn, trace_truth};
+use tracer::{TraceError, trace_truth};
 
 use crate::renders::*;
 

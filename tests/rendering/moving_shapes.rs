@@ -5,8 +5,9 @@
 
 use frame::{Alignment, Shutter, Truth};
 use glam::{DQuat, DVec2};
+use scene::{Key, Mesh, Scene};
 use tests::statistics::{coverage_estimates, expect_agreement, expect_total};
-use tracer::{Key, Mesh, RenderSettings, Scene};
+use tracer::RenderSettings;
 
 use crate::renders::*;
 

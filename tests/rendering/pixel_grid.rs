@@ -2,9 +2,10 @@
 
 use frame::{ColorSampling, Frame, VelocityKind};
 use glam::{DVec3, Vec3};
+use scene::{Background, Key, Scene, SizeError};
 use tracer::{
-    Background, Key, PixelGrid, PointMotion, RenderSettings, Scene, TraceError, frame_hash,
-    trace_frame_part, trace_motion_on,
+    PixelGrid, PointMotion, RenderSettings, TraceError, frame_hash, trace_frame_part,
+    trace_motion_on,
 };
 
 use crate::renders::*;
@@ -30,7 +31,10 @@ fn drifting_sphere() -> Scene {
 }
 
 fn render_on(size: [u32; 2], offset: [f64; 2]) -> Frame {
-    let grid = PixelGrid { size, offset };
+    let grid = PixelGrid {
+        size: size.into(),
+        offset,
+    };
     let settings = settings([WIDTH, HEIGHT]);
     let traced = trace_frame_part(&drifting_sphere(), &settings, &grid, None, &unwatched);
     traced.expect("allowed").frame
@@ -142,5 +146,8 @@ fn a_grid_without_pixels_is_refused() {
     let grid = PixelGrid::of_picture(0, 4);
     let settings = settings([WIDTH, HEIGHT]);
     let refused = trace_frame_part(&drifting_sphere(), &settings, &grid, None, &unwatched);
-    assert!(matches!(refused, Err(TraceError::Size { width: 0, .. })));
+    assert!(matches!(
+        refused,
+        Err(TraceError::Size(SizeError { width: 0, .. }))
+    ));
 }

@@ -5,14 +5,12 @@ use std::f64::consts::FRAC_PI_2;
 
 use frame::{Alignment, Frame, Image, Ladder, Truth, VelocityKind};
 use glam::{DQuat, DVec3, Vec3};
+use scene::{Background, Key, Material, Motion, Scene, Sun, load_scene};
 pub use tests::near::expect_near;
 pub use tests::shapes::*;
 use tests::{scenes, settings_of};
 pub use tests::{settings, unwatched};
-use tracer::{
-    Background, Key, Material, Motion, RenderSettings, Scene, Sun, load_scene, trace_frame,
-    trace_ladder, trace_truth,
-};
+use tracer::{RenderSettings, trace_frame, trace_ladder, trace_truth};
 
 /// Makes settings of a size, samples per pixel, and a kind of motion for the velocity buffer.
 pub fn settings_with(

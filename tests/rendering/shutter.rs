@@ -2,8 +2,9 @@
 
 use frame::{Alignment, Efficiency, Shutter, ShutterError, ShutterProfile};
 use glam::DVec2;
+use scene::{Interpolation, Scene};
 use tests::half_plane::{area, half_plane};
-use tracer::{Interpolation, Scene, TraceError, trace_truth};
+use tracer::{TraceError, trace_truth};
 
 use crate::moving_shapes::*;
 use crate::renders::*;

@@ -7,10 +7,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use frame::{Alignment, FAR_DEPTH, Plane, Replicate, Truth};
 use glam::{DVec3, Vec3};
 use metrics::{Metric, Reference};
+use scene::{Background, Parent, Scene, load_scene};
 use tests::statistics::{estimate_pixels, expect_pooled_agreement};
-use tracer::{
-    Background, Parent, Progress, RenderSettings, Scene, TruthTracer, load_scene, trace_ladder,
-};
+use tracer::{Progress, RenderSettings, TruthTracer, trace_ladder};
 
 use crate::renders::*;
 

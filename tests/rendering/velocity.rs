@@ -2,9 +2,8 @@
 
 use frame::{FAR_DEPTH, Frame, VelocityKind};
 use glam::{DQuat, DVec2, DVec3, Vec3};
-use tracer::{
-    Interpolation, Key, Motion, Parent, PixelGrid, Scene, Turn, trace_further_velocities,
-};
+use scene::{Interpolation, Key, Motion, Parent, Scene, Turn};
+use tracer::{PixelGrid, trace_further_velocities};
 
 use crate::renders::{self, *};
 

@@ -1,8 +1,8 @@
 //! Finishes and environments read from a scene's files.
 
 use image::{ImageBuffer, Rgb32FImage};
+use scene::{Background, Finish};
 use tests::exr_attribute::{ACES_CG, bytes_of, set_exr_attribute, to_aces_cg};
-use tracer::{Background, Finish};
 
 use crate::Folder;
 

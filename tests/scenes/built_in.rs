@@ -1,8 +1,8 @@
 //! The shipped scenes: their files and their motions.
 
 use glam::{DVec2, DVec3};
+use scene::{Scene, list_scenes};
 use tests::scenes;
-use tracer::{Scene, list_scenes};
 
 use crate::{load_shipped, shipped_with_variants};
 

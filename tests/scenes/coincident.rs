@@ -1,8 +1,9 @@
 //! Surfaces of different materials in one place.
 
 use glam::DVec3;
+use scene::Scene;
 use tests::shapes::{add, drift, empty_scene, glowing, placed, rectangle};
-use tracer::{Scene, find_coincident_surfaces};
+use tracer::find_coincident_surfaces;
 
 use crate::{load_shipped, shipped, shipped_with_variants};
 

@@ -1,9 +1,10 @@
 //! Scenes at other frame rates than their files'.
 
 use frame::{Alignment, Frame, Truth, VelocityKind};
+use scene::{FrameRate, Scene, load_scene};
 use tests::text::assert_contains;
 use tests::{settings, unwatched};
-use tracer::{FrameRate, RenderSettings, Scene, load_scene, trace_frame, trace_truth};
+use tracer::{RenderSettings, trace_frame, trace_truth};
 
 use crate::{Folder, load_shipped, shipped};
 

@@ -2,8 +2,9 @@
 //! their own colours.
 
 use frame::{ColorSampling, Frame};
+use scene::{Scene, Seal};
 use tests::{settings, unwatched};
-use tracer::{Scene, Seal, trace_frame};
+use tracer::trace_frame;
 
 use crate::{load_shipped, shipped};
 

@@ -1,21 +1,21 @@
 //! Scenes: reading and refusing folders, and the shipped scenes.
 
 mod appearance;
-mod audit;
 mod built_in;
 mod catalogue;
 mod coincident;
+#[path = "../../crates/engine/tests/library/mod.rs"]
+mod engine;
 mod frame_rates;
 mod given_variants;
-mod gltf;
 mod reading;
 mod refusals;
 
 use std::path::PathBuf;
 
 use frame::{Raster, write_png};
+use scene::{Scene, SceneError, list_scenes, load_scene};
 use tests::scenes;
-use tracer::{Scene, SceneError, list_scenes, load_scene};
 
 /// Loads a shipped scene, `name` or `name@variant`.
 fn load_shipped(name: &str) -> Scene {

@@ -4,9 +4,10 @@ use frame::{Alignment, Frame, Picture, Raster, Replicate, Truth};
 use measure::{Groups, Intervals, intervals};
 use metrics::{Metric, Reference, Scores, scatter_oracle};
 use rayon::prelude::*;
+use scene::load_scene;
 use tests::synthetic::{Blur, Object, Scene, Shape};
 use tests::unwatched;
-use tracer::{RenderSettings, TruthTracer, load_scene, trace_frame, trace_ladder, trace_truth};
+use tracer::{RenderSettings, TruthTracer, trace_frame, trace_ladder, trace_truth};
 
 use crate::decoy_matrix::decoys::map_planes;
 use crate::{noisy, scene, sliding_disc};

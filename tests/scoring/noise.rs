@@ -161,11 +161,11 @@ fn floors_fall_as_the_truth_converges() {
 
 #[test]
 fn an_accumulation_of_n_sub_frames_scores_as_n() {
-    let ladder = sliding_disc().ladder(4096, [1000, 2000]);
+    let ladder = sliding_disc().ladder(1024, [1000, 2000]);
     let reference = make_reference(Some(&ladder));
     for subframes in [2, 4, 8, 16] {
         // Noise of the picture and of a rung's difference are about equal.
-        let scores = score_blur(&reference, &Blur::accumulation(subframes), 4096);
+        let scores = score_blur(&reference, &Blur::accumulation(subframes), 1024);
         for name in ["n_eq", "n_eq_flip", "n_eq_label_tv"] {
             let ratio = find_score(&scores, name).value / f64::from(subframes);
             assert_near(name, ratio, 1.0, 0.05);

@@ -7,10 +7,10 @@ use frame::Alignment;
 use judge::compare_runs;
 use measure::{Case, CaseId, FORMAT, InputFormat, Overall, Run, StoredRun, overall};
 use metrics::{Measured, Metric, Scores};
+use scene::{Family, SceneId};
 use tests::synthetic::{Blur, Object, Shape};
 use tests::text::assert_contains;
 use tests::unwatched;
-use tracer::{Family, SceneId};
 
 use crate::{measure_blur, scene};
 

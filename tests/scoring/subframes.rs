@@ -5,11 +5,9 @@ use frame::{Alignment, Frame, Image, Ladder, Picture, Region, Replicate, Truth, 
 use measure::{Groups, LADDER};
 use metrics::{Equivalent, EquivalentMetric, EquivalentScores, Errors, Reference, Subframes};
 use rayon::prelude::*;
+use scene::{Scene, list_scenes, load_scene};
 use tests::unwatched;
-use tracer::{
-    LadderTracer, RenderSettings, Scene, TruthTracer, list_scenes, load_scene, trace_frame,
-    trace_ladder,
-};
+use tracer::{LadderTracer, RenderSettings, TruthTracer, trace_frame, trace_ladder};
 
 /// Number of sub-frames of the independent picture.
 const MANY: u32 = 64;

@@ -1,6 +1,7 @@
 //! Search trees against a test of every triangle.
 
-use tracer::{Ray, Scene, Stage};
+use scene::Scene;
+use tracer::{Ray, Stage};
 
 use crate::random::Numbers;
 

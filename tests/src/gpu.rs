@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use filters::{Blur, Filter, Gpu, Kernels, Settings};
+use frame::Size;
 
 use crate::open_gpu;
 
@@ -52,11 +53,8 @@ pub fn shared_gpu() -> &'static Gpu {
 
 /// Prepares a built-in filter for pictures of a size, in pixels. Its kernels are compiled once per
 /// adapter.
-pub fn ready_blur(
-    filter: &Filter,
-    settings: &Settings,
-    (width, height): (u32, u32),
-) -> Blur<'static> {
+pub fn ready_blur(filter: &Filter, settings: &Settings, size: impl Into<Size>) -> Blur<'static> {
+    let Size { width, height } = size.into();
     LENT.with(|lent| {
         let mut compiled = lock(&lent.0.kernels);
         let compile = || Kernels::compile(lent.0.gpu, filter).expect("built-in filters compile");

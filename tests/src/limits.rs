@@ -6,7 +6,7 @@ use gate::calibrate;
 use judge::{SceneBounds, read_bounds_file};
 use measure::Run;
 use metrics::Metric;
-use tracer::SceneId;
+use scene::SceneId;
 
 /// Makes the bounds of a scene that `calibrate` proposes after several runs of sound filters.
 pub fn calibrate_scene(runs: &[Run], metrics: &[Metric], scene: &SceneId) -> SceneBounds {

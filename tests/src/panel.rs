@@ -2,7 +2,8 @@
 
 use frame::{Alignment, Frame, Plane, Raster};
 use glam::{DQuat, DVec2, DVec3};
-use tracer::{Key, Motion, RenderSettings, Scene, load_scene, trace_frame, trace_truth};
+use scene::{Key, Motion, Scene, load_scene};
+use tracer::{RenderSettings, trace_frame, trace_truth};
 
 use crate::kernels::Steady;
 use crate::ramp::Ramp;

@@ -1,7 +1,7 @@
 //! Small frames of surfaces, each with its own motion, and their blurs.
 
 use filters::{Blur, Filter, Input, Settings};
-use frame::{Frame, Image, Plane, Raster, Reprojection, Vectors};
+use frame::{Frame, Image, Plane, Raster, Reprojection, Size, Vectors};
 
 use crate::ramp::Ramp;
 use crate::random::Random;
@@ -143,7 +143,7 @@ pub fn make_blur(
     filter: &str,
     preset: Option<&str>,
     overrides: &str,
-    size: (u32, u32),
+    size: impl Into<Size>,
 ) -> Blur<'static> {
     let filter = Filter::builtin(filter).unwrap();
     let settings = change_preset(&filter, preset, overrides);

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use frame::ShutterProfile;
 use glam::{DQuat, DVec3, Vec3};
-use tracer::{
+use scene::{
     Background, Camera, Display, Family, Finish, FlipExposures, Key, Material, Mesh, Motion,
     Object, Parent, Scene, SceneId, Turn,
 };

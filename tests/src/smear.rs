@@ -25,7 +25,7 @@ pub fn measured_shot(mover: Mover, size: [u32; 2]) -> Shot {
 /// size, so that a smaller one is a part of it.
 pub fn smear_degrees(shot: &Shot, filter: &Filter, settings: &Settings, exposure: f64) -> f64 {
     let settings = settings.scaled_to(filter, FULL_SIZE[0]);
-    let mut blur = ready_blur(filter, &settings, shot.size.into());
+    let mut blur = ready_blur(filter, &settings, shot.size);
     let color = shot.painted.map(|value| [*value; 3]);
     let colors = [&color];
     let input = Input {

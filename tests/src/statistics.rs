@@ -1,6 +1,6 @@
 //! Agreement of noisy pixels with known values.
 
-use frame::Truth;
+use frame::{Size, Truth};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 /// Rounding of colours to f32, and of the vertices of meshes.
@@ -22,7 +22,7 @@ pub struct Estimate {
 /// Compares the first colour component of every pixel with the `expected` one at its column and
 /// row.
 pub fn estimate_pixels(truth: &Truth, expected: impl Fn(u32, u32) -> f64) -> Vec<Estimate> {
-    let (width, height) = truth.size();
+    let Size { width, height } = truth.size();
     let color = truth.mean().color;
     (0..height)
         .flat_map(|y| (0..width).map(move |x| (x, y)))

@@ -226,14 +226,17 @@ impl Scene {
     /// Renders accumulations of 1, 2, 4 .. 64 sub-frames; `seeds` gives each group's noise, which
     /// the whole shutter shares.
     pub fn ladder(&self, samples: u32, seeds: [u64; 2]) -> Ladder {
+        let samplings = seeds.map(|seed| Sampling {
+            samples,
+            seed: Some(seed),
+        });
+        let truths = samplings.map(|sampling| self.render(&Blur::TRUE, sampling));
         let rung = |subframes: u32| Accumulation {
             subframes,
-            groups: (seeds.into_iter())
-                .map(|seed| {
-                    let seed = Some(seed);
-                    let sampling = Sampling { samples, seed };
-                    let parts = self.render(&Blur::accumulation(subframes), sampling);
-                    parts.minus(&self.render(&Blur::TRUE, sampling))
+            groups: (samplings.iter().zip(&truths))
+                .map(|(sampling, truth)| {
+                    let parts = self.render(&Blur::accumulation(subframes), *sampling);
+                    parts.minus(truth)
                 })
                 .collect(),
         };

@@ -10,8 +10,8 @@ const MAX_LINES: usize = 60;
 /// Longer functions that read better whole.
 const EXCEPTIONS: &[(&str, &str)] = &[
     ("crates/metrics/src/sequence/reference.rs", "measure"),
-    ("crates/tracer/src/accel/bvh.rs", "traverse"),
-    ("crates/tracer/src/load/mod.rs", "load_scene_and_files"),
+    ("crates/bvh/src/tree.rs", "traverse"),
+    ("crates/scene/src/load/mod.rs", "load_scene_and_files"),
     ("crates/tracer/src/path/integrator.rs", "follow_path"),
 ];
 

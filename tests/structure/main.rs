@@ -6,6 +6,7 @@ mod functions;
 mod modules;
 mod packages;
 mod uses;
+mod walls;
 
 use std::fs;
 use std::path::{Path, PathBuf};

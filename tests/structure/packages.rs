@@ -38,14 +38,14 @@ const PACKAGES: [Package; 7] = [
     },
     Package {
         name: "tobj",
-        place: "tracer/src/load",
+        place: "scene/src/load",
         code: &["tobj::load_obj_buf(", "tobj::load_mtl_buf("],
         is_alone: true,
     },
     Package {
         name: "obvhs",
-        place: "tracer/src/accel",
-        code: &["use obvhs::bvh2::", "ReinsertionOptimizer"],
+        place: "bvh/src",
+        code: &["PlocBuilder::new().build(", "ReinsertionOptimizer"],
         is_alone: true,
     },
     Package {

@@ -5,6 +5,7 @@ use terminal::refuse;
 
 use clap::Args;
 use filters::Gpu;
+use frame::Size;
 use measure::{Error, open_adapter};
 
 use terminal::arguments::{AdapterArgs, parse_size, within};
@@ -31,7 +32,7 @@ pub struct BenchArgs {
     pub filters: Vec<String>,
     /// Picture size in pixels [default: 1920x1080, or 320x180 on a software adapter].
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
-    pub size: Option<(u32, u32)>,
+    pub size: Option<Size>,
     /// Times that each filter runs, in turns with the others; 20 or more.
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = within::<u32>(20..=10_000))]
     pub rounds: u32,
@@ -74,9 +75,9 @@ pub fn execute(args: &BenchArgs) -> Result<(), Error> {
         );
     }
     let gpu = open_adapter(args.adapter.adapter.as_deref(), make_monitor())?;
-    let (width, height) = args.size.unwrap_or(match gpu.adapter.kind.as_str() {
-        "software" => (320, 180),
-        _ => (1920, 1080),
+    let Size { width, height } = args.size.unwrap_or(match gpu.adapter.kind.as_str() {
+        "software" => Size::new(320, 180),
+        _ => Size::new(1920, 1080),
     });
     let plan = BenchPlan {
         filters,

@@ -3,7 +3,7 @@
 use std::io::Read;
 
 use flate2::read::DeflateDecoder;
-use tracer::Bundle;
+use scene::Bundle;
 
 /// A file packed by the build script.
 struct Packed {

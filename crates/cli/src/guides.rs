@@ -31,7 +31,7 @@ fn read_pages() -> Vec<String> {
     let mut paths: Vec<PathBuf> = ["README.md", "scenes/README.md", "shaders/README.md"]
         .map(|page| root.join(page))
         .to_vec();
-    for folder in ["docs", "docs/engines"] {
+    for folder in ["docs", "docs/engines", "crates/engine/guides"] {
         for guide in fs::read_dir(root.join(folder)).unwrap() {
             let path = guide.unwrap().path();
             if path.extension().is_some_and(|extension| extension == "md") {

@@ -65,9 +65,7 @@ fn way_out(error: &Error) -> Option<&'static str> {
         Error::Truth(TruthError::Foreign { .. }) => {
             Some("give all parts the same --size, --samples-per-pixel and --seed")
         }
-        Error::Trace(TraceError::Undefined { .. }) => {
-            Some("see --frames, --frame-rate, --exposure")
-        }
+        Error::Trace(TraceError::Undefined(_)) => Some("see --frames, --frame-rate, --exposure"),
         _ => None,
     }
 }

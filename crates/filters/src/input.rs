@@ -2,7 +2,7 @@
 
 use frame::{Camera, Image, Plane, Raster, Reprojection, Vectors};
 
-use crate::filter::{CameraUse, EXCLUSION};
+use crate::filter::{CameraUse, EXCLUSION, Layer};
 use crate::{Filter, FilterError};
 
 /// Frames per second if neither the frame nor the filter's convention says.
@@ -91,13 +91,18 @@ impl Input<'_> {
     }
 
     /// Refuses a frame that lacks some of the inputs that a filter reads.
-    fn check_further(&self, reads: &[&str]) -> Result<(), String> {
-        let is_there = |name: &str| match name {
-            "velocity_next" => self.velocity_next.is_some(),
-            EXCLUSION => self.exclusion.is_some(),
-            _ => self.velocity_z.is_some(),
+    fn check_further(&self, reads: &[Layer]) -> Result<(), String> {
+        let is_there = |layer: &&Layer| match layer {
+            Layer::Color | Layer::Velocity | Layer::Depth => true,
+            Layer::VelocityNext => self.velocity_next.is_some(),
+            Layer::VelocityZ => self.velocity_z.is_some(),
+            Layer::Exclusion => self.exclusion.is_some(),
         };
-        match reads.iter().find(|name| !is_there(name)) {
+        match reads
+            .iter()
+            .find(|layer| !is_there(layer))
+            .map(|layer| layer.name())
+        {
             None => Ok(()),
             Some(missing) => Err(format!(
                 "the frame has no {missing}, which this filter reads; render it with `truths render --further-velocities`, add it \

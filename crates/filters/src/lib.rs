@@ -32,7 +32,7 @@ pub use command::CommandBlur;
 pub use error::FilterError;
 pub(crate) use expression::Expression;
 pub use filter::{
-    Code, Command, Convention, DepthKind, EXCLUSION, Filter, History, Holds, Kind, Origin,
+    Code, Command, Convention, DepthKind, EXCLUSION, Filter, History, Holds, Kind, Layer, Origin,
     Parameter, Preset, ReachBy, Scale, Settings, Source, Texture, TuningRecord, Unit, Value,
     VelocitySign, VelocityTime, VelocityUnit, VerticalDirection,
 };

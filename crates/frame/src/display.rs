@@ -4,7 +4,7 @@ use crate::exr::ExrFile;
 use crate::{FileError, Image};
 
 /// Photographic exposures for pictures and for FLIP.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Display {
     /// Exposure of PNGs and of LDR-FLIP, in stops.
     pub stops: f32,
@@ -13,7 +13,7 @@ pub struct Display {
 }
 
 /// The range of exposures that HDR-FLIP takes its maximum over.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct FlipExposures {
     /// Darkest, in stops.
     pub start: f32,

@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::exr::{Channel, ExrFile, Samples, read_exr, write_small_exr};
 use crate::{
     Alignment, Camera, Display, FileError, FrameOptions, Image, Picture, Plane, Provenance, Raster,
-    Reprojection, Vectors,
+    Reprojection, Size, Vectors,
 };
 
 /// Depth of a pixel that sees no surface, in metres: finite, so that filters may subtract it.
@@ -57,9 +57,9 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// Returns pixels per row and rows of its rasters, guard band included.
-    pub fn size(&self) -> (u32, u32) {
-        (self.color.width, self.color.height)
+    /// Returns the size of its rasters, guard band included.
+    pub fn size(&self) -> Size {
+        self.color.size()
     }
 
     /// Removes the guard band, so that pixels match the truth's.
@@ -121,7 +121,7 @@ impl Frame {
 
     /// Makes the content of the file that [`Frame::write`] writes.
     pub fn to_exr(&self) -> ExrFile {
-        let (width, height) = self.size();
+        let Size { width, height } = self.size();
         let mut file = ExrFile::new(width, height);
         self.picture().move_to(&mut file, "", &self.objects);
         file.push_plane("Z", &self.depth);

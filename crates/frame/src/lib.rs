@@ -41,6 +41,7 @@ mod replicate;
 mod reprojection;
 mod sheet;
 mod shutter;
+mod size;
 mod support;
 mod tile;
 mod traced_frame;
@@ -77,6 +78,7 @@ pub use shutter::{
     Alignment, Efficiency, LONGEST_EXPOSURE, SHORTEST_EXPOSURE, Shutter, ShutterError,
     ShutterProfile,
 };
+pub use size::Size;
 pub use support::Support;
 pub use tile::Tile;
 pub use traced_frame::{TracedFrame, read_frame_replicates};

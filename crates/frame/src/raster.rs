@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use crate::Tile;
+use crate::{Size, Tile};
 
 /// Row-major pixels from the top left: pixel (x, y) is `pixels[y * width + x]`.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,6 +21,13 @@ pub type Image = Raster<[f32; 3]>;
 pub type Plane = Raster<f32>;
 /// Screen vectors in pixels, +x right, +y down.
 pub type Vectors = Raster<[f32; 2]>;
+
+impl<T> Raster<T> {
+    /// Returns its columns and rows.
+    pub fn size(&self) -> Size {
+        Size::new(self.width, self.height)
+    }
+}
 
 impl<T: Clone> Raster<T> {
     /// Makes a raster that holds `value` everywhere.
@@ -137,7 +144,7 @@ impl<T> Raster<T> {
 
     /// Returns true if both have the same width and height.
     pub fn same_size<U>(&self, other: &Raster<U>) -> bool {
-        self.width == other.width && self.height == other.height
+        self.size() == other.size()
     }
 }
 

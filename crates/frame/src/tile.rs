@@ -1,5 +1,7 @@
 //! Tiles: rectangles of pixels of a picture.
 
+use crate::Size;
+
 /// A rectangle of pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Tile {
@@ -25,8 +27,8 @@ impl Tile {
     }
 
     /// Makes a square tile around a place, moved and cut to fit a picture of `size`.
-    pub fn around(place: [u32; 2], side: u32, size: (u32, u32)) -> Self {
-        let whole = [size.0, size.1];
+    pub fn around(place: [u32; 2], side: u32, size: Size) -> Self {
+        let whole: [u32; 2] = size.into();
         let [width, height] = whole.map(|whole| whole.min(side));
         let start =
             |middle: u32, size: u32, whole: u32| middle.saturating_sub(size / 2).min(whole - size);

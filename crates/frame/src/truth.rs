@@ -10,7 +10,7 @@ use crate::region::{dilate, estimate_noise};
 use crate::shutter::{get_shutter, set_shutter};
 use crate::{
     Alignment, AtInstant, FileError, Image, Picture, Plane, Provenance, Raster, Region, Regions,
-    Replicate, Shutter, ShutterProfile, Support,
+    Replicate, Shutter, ShutterProfile, Size, Support,
 };
 
 /// Radiance and visibility integrated over the shutter, with its own noise. All rasters have the
@@ -141,9 +141,9 @@ impl Truth {
         })
     }
 
-    /// Returns pixels per row and rows.
-    pub fn size(&self) -> (u32, u32) {
-        (self.motion.width, self.motion.height)
+    /// Returns the size of its pictures.
+    pub fn size(&self) -> Size {
+        self.motion.size()
     }
 
     /// Averages the state at the instant over all replicates.
@@ -186,7 +186,7 @@ impl Truth {
 
     /// Makes the content of the file that [`Truth::write`] writes.
     pub fn to_exr(&self) -> ExrFile {
-        let (width, height) = self.size();
+        let Size { width, height } = self.size();
         let mut file = ExrFile::new(width, height);
         self.mean().push(&mut file, "", &self.objects);
         self.halves[0].push(&mut file, "A", &self.objects);

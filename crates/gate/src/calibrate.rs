@@ -3,12 +3,13 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
+use frame::Size;
 use measure::{Case, Frames, Intervals, Run};
 use metrics::{
     Ideal, Interval, LabelMetric, Measured, Metric, ObjectMetric, PERFECT_JOD, ProbeMetric, Score,
     SequenceMetric,
 };
-use tracer::SceneId;
+use scene::SceneId;
 
 use judge::SceneBounds;
 use judge::find_sequence;
@@ -52,7 +53,7 @@ pub struct Calibration {
     /// Score in every run that it applies to, per scene, `filter:preset` and metric.
     scores: BTreeMap<SceneId, BTreeMap<String, BTreeMap<Metric, Vec<Sample>>>>,
     /// Columns and rows of the pictures.
-    size: (u32, u32),
+    size: Size,
     /// Frames of the sequences.
     frames: Frames,
 }
@@ -74,7 +75,7 @@ pub fn calibrate<'a>(
 ) -> Calibration {
     let first = runs.first();
     let mut calibration = Calibration {
-        size: first.map_or((0, 0), |run| (run.render.width, run.render.height)),
+        size: first.map_or(Size::default(), |run| run.render.size()),
         frames: first.map_or(Frames::default(), |run| run.frames),
         ..Calibration::default()
     };
@@ -204,7 +205,7 @@ impl Calibration {
 
     /// Formats the proposed bounds of one scene as its bounds.toml.
     pub fn toml(&self, scene: &SceneId) -> String {
-        let (width, height) = self.size;
+        let size = self.size.sides();
         let mut text = String::new();
         for (filter, metrics) in self.scores.get(scene).into_iter().flatten() {
             let _ = writeln!(text, "[filter.\"{filter}\"]");
@@ -213,7 +214,7 @@ impl Calibration {
                 let (limit, why) = propose(*metric, samples);
                 let _ = writeln!(
                     text,
-                    "{metric} = {{ limit = {limit:?}, {length}size = [{width}, {height}], why = \"{why}\" }}"
+                    "{metric} = {{ limit = {limit:?}, {length}size = {size:?}, why = \"{why}\" }}"
                 );
             }
             text += "\n";

@@ -3,8 +3,8 @@
 use std::collections::HashSet;
 
 use measure::{Case, Error, Failure, Run, refuse_failures};
+use scene::SceneId;
 use serde::Serialize;
-use tracer::SceneId;
 
 use crate::baseline::BaselineComparison;
 use judge::{Decision, Finding, Outcome};

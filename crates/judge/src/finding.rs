@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use measure::{Case, Run, Sequence};
 use metrics::{Interval, Measured, Metric};
+use scene::SceneId;
 use serde::{Deserialize, Serialize};
-use tracer::SceneId;
 
 use crate::bounds::Level;
 use crate::decoys::Resemblance;

@@ -43,7 +43,7 @@ pub use ranking::no_blur::no_gain_text;
 pub use ranking::sequence_ranking::{RANKED_BY, RankedSequence, rank_sequences, rank_sequences_on};
 pub use ranking::side_effects::{SIDE_EFFECTS_RULE, SideEffects};
 pub use results::{ResultScores, Results};
-use tracer::SceneId;
+use scene::SceneId;
 pub use worst::{BLOCK, CROP, Worst, worst_block};
 
 /// The bounds of a run's scenes.

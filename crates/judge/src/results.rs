@@ -3,11 +3,11 @@
 use std::collections::{BTreeMap, HashSet};
 use std::path::Path;
 
-use frame::Alignment;
+use frame::{Alignment, Size};
 use measure::{Case, Error, IDENTITY, InputFormat, Run, read_text, refuse_failures, to_lines};
 use metrics::Metric;
+use scene::{Family, SceneId};
 use serde::{Deserialize, Serialize};
-use tracer::{Family, SceneId};
 
 use crate::groups::group_by;
 use crate::numbers::round_to_digits;
@@ -30,8 +30,8 @@ pub struct Results {
     pub program: String,
     /// Adapter that the kernels ran on; none if every filter is a command.
     pub adapter: Option<String>,
-    /// Columns and rows.
-    pub size: [u32; 2],
+    /// Picture size.
+    pub size: Size,
     /// Mean samples per pixel of the truths.
     pub samples_per_pixel: u32,
     /// Shutter that FLIP* compares with.
@@ -103,7 +103,7 @@ impl Results {
             format: RESULTS_FORMAT,
             program: run.program.clone(),
             adapter: run.adapter.as_ref().map(|adapter| adapter.name.clone()),
-            size: [run.render.width, run.render.height],
+            size: run.render.size(),
             samples_per_pixel: run.render.samples_per_pixel,
             common_alignment: run.common_alignment,
             seal,
@@ -116,10 +116,7 @@ impl Results {
         let settings = |results: &Self| {
             let none = || "none".to_owned();
             [
-                (
-                    "pictures",
-                    format!("{}x{}", results.size[0], results.size[1]),
-                ),
+                ("pictures", results.size.to_string()),
                 ("samples per pixel", results.samples_per_pixel.to_string()),
                 ("shutter in common", results.common_alignment.to_string()),
                 ("adapter", results.adapter.clone().unwrap_or_else(none)),
@@ -217,8 +214,8 @@ impl Results {
         let word = adapter.split_whitespace().next().unwrap_or("none");
         let word = word.replace(|letter: char| !letter.is_ascii_alphanumeric(), "");
         let seal = (self.seal).map_or(String::new(), |seed| format!("_seal{seed}"));
-        let [width, height] = self.size;
-        format!("{width}x{height}_{}{seal}.json", word.to_lowercase())
+        let size = self.size;
+        format!("{size}_{}{seal}.json", word.to_lowercase())
     }
 
     /// Lists the scenes in their order.

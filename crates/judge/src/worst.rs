@@ -67,7 +67,7 @@ pub fn write_crop(
     map: &Plane,
     stops: f32,
 ) -> Result<(), FileError> {
-    let tile = Tile::around([x, y], CROP, (map.width, map.height));
+    let tile = Tile::around([x, y], CROP, map.size());
     let error = map.part(tile);
     let largest = error
         .pixels

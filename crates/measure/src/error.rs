@@ -6,7 +6,7 @@
 pub enum Error {
     /// A scene cannot be loaded.
     #[error(transparent)]
-    Scene(#[from] tracer::SceneError),
+    Scene(#[from] scene::SceneError),
     /// A scene cannot be rendered as asked, or the render was interrupted.
     #[error(transparent)]
     Trace(#[from] tracer::TraceError),

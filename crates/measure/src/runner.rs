@@ -1,7 +1,7 @@
 //! Runner of a filter that consists of kernels or a program.
 
 use filters::{Blur, CommandBlur, Filter, FilterError, Gpu, Input, Limits, Settings};
-use frame::Image;
+use frame::{Image, Size};
 
 use crate::Monitor;
 use crate::filter_choice::FilterChoice;
@@ -44,14 +44,14 @@ impl<'g> Runner<'g> {
     pub fn new(
         gpu: Option<&'g Gpu>,
         choice: &FilterChoice,
-        (width, height): (u32, u32),
+        size: Size,
     ) -> Result<Self, FilterError> {
         let (filter, settings) = (&choice.filter, &choice.settings);
         if filter.command.is_some() {
-            return Self::command(filter, settings, (width, height));
+            return Self::command(filter, settings, size);
         }
         let gpu = gpu.expect("an adapter was opened for the kernels");
-        let blur = Blur::new(gpu, filter, settings, width, height)?;
+        let blur = Blur::new(gpu, filter, settings, size.width, size.height)?;
         Ok(Self::Kernels(Box::new(blur)))
     }
 
@@ -60,20 +60,16 @@ impl<'g> Runner<'g> {
     pub fn with_wide_colors(
         gpu: Option<&'g Gpu>,
         choice: &FilterChoice,
-        (width, height): (u32, u32),
+        size: Size,
     ) -> Option<Self> {
         let (gpu, wide) = (gpu?, choice.filter.widen_colors()?);
-        let blur = Blur::new(gpu, &wide, &choice.settings, width, height);
+        let blur = Blur::new(gpu, &wide, &choice.settings, size.width, size.height);
         Some(Self::Kernels(Box::new(blur.ok()?)))
     }
 
     /// Prepares a program.
-    pub fn command(
-        filter: &Filter,
-        settings: &Settings,
-        (width, height): (u32, u32),
-    ) -> Result<Self, FilterError> {
-        let blur = CommandBlur::new(filter, settings, width, height)?;
+    pub fn command(filter: &Filter, settings: &Settings, size: Size) -> Result<Self, FilterError> {
+        let blur = CommandBlur::new(filter, settings, size.width, size.height)?;
         Ok(Self::Command(Box::new(blur)))
     }
 

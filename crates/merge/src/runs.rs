@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use frame::Alignment;
 use measure::{Error, FilterId, FolderLock, Run, Sharing, StoredRun, fold_runs, lock_folder};
-use tracer::SceneId;
+use scene::SceneId;
 
 use crate::files::gather_files;
 use crate::gather::place_files;

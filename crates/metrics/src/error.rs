@@ -4,26 +4,20 @@
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MeasureError {
     /// Two rasters that should have one size.
-    #[error(
-        "{what} is {}x{}, the truth is {}x{}; render or filter both at one size",
-        found.0, found.1, truth.0, truth.1
-    )]
+    #[error("{what} is {found}, the truth is {truth}; render or filter both at one size")]
     Size {
         /// Which input.
         what: String,
-        /// Its columns and rows.
-        found: (u32, u32),
-        /// The truth's columns and rows.
-        truth: (u32, u32),
+        /// Its size.
+        found: frame::Size,
+        /// The truth's size.
+        truth: frame::Size,
     },
     /// More pixels than can be measured.
-    #[error(
-        "the truth is {}x{}; at most {limit} pixels can be measured: render it smaller",
-        truth.0, truth.1
-    )]
+    #[error("the truth is {truth}; at most {limit} pixels can be measured: render it smaller")]
     TooLarge {
-        /// The truth's columns and rows.
-        truth: (u32, u32),
+        /// The truth's size.
+        truth: frame::Size,
         /// Number of pixels that are allowed.
         limit: u64,
     },

@@ -1,7 +1,7 @@
 //! One-frame oracle: about the best picture that one frame with straight motion can give, far too
 //! slow for a filter.
 
-use frame::{Efficiency, Frame, Picture, Raster, Shutter, ShutterProfile, Truth};
+use frame::{Efficiency, Frame, Picture, Raster, Shutter, ShutterProfile, Size, Truth};
 use rayon::prelude::*;
 
 /// Least number of instants.
@@ -76,7 +76,7 @@ pub fn scatter_oracles(
             }
         });
     }
-    let (width, height) = frame.size();
+    let Size { width, height } = frame.size();
     let at =
         |x: u32, y: u32, channel: usize| sums[(y * width + x) as usize * channels + channel] as f32;
     (0..pictures.len())
@@ -136,7 +136,10 @@ fn light_at(knots: &[[f64; 2]], part: f64) -> f64 {
 
 impl<'a> Sources<'a> {
     fn new(frame: &'a Frame, profile: &ShutterProfile) -> Self {
-        let (width, rows) = frame.size();
+        let Size {
+            width,
+            height: rows,
+        } = frame.size();
         let height = rows - 2 * frame.guard_band;
         let delay = |row: u32| {
             let row = row.saturating_sub(frame.guard_band).min(height - 1);
@@ -158,7 +161,7 @@ impl<'a> Sources<'a> {
     /// Finds, per pixel, which pixel of the frame is there at a time: the nearest to the camera,
     /// and the first of several.
     fn at(&self, time: f64) -> Vec<u32> {
-        let (width, height) = self.frame.size();
+        let Size { width, height } = self.frame.size();
         let depth = |source: u32| self.frame.depth.pixels[source as usize];
         let mut seen = self.still.clone();
         for &source in &self.moving {

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use measure::{Case, FilterId, Run};
-use tracer::SceneId;
+use scene::SceneId;
 
 /// A run's cases with a row per filter and a column per scene.
 pub struct CaseTable<'a> {

@@ -6,7 +6,7 @@ use filters::AdapterDescription;
 use frame::Alignment;
 use maud::{Markup, html};
 use measure::{Case, Run};
-use tracer::SceneId;
+use scene::SceneId;
 
 use crate::case_table::CaseTable;
 use crate::table::Column::{Plain, Text};
@@ -48,7 +48,7 @@ pub fn facts(run: &Run) -> Vec<(&'static str, String)> {
     } else {
         "without velocity"
     };
-    let pictures = format!("{}x{} pixels", render.width, render.height);
+    let pictures = format!("{} pixels", render.size());
     let truth = format!(
         "{} samples per pixel in {} replicates, seed {}{rendered}",
         render.samples_per_pixel, render.replicates, render.seed

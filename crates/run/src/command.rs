@@ -58,7 +58,7 @@ pub fn execute(args: &RunArgs) -> Result<(), Error> {
     let (scores, pages) = if plan.part == Part::Whole {
         // Cases of an earlier run keep their targets.
         add_bounds(&mut bounds, &whole, &args.measure.scenes.root.scenes_dir)?;
-        let size = (plan.render.width, plan.render.height);
+        let size = plan.render.size();
         for bounds in bounds.values_mut() {
             *bounds = std::mem::take(bounds).at(size).over(plan.frames);
         }

@@ -45,17 +45,15 @@ pub fn measure(plan: &mut RunPlan, gpu: Option<&Gpu>) -> Result<MeasuredRun, Err
 
 /// Leaves a run of another picture size alone, and prints where this one goes.
 fn choose_folder(plan: &mut RunPlan) -> Result<(), Error> {
-    let size = (plan.render.width, plan.render.height);
+    let size = plan.render.size();
     let folder = match folder_for_size(&plan.out, size) {
         Err(_) if plan.no_cache => return Ok(()),
         folder => folder.map_err(name_options)?,
     };
     if folder != plan.out {
         print_note(&format!(
-            "{} holds a run of another picture size; this one, at {}x{}, goes to {}",
+            "{} holds a run of another picture size; this one, at {size}, goes to {}",
             plan.out.display(),
-            size.0,
-            size.1,
             folder.display()
         ));
         plan.out = folder;

@@ -6,7 +6,8 @@ use std::path::PathBuf;
 use judge::{BOUNDS_FILE, Margin, RunBounds, read_bounds_file};
 use measure::{Error, FolderLock, IngestedScene, Run, RunPlan, Sharing, lock_folder};
 use metrics::Metric;
-use tracer::{Location, RenderSettings};
+use scene::Location;
+use tracer::RenderSettings;
 
 use crate::ingested_scenes::{leave_out_filters, read_ingested_bounds, refuse_render_options};
 use crate::kept_truths::check_truths;
@@ -40,8 +41,8 @@ pub fn make_plan(args: &MeasureArgs, out: PathBuf) -> Result<(RunPlan, RunBounds
         .collect();
     let filters = leave_out_filters(filters, &ingested, scenes.is_empty())?;
     let default = RenderSettings::default();
-    let drawn = (ingested.first()).map(|scene| (scene.size[0], scene.size[1]));
-    let size = (args.size.or(drawn)).unwrap_or((default.width, default.height));
+    let drawn = ingested.first().map(|scene| scene.size);
+    let size = args.size.or(drawn).unwrap_or(default.size());
     let plan = RunPlan {
         scenes: scenes.into_iter().map(|known| known.scene).collect(),
         ingested,
@@ -72,7 +73,7 @@ pub fn apply_options(plan: &mut RunPlan, options: &RunOptions) -> Result<(), Err
 /// Adds the bounds of a run's scenes, for the run's picture size, from the folder `root`; skips
 /// scenes that are not there. Engines' scenes get none of our bounds.
 pub fn add_bounds(bounds: &mut RunBounds, run: &Run, root: &Location) -> Result<(), Error> {
-    let size = (run.render.width, run.render.height);
+    let size = run.render.size();
     for case in &run.cases {
         if bounds.contains_key(&case.scene) {
             continue;

@@ -1,12 +1,12 @@
 //! The shutter of a truth, and the alignments that share their samples.
 
 use frame::{Alignment, Shutter};
+use scene::Scene;
 
 use crate::error::TraceError;
 use crate::film::render::Times;
 use crate::film::shutter_sampler::ShutterSampler;
 use crate::motion::moving::find_moving_objects;
-use crate::scene::Scene;
 use crate::settings::RenderSettings;
 
 /// The shutter of one truth.

@@ -3,10 +3,11 @@
 use std::collections::BTreeMap;
 
 use rayon::prelude::*;
+use scene::Scene;
 
 use crate::error::TraceError;
-use crate::geometry::ray::Hit;
-use crate::scene::Scene;
+use crate::hit::Hit;
+use crate::motion::view::View;
 use crate::stage::Stage;
 
 /// Number of rays through the picture of the instant: about three of them meet a ten-thousandth of
@@ -28,7 +29,7 @@ type Painted = (usize, usize);
 /// An object is too far away.
 pub fn find_coincident_surfaces(scene: &Scene) -> Result<Vec<String>, TraceError> {
     let stage = Stage::try_new(scene, 0.0, 0.0)?;
-    let view = scene.camera.view(0.0, scene.width, scene.height);
+    let view = View::new(&scene.camera, 0.0, scene.width, scene.height);
     let size = [scene.width, scene.height].map(f64::from);
     let painted = |object: usize, triangle: u32| -> Painted {
         let object_of = &scene.objects[object];

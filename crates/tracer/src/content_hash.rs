@@ -3,9 +3,9 @@
 use std::fmt::Debug;
 
 use frame::{Alignment, FrameOptions, Provenance};
+use scene::Scene;
 
 use crate::pixel_grid::PixelGrid;
-use crate::scene::Scene;
 use crate::settings::RenderSettings;
 use crate::stage::Stage;
 
@@ -97,8 +97,12 @@ pub(crate) fn provenance(
 /// Hashes the debug output of the settings. It has every field, and every number in full, so
 /// that no new setting is forgotten.
 fn content_hash(scene: &Scene, kind: &str, settings: &dyn Debug) -> String {
-    let tracer = env!("TRACER_SOURCES");
-    let mut text = format!("{PROGRAM}\n{tracer}\n{kind}\n{}\n{settings:?}", scene.hash);
+    let tracer = env!("SOURCE_HASH");
+    let [bvh, scenes] = [bvh::SOURCE_HASH, scene::SOURCE_HASH];
+    let mut text = format!(
+        "{PROGRAM}\n{tracer}\n{bvh}\n{scenes}\n{kind}\n{}\n{settings:?}",
+        scene.hash
+    );
     // The scene's own hash covers its lens, but not its removal.
     if let Some(lens) = scene.camera.lens {
         text += &format!("\n{lens:?}");

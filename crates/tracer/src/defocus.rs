@@ -4,6 +4,7 @@
 use frame::{Image, Picture, Plane, Raster};
 use glam::DVec3;
 use rayon::prelude::*;
+use scene::Scene;
 
 use crate::error::TraceError;
 use crate::film::at_instant::InstantView;
@@ -16,7 +17,6 @@ use crate::path::integrator::Integrator;
 use crate::path::stops::Stop;
 use crate::progress::{Meter, Watch};
 use crate::sampler::{Sampler, Stream, pixel_seed};
-use crate::scene::Scene;
 use crate::settings::RenderSettings;
 use crate::stage::Stage;
 

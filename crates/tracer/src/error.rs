@@ -1,8 +1,9 @@
 //! Reasons why nothing is rendered.
 
 use frame::ShutterError;
+use scene::{SizeError, UndefinedTime};
 
-use crate::limits::{LARGEST_COORDINATE, LARGEST_SIDE, LARGEST_VALUE, MAX_PIXELS, MAX_SAMPLES};
+use crate::limits::{LARGEST_COORDINATE, LARGEST_VALUE, MAX_SAMPLES};
 
 /// A refusal to render, or the end of a render.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -11,15 +12,8 @@ pub enum TraceError {
     #[error("rendering was cancelled")]
     Cancelled,
     /// A picture of no pixels, or of too many.
-    #[error(
-        "size is {width}x{height}; allowed: 1 to {LARGEST_SIDE} pixels on either side, {MAX_PIXELS} in all"
-    )]
-    Size {
-        /// Pixels per row.
-        width: u32,
-        /// Rows.
-        height: u32,
-    },
+    #[error(transparent)]
+    Size(#[from] SizeError),
     /// An impossible exposure.
     #[error(transparent)]
     Shutter(#[from] ShutterError),
@@ -85,21 +79,7 @@ pub enum TraceError {
         /// Time, in frames.
         time: f64,
     },
-    /// A time at which the scene is not defined, of a later frame or at another frame rate than its
-    /// file's.
-    #[error(
-        "scene {scene}: needs {what} at frame {time}, and the keys {edge}; allowed: motions of two keys, which go on steadily, and \
-         others from their first key or shape to their last; take fewer frames, a higher frame rate or a shorter shutter, leave the \
-         scene out, or give it more keys"
-    )]
-    Undefined {
-        /// The scene's name, with the frame rate and the frame.
-        scene: String,
-        /// What is not defined.
-        what: String,
-        /// Where the keys begin or end: `end at frame 3`.
-        edge: String,
-        /// Time that was asked for, in frames.
-        time: f64,
-    },
+    /// A time at which the scene is not defined.
+    #[error(transparent)]
+    Undefined(#[from] UndefinedTime),
 }

@@ -1,9 +1,11 @@
 //! The frame of the instant, as an engine would hand it to its motion blur.
 
+use bvh::Ray;
 use frame::{
     Alignment, FAR_DEPTH, Frame, Picture, Plane, Raster, Tile, TracedFrame, Vectors, VelocityKind,
 };
 use rayon::prelude::*;
+use scene::{FrameRate, Scene};
 
 use crate::content_hash::{grid_hash, provenance};
 use crate::error::TraceError;
@@ -12,17 +14,16 @@ use crate::film::finite::{check_layer, check_picture};
 use crate::film::pilot::{PILOT_REPLICATES, PILOT_SAMPLES, choose_samples};
 use crate::film::render::{Film, Times};
 use crate::film::sample_counts::SampleCounts;
-use crate::frame_rate::FrameRate;
-use crate::geometry::ray::{Hit, Ray};
+use crate::hit::Hit;
 use crate::material::surface::Sight;
 use crate::motion::point_motion::{ObjectsBefore, PointMotion};
 use crate::motion::poses::Poses;
 use crate::motion::velocity::{TrackedPoint, camera, camera_velocity, reprojection};
+use crate::motion::view::View;
 use crate::path::integrator::Integrator;
 use crate::pixel_grid::{PixelGrid, scale_camera, scale_reprojection};
 use crate::progress::{Meter, Watch};
 use crate::sampler::Stream;
-use crate::scene::Scene;
 use crate::settings::{RenderSettings, check_next_frame};
 use crate::stage::Stage;
 use crate::truth::TruthTracer;
@@ -277,13 +278,7 @@ pub fn trace_further_velocities(
 
 /// Makes the canvas of a grid; refuses a grid of an impossible size.
 fn check_canvas(settings: &RenderSettings, grid: &PixelGrid) -> Result<Canvas, TraceError> {
-    let [width, height] = grid.size;
-    let grid_settings = RenderSettings {
-        width,
-        height,
-        ..*settings
-    };
-    grid_settings.check_sizes()?;
+    settings.with_size(grid.size).check_sizes()?;
     let band = settings.guard_band;
     Ok(Canvas::new(settings.width, settings.height, band, grid))
 }
@@ -298,7 +293,7 @@ fn sample_points(
     let scene = stage.scene;
     let options = settings.options;
     let size = canvas.view;
-    let view = scene.camera.view(motion.seen_at, size[0], size[1]);
+    let view = View::new(&scene.camera, motion.seen_at, size.width, size.height);
     let before = reprojection(scene, size);
     let points = (canvas.pixels().into_par_iter())
         .map_init(

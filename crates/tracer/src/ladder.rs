@@ -4,8 +4,9 @@ use std::sync::OnceLock;
 
 use frame::{
     Accumulation, Alignment, ColorSampling, Image, Ladder, MOST_GROUPS, Picture, Plane, Raster,
-    Shutter, Tile, Truth, motion_margin,
+    Shutter, Size, Tile, Truth, motion_margin,
 };
+use scene::Scene;
 
 use crate::content_hash::{ladder_hash, provenance};
 use crate::error::TraceError;
@@ -20,7 +21,6 @@ use crate::limits::MAX_SAMPLES;
 use crate::path::integrator::Integrator;
 use crate::progress::{Meter, Progress, Watch};
 use crate::sampler::Stream;
-use crate::scene::Scene;
 use crate::settings::RenderSettings;
 use crate::stage::Stage;
 
@@ -52,8 +52,8 @@ pub struct LadderTracer<'a> {
     alignment: Alignment,
     shutter: Shutter,
     sampler: ShutterSampler,
-    /// Columns and rows.
-    size: (u32, u32),
+    /// Size of the picture.
+    size: Size,
     /// Indices of the pixels that are rendered.
     pixels: Vec<u32>,
     /// Independent groups of samples: one per pair of the truth's replicates.
@@ -78,7 +78,7 @@ impl<'a> LadderTracer<'a> {
         check_subframes(subframes)?;
         assert_eq!(
             truth.size(),
-            (settings.width, settings.height),
+            settings.size(),
             "the truth was rendered with the ladder's settings"
         );
         let whole = scene.shutter_profile.whole(shutter);
@@ -103,7 +103,7 @@ impl<'a> LadderTracer<'a> {
     /// the other rungs. The first rung also renders the whole shutter, which takes as long as a
     /// rung.
     pub fn trace(&self, subframes: u32, watch: Watch) -> Result<Ladder, TraceError> {
-        let (width, height) = self.size;
+        let Size { width, height } = self.size;
         let pixels = &self.pixels;
         let pictures = if self.whole.get().is_none() { 2 } else { 1 };
         let part = |index: u64| {
@@ -142,7 +142,7 @@ impl<'a> LadderTracer<'a> {
     ) -> Result<Ladder, TraceError> {
         // Each pixel that is rendered, and its place in the tile.
         let (pixels, places): (Vec<u32>, Vec<usize>) = (self.pixels.iter())
-            .filter_map(|&pixel| Some((pixel, tile.index_of(pixel, self.size.0)?)))
+            .filter_map(|&pixel| Some((pixel, tile.index_of(pixel, self.size.width)?)))
             .unzip();
         let whole = self.render(&pixels, Times::Shutter(&self.sampler), watch)?;
         let parts = self.render(&pixels, Times::Midpoints(&self.sampler, subframes), watch)?;
@@ -153,7 +153,7 @@ impl<'a> LadderTracer<'a> {
     fn render(&self, pixels: &[u32], times: Times, watch: Watch) -> Result<Vec<Means>, TraceError> {
         let film = Film {
             integrator: Integrator::new(&self.stage, 0.0),
-            canvas: Canvas::bare(self.size.0, self.size.1),
+            canvas: Canvas::bare(self.size.width, self.size.height),
             color: ColorSampling::Antialiased,
             times: &[times],
             instant: None,

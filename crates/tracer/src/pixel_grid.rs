@@ -1,12 +1,12 @@
 //! Grids of pixels over a picture that are not its own: fewer pixels, or moved ones.
 
-use frame::{Camera, Reprojection};
+use frame::{Camera, Reprojection, Size};
 
 /// A grid of pixels over a picture. Lengths in its renders are in pixels of the grid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PixelGrid {
-    /// Pixels per row and rows, guard band left out.
-    pub size: [u32; 2],
+    /// Its size, guard band left out.
+    pub size: Size,
     /// Distance by which every pixel looks to the right of its own place, and below it, in pixels
     /// of the grid: the jitter of a camera, or the place of a sample from the centre.
     pub offset: [f64; 2],
@@ -16,7 +16,7 @@ impl PixelGrid {
     /// Returns the picture's own pixels.
     pub fn of_picture(width: u32, height: u32) -> Self {
         Self {
-            size: [width, height],
+            size: Size::new(width, height),
             offset: [0.0; 2],
         }
     }
@@ -25,8 +25,8 @@ impl PixelGrid {
     /// `height`.
     pub(crate) fn step(&self, width: u32, height: u32) -> [f64; 2] {
         [
-            f64::from(width) / f64::from(self.size[0]),
-            f64::from(height) / f64::from(self.size[1]),
+            f64::from(width) / f64::from(self.size.width),
+            f64::from(height) / f64::from(self.size.height),
         ]
     }
 }

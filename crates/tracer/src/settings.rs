@@ -1,12 +1,12 @@
 //! Settings of renders, and their check.
 
-use frame::{Alignment, FrameOptions, Shutter};
+use frame::{Alignment, FrameOptions, Shutter, Size};
+use scene::{Scene, check_size};
 use serde::{Deserialize, Serialize};
 
 use crate::error::TraceError;
-use crate::limits::{LARGEST_SIDE, MAX_PIXELS, MAX_SAMPLES};
+use crate::limits::MAX_SAMPLES;
 use crate::motion::velocity::earliest_time;
-use crate::scene::Scene;
 
 /// Settings of a scene's frame and truths, stored in run.json.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -51,6 +51,20 @@ impl Default for RenderSettings {
 }
 
 impl RenderSettings {
+    /// Returns the size of the picture.
+    pub fn size(&self) -> Size {
+        Size::new(self.width, self.height)
+    }
+
+    /// Returns the same settings for a picture of another size.
+    pub fn with_size(&self, Size { width, height }: Size) -> Self {
+        Self {
+            width,
+            height,
+            ..*self
+        }
+    }
+
     /// Samples per pixel of each replicate.
     pub fn samples_per_replicate(&self) -> u32 {
         self.samples_per_pixel / self.replicates
@@ -92,7 +106,8 @@ impl RenderSettings {
         check_size(
             self.width.saturating_add(band),
             self.height.saturating_add(band),
-        )
+        )?;
+        Ok(())
     }
 
     /// Refuses settings with which the scene's truth cannot be rendered; returns the shutter.
@@ -116,17 +131,6 @@ impl RenderSettings {
 pub fn check_next_frame(scene: &Scene) -> Result<(), TraceError> {
     scene.check_defined(0.0, 1.0)?;
     check_field_of_view(scene, 0.0, 1.0)
-}
-
-/// Refuses an impossible size of a picture.
-pub(crate) fn check_size(width: u32, height: u32) -> Result<(), TraceError> {
-    let allowed = 1..=LARGEST_SIDE;
-    let pixels = u64::from(width) * u64::from(height);
-    if allowed.contains(&width) && allowed.contains(&height) && pixels <= MAX_PIXELS {
-        Ok(())
-    } else {
-        Err(TraceError::Size { width, height })
-    }
 }
 
 fn check_samples(samples_per_pixel: u32, replicates: u32) -> Result<(), TraceError> {
@@ -159,4 +163,67 @@ fn check_field_of_view(scene: &Scene, from: f64, to: f64) -> Result<(), TraceErr
         }
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+    use scene::{Key, Motion, list_scenes, load_scene};
+
+    use super::*;
+    use crate::content_hash::truth_hash;
+    use crate::test_scene::{load_test_scene, scenes};
+
+    #[test]
+    fn frame_0_is_the_scene_itself() {
+        let scene = load_test_scene("fan");
+        let settings = RenderSettings::default();
+        let hash = |scene: &Scene| truth_hash(scene, &settings, Alignment::Trailing);
+        let first = scene.at_frame(0);
+        assert_eq!(hash(&first), hash(&scene));
+        assert_eq!(first.id, scene.id);
+        assert_ne!(hash(&scene.at_frame(1)), hash(&scene));
+        assert_ne!(hash(&scene.at_frame(1)), hash(&scene.at_frame(2)));
+    }
+
+    #[test]
+    fn a_scale_does_not_pass_zero() {
+        let mut scene = load_test_scene("fan");
+        let shrink = |time: f64, scale: f64| Key {
+            time,
+            scale: DVec3::splat(scale),
+            ..Key::REST
+        };
+        scene.objects[0].motion = Motion {
+            keys: vec![shrink(0.0, 1.0), shrink(1.0, 0.75)],
+            ..Motion::default()
+        };
+        let check = |frame: u32| {
+            RenderSettings::default().check_truth(&scene.at_frame(frame), Alignment::Trailing)
+        };
+        assert_eq!(check(3).err(), None);
+        assert!(
+            check(4)
+                .unwrap_err()
+                .to_string()
+                .contains("the scale of object")
+        );
+    }
+
+    #[test]
+    fn most_shipped_scenes_go_on_and_the_others_say_where_they_end() {
+        let folder = scenes();
+        let mut ending = Vec::new();
+        for listing in list_scenes(folder.as_path()).unwrap() {
+            let scene = load_scene(folder.join(&listing.name), None).unwrap();
+            let settings = RenderSettings::default();
+            if settings
+                .check_truth(&scene.at_frame(24), Alignment::Centred)
+                .is_err()
+            {
+                ending.push(scene.id.name);
+            }
+        }
+        assert_eq!(ending, ["flag", "reversal"]);
+    }
 }

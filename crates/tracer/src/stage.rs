@@ -1,19 +1,19 @@
 //! A scene prepared for rays.
 
+use bvh::{Lanes, Portable, Ray};
 use glam::{DVec3, Vec3};
+use scene::{Material, Scene};
 
-#[cfg(target_arch = "x86_64")]
-use crate::accel::lanes::Avx2;
-use crate::accel::lanes::{Lanes, Portable};
 use crate::accel::scene_tree::SceneTree;
 use crate::error::TraceError;
-use crate::geometry::ray::{Hit, Ray};
+use crate::hit::Hit;
 use crate::light::sky::Sky;
 use crate::material::glossy_material::GlossyMaterial;
 use crate::material::passage::Passage;
 use crate::material::surface::{Sight, Surface};
 use crate::motion::poses::Poses;
-use crate::scene::{Material, Scene};
+#[cfg(target_arch = "x86_64")]
+use bvh::Avx2;
 
 /// A scene between two times, prepared for rays.
 ///
@@ -215,8 +215,9 @@ impl Traversal {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::ray::LIFT;
+    use crate::hit::LIFT;
     use crate::motion::lens::LensPoint;
+    use crate::motion::view::View;
     use crate::test_scene::load_test_scene;
 
     #[test]
@@ -228,7 +229,7 @@ mod tests {
             let mut met = 0;
             for time in [-0.5, -0.2, 0.0, 0.5] {
                 poses.at(time);
-                let view = scene.camera.view(time, 48, 27);
+                let view = View::new(&scene.camera, time, 48, 27);
                 for pixel in 0..48 * 27 {
                     let place = [pixel % 48, pixel / 48].map(|at| f64::from(at) + 0.5);
                     let ray = view.ray_through(place, LensPoint::CENTRE);

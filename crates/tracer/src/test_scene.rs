@@ -2,8 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::load::load_scene;
-use crate::scene::Scene;
+use scene::{Scene, load_scene};
 
 /// The folder of the shipped scenes.
 pub(crate) fn scenes() -> PathBuf {

@@ -5,6 +5,7 @@ use std::sync::OnceLock;
 
 use frame::{Alignment, AtInstant, ColorSampling, Raster, Replicate, Tile, Truth, motion_margin};
 use rayon::prelude::*;
+use scene::Scene;
 
 use crate::aligned_shutter::{AlignedShutter, list_family};
 use crate::content_hash::{provenance, replicate_hash};
@@ -20,7 +21,6 @@ use crate::film::support::{ProbedSupport, trace_supports};
 use crate::path::integrator::Integrator;
 use crate::progress::{Meter, Progress, Watch};
 use crate::sampler::Stream;
-use crate::scene::Scene;
 use crate::settings::RenderSettings;
 use crate::stage::Stage;
 
@@ -274,7 +274,8 @@ fn assemble_at_instant(tile: Tile, pixels: Vec<InstantMeans>) -> AtInstant {
 mod tests {
     use std::ops::ControlFlow;
 
-    use crate::scene::Background;
+    use scene::Background;
+
     use crate::test_scene::load_test_scene;
 
     use super::*;

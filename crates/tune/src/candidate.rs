@@ -1,7 +1,7 @@
 //! Candidate of a tuning, ready to blur scenes.
 
 use filters::{Blur, Filter, FilterError, Kernels, Settings};
-use frame::{Image, Plane};
+use frame::{Image, Plane, Size};
 use measure::{FilterFrame, Runner, filter_input, pack_planes, unpack_planes};
 
 /// A filter with settings to try, ready for pictures of one size.
@@ -24,11 +24,11 @@ impl<'a> Candidate<'a> {
         filter: &Filter,
         settings: &Settings,
         kernels: Option<&Kernels<'a>>,
-        size: (u32, u32),
+        size: Size,
     ) -> Result<Self, FilterError> {
         let runner = match kernels {
             Some(kernels) => {
-                let blur = Blur::with_kernels(kernels, settings, size.0, size.1)?;
+                let blur = Blur::with_kernels(kernels, settings, size.width, size.height)?;
                 Runner::Kernels(Box::new(blur))
             }
             None => Runner::command(filter, settings, size)?,

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::sync::mpsc;
 
 use filters::{Blur, FilterError, Gpu, Kernels, Settings, Value};
+use frame::Size;
 use measure::{Error, FilterChoice, Monitor, filter_input};
 use serde::{Deserialize, Serialize};
 use tracer::TraceError;
@@ -160,7 +161,7 @@ impl<'a> Evaluator<'a> {
             return Ok(None);
         };
         let frame = &self.targets[scene].scene.frame;
-        let (width, height) = frame.size();
+        let Size { width, height } = frame.size();
         let blur = |settings| Blur::new(gpu, &self.choice.filter, settings, width, height);
         let color = [&frame.color];
         let input = filter_input(frame, &color);

@@ -47,7 +47,7 @@ pub fn render_scenes(
             frame: rendering.frame_for(filter)?,
             truth: rendering.truth(filter.alignment)?,
             viewing: scene.display.into(),
-            bounds: bounds.clone().at((render.width, render.height)),
+            bounds: bounds.clone().at(render.size()),
         })
     };
     scenes.iter().map(render_scene).collect()

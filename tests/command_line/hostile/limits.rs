@@ -32,10 +32,13 @@ fn the_page_of_limits_agrees_with_the_constants() {
             listed.push(name);
         }
     }
-    let source = fs::read_to_string(root().join("crates/tracer/src/limits.rs")).unwrap();
-    for line in source.lines().filter(|line| line.starts_with("pub const")) {
-        let name = line.split([' ', ':']).nth(2).unwrap();
-        assert!(listed.contains(&name), "docs/limits.md lacks {name}");
+    for crate_name in ["scene", "tracer"] {
+        let source = format!("crates/{crate_name}/src/limits.rs");
+        let source = fs::read_to_string(root().join(source)).unwrap();
+        for line in source.lines().filter(|line| line.starts_with("pub const")) {
+            let name = line.split([' ', ':']).nth(2).unwrap();
+            assert!(listed.contains(&name), "docs/limits.md lacks {name}");
+        }
     }
 }
 
@@ -156,10 +159,22 @@ fn pictures_and_records_beyond_a_limit_are_refused_before_allocation() {
     let sky = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 30000 +X 60000\n";
     use_sky(&sandbox, sky);
     sandbox.refuse(RUN, &["scene.toml:12:", "1800000000 texels; allowed: 1 to"]);
+    sandbox.write("scene.toml", SCENE);
+    let textured = format!("{MTL}map_Kd large.png\n");
+    sandbox.write("plate.mtl", &textured);
+    let corners = OBJ.replace("usemtl", "vt 0 0\nusemtl");
+    let corners = corners.replace("f 1 2 3", "f 1/1 2/1 3/1");
+    sandbox.write("plate.obj", &corners.replace("f 1 3 4", "f 1/1 3/1 4/1"));
+    sandbox.put("scenes/plate/large.png", png(10_000));
+    let parts = [
+        "large.png is 10000 x 10000",
+        "100000000 texels; allowed: 1 to 67108864",
+    ];
+    sandbox.refuse(RUN, &parts);
+    sandbox.write("plate.mtl", MTL);
     // A sparse file takes no disk space.
     let file = fs::File::create(sandbox.path("scenes/plate/plate.obj")).unwrap();
-    file.set_len(tracer::limits::LARGEST_MESH_FILE + 1).unwrap();
-    sandbox.write("scene.toml", SCENE);
+    file.set_len(scene::limits::LARGEST_MESH_FILE + 1).unwrap();
     sandbox.refuse(RUN, &["scene.toml:15: mesh", "at most 2147483648 are read"]);
 
     let refuse_score = |name: &str, bytes: Vec<u8>, claim: &str| {

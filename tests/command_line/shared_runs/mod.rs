@@ -6,9 +6,6 @@ use std::fs;
 
 use crate::sandbox::Sandbox;
 
-/// Filters of both shutters, one of them with two presets.
-const FILTERS: &str = "velocity_gather:fine,velocity_gather:coarse,kino:default";
-
 /// Options that measure very quickly.
 pub const QUICK: &str = "--quiet --size 64x32 --samples-per-pixel 16 --jitter-frames 2";
 

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use super::{FILTERS, QUICK, parts};
+use super::{QUICK, parts};
 use crate::sandbox::{Files, Sandbox, assert_same_files, read_below};
 
 /// Reads all files of a run except the jobs' own, its judgement, and pages.
@@ -50,7 +50,7 @@ fn assert_parts_equal_one_process(scenes: &str, filters: &str, common: &str, opt
 
 #[test]
 fn parts_of_a_run_make_the_files_of_one_process() {
-    assert_parts_equal_one_process("plate,slow", FILTERS, "centred", "--intervals");
+    assert_parts_equal_one_process("plate,slow", "kino:default", "centred", "--intervals");
 }
 
 #[test]

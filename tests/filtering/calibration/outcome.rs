@@ -26,7 +26,7 @@ pub struct Outcome<'s> {
 pub fn blur_shots(shots: &[Shot]) -> Vec<Outcome<'_>> {
     let mut outcomes = Vec::new();
     for (filter, settings) in every_preset() {
-        let mut blur = ready_blur(&filter, &settings, SMALL.into());
+        let mut blur = ready_blur(&filter, &settings, SMALL);
         for shot in shots {
             // Colours get the same weights, so that one run blurs both.
             let color = shot.painted.zip(shot.matte(), |a, b| [*a, *b, 0.0]);

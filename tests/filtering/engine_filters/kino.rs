@@ -1,7 +1,7 @@
 //! KinoMotion.
 
-use tests::near::{assert_near, assert_within};
-use tests::picture::{BLACK_WALL, Picture, column, moving_edge, white};
+use tests::near::assert_within;
+use tests::picture::{BLACK_WALL, Picture, column, white};
 
 /// Makes a white bar of 40 pixels that moves right, in the right or left half of a still black
 /// picture.
@@ -27,64 +27,6 @@ fn the_order_of_taps_makes_a_mover_s_two_sides_differ() {
     // moving as far, and the bar's own share shrinks. Without this order both sides would be equal
     // up to rounding.
     assert_within(light(true, |i| 79 - i), ..0.97 * light(false, |i| 80 + i));
-}
-
-#[test]
-fn packed_motion_has_steps_and_no_zero() {
-    let picture = Picture::new(64, 360, |x, _| {
-        BLACK_WALL.moving(2.0 * x as f32 / 100.0, 0.0)
-    });
-    // 5 % of 360 rows are 18 pixels.
-    let step = 2.0 * 18.0 / 1023.0;
-    let packed = picture.texture("kino", "", "motion");
-    // Zero is half-way between two of 1024 values.
-    let still = packed.at(0, 7);
-    assert_near(still[0], 0.5 * step, 1e-5);
-    assert_near(still[1], 0.5 * step, 1e-5);
-    for x in 0..64 {
-        let value = f64::from(packed.at(x, 7)[0]);
-        let steps = value / step - 0.5;
-        assert_near(steps, steps.round(), 1e-3);
-        // Half of the motion, to the nearest step; 1e-5 for rounding.
-        assert_near(value, f64::from(x) / 100.0, 0.5 * step + 1e-5);
-    }
-    let exact = picture.texture("kino", "storage=exact", "motion");
-    assert_eq!(exact.at(0, 7)[0], 0.0);
-    // A depth of 20 metres, of 1000, to the nearest of 1024 values.
-    assert_eq!(packed.at(0, 7)[2], 20.0 / 1023.0);
-}
-
-#[test]
-fn a_tile_is_the_radius_rounded_up_to_eight() {
-    for (rows, tile) in [(180, 16), (360, 24), (480, 24), (481, 24), (500, 32)] {
-        println!("{rows} rows");
-        let picture = Picture::new(130, rows, |x, y| match (x, y) {
-            (100, 50) => white(400.0),
-            _ => BLACK_WALL,
-        });
-        let overrides = "storage=exact tiles=partial";
-        let tiles = picture.texture("kino", overrides, "tile_max");
-        let radius = (rows * 5 / 100) as f32;
-        let [column, row] = [100 / tile, 50 / tile];
-        // Motion is cut at the radius.
-        assert_near(tiles.at(column, row)[0], radius, 1e-4);
-        let moving = tiles.pixels.iter().filter(|motion| motion[0] > 0.0).count();
-        assert_eq!(moving, 1);
-        // A tile's own motion counts 1.01 times, so neighbours' motion arrives shorter by that
-        // factor.
-        let near = picture.texture("kino", overrides, "neighbor_max");
-        assert_near(near.at(column, row)[0], radius, 1e-4);
-        assert_near(near.at(column - 1, row)[0], radius / 1.01, 1e-4);
-    }
-}
-
-#[test]
-fn half_motion_under_two_pixels_stays_sharp() {
-    for (speed, blurs) in [(3.9, false), (4.1, true)] {
-        let picture = moving_edge(60, 360, [speed, 0.0]);
-        let output = picture.blur("kino", "default", "storage=exact");
-        assert_eq!(output != picture.color, blurs, "{speed} pixels per frame");
-    }
 }
 
 #[test]

@@ -40,20 +40,6 @@ fn o3de_keeps_the_sign_of_its_innermost_offset() {
 }
 
 #[test]
-fn o3de_mixes_the_motion_of_tiles() {
-    let picture = Picture::halves(400, 200, BLACK_WALL, white(24.0)).speckled(11, |x, _| x < 200);
-    let changes = |lookup: &str, x: u32| {
-        let overrides = format!("tile_dither=0 tile_lookup={lookup}");
-        let output = picture.blur("jimenez", "o3de", &overrides);
-        (0..200).any(|y| output.at(x, y) != picture.color.at(x, y))
-    };
-    // The tile left of the mover knows it, and the next one does not. Mixed motion begins between
-    // their centres.
-    assert!(changes("nearest", 180) && !changes("nearest", 179));
-    assert!(changes("linear", 175) && !changes("linear", 170));
-}
-
-#[test]
 fn o3de_mixes_still_things_near_a_mover_with_their_background() {
     let picture = post_above_motion();
     // The rows above the mover, within reach of its tiles.

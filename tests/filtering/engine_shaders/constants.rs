@@ -109,7 +109,7 @@ fn macros_reach_the_compilers_of_glsl_and_hlsl() {
 }
 
 #[test]
-fn macros_that_name_files_or_have_no_compiler_are_refused() {
+fn macros_without_a_name_or_a_compiler_are_refused() {
     let [(pass, bindings), _] = DEFINED;
     let files = make("constants", &format!("[[pass]]\n{pass}{bindings}"));
     files.assert_refused("defines");

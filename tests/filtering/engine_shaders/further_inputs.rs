@@ -1,6 +1,6 @@
 //! Inputs that few frames have: the velocity to the next frame, and the velocity of depth.
 
-use filters::{Filter, Input};
+use filters::{Filter, Input, Layer};
 use tests::filter_folder::write_kernel;
 use tests::near::assert_near;
 use tests::text::assert_contains;
@@ -41,7 +41,8 @@ fn shaders_read_them_by_name_and_in_the_convention_of_velocity() {
     // 61 x 43 pixels, exposure 0.7; pixel (12, 9) is 14 m away.
     let factors = [[1.0, 1.0, 1.0], [1.4 / 61.0, -1.4 / 43.0, 1.0]];
     for (filter, factors) in make_both().iter().zip(factors) {
-        assert_eq!(filter.further_inputs(), ["velocity_next", "velocity_z"]);
+        let layers = [Layer::VelocityNext, Layer::VelocityZ];
+        assert_eq!(filter.further_inputs(), layers);
         let output = ready(filter, (61, 43))
             .unwrap()
             .run(&input)

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use frame::Alignment;
 use glam::{DQuat, DVec3, Vec3};
-use tracer::{Background, Finish, Key};
+use scene::{Background, Finish, Key};
 
 use super::{DISTANCE, EXPOSURE, HEIGHT, SPEED, WIDTH, panel_over_wall, render};
 use crate::renders::*;

@@ -9,7 +9,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use frame::{Alignment, Truth};
 use glam::DVec3;
-use tracer::{Key, Scene, Turn};
+use scene::{Key, Scene, Turn};
 
 use crate::renders::*;
 

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use frame::{Alignment, Frame};
 use glam::{DVec2, DVec3};
-use tracer::Scene;
+use scene::Scene;
 
 use super::with_lens;
 use crate::moving_shapes::*;

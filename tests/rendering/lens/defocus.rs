@@ -2,7 +2,8 @@
 
 use frame::Image;
 use glam::DVec3;
-use tracer::{Defocus, RenderSettings, Scene, TraceError, trace_defocus};
+use scene::Scene;
+use tracer::{Defocus, RenderSettings, TraceError, trace_defocus};
 
 use super::with_lens;
 use crate::renders::*;

@@ -2,7 +2,8 @@
 
 use frame::{Alignment, Truth};
 use glam::DVec3;
-use tracer::{Background, Finish, LadderTracer, RenderSettings, Scene};
+use scene::{Background, Finish, Scene};
+use tracer::{LadderTracer, RenderSettings};
 
 use super::with_lens;
 use crate::regions::expect_support;

@@ -5,7 +5,7 @@ mod defocus;
 mod layers;
 mod pinholes;
 
-use tracer::{Lens, Scene};
+use scene::{Lens, Scene};
 
 /// Gives a scene's camera a lens.
 pub fn with_lens(mut scene: Scene, aperture: f64, focus: f64) -> Scene {

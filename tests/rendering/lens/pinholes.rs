@@ -2,7 +2,8 @@
 
 use frame::{Alignment, AtInstant, Frame, Picture, Truth};
 use glam::{DQuat, DVec2, DVec3, EulerRot};
-use tracer::{PixelGrid, Scene, trace_frame_part};
+use scene::Scene;
+use tracer::{PixelGrid, trace_frame_part};
 
 use super::with_lens;
 use crate::renders::*;
@@ -52,7 +53,7 @@ fn a_frame_is_the_mean_of_shifted_pinhole_frames() {
         // A camera next to the lens's centre sees the plane in focus shifted.
         let offset = FOCAL / FOCUS * DVec2::new(-point.x, point.y);
         let grid = PixelGrid {
-            size: SIZE,
+            size: SIZE.into(),
             offset: offset.into(),
         };
         // With one seed all pinholes would have the same noise, which would stay in the mean.

@@ -2,7 +2,7 @@
 
 use frame::{Alignment, FAR_DEPTH, Frame, Truth, VelocityKind};
 use glam::{DVec3, Vec3};
-use tracer::{Material, Scene, Translucency};
+use scene::{Material, Scene, Translucency};
 
 use super::{film, glass};
 use crate::renders::{self, *};

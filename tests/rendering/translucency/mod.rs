@@ -5,7 +5,7 @@ mod buffers;
 mod panes;
 
 use glam::{DVec3, Vec3};
-use tracer::{Background, Material, Scene, Translucency};
+use scene::{Background, Material, Scene, Translucency};
 
 use crate::renders::{self, *};
 

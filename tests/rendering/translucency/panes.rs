@@ -4,10 +4,10 @@ use std::f64::consts::FRAC_PI_4;
 
 use frame::{Alignment, ColorSampling, Frame};
 use glam::{DQuat, DVec2, DVec3, Vec3};
+use scene::{Background, Scene};
 use tests::half_plane::half_plane;
 use tests::random::Random;
 use tests::statistics::{estimate_pixels, expect_agreement};
-use tracer::{Background, Scene};
 
 use super::{assert_near, film, glass, hang};
 use crate::moving_shapes::{SPEED, half_plane_scene, pixel_corner, truth_settings};

@@ -3,11 +3,12 @@
 use std::cell::OnceCell;
 
 use filters::{Blur, Filter};
-use frame::{Alignment, Frame, Image, Picture, Truth};
+use frame::{Alignment, Frame, Image, Picture, Size, Truth};
 use metrics::{Metric, Reference, Scores, scatter_oracle};
+use scene::Scene;
 use tests::picture::frame_input;
 use tests::{shared_gpu, unwatched};
-use tracer::{RenderSettings, Scene, trace_frame, trace_truth};
+use tracer::{RenderSettings, trace_frame, trace_truth};
 
 use crate::load_shipped;
 
@@ -70,7 +71,7 @@ impl RenderedScene {
     /// Runs a filter on colours in place of the frame's own, and crops the guard band.
     pub fn run_filter(&self, filter: &Filter, preset: &str, colors: &[&Image]) -> Vec<Image> {
         let settings = filter.settings(Some(preset)).unwrap();
-        let (width, height) = self.frame.size();
+        let Size { width, height } = self.frame.size();
         let mut blur = Blur::new(shared_gpu(), filter, &settings, width, height).unwrap();
         let outputs = blur.run(&frame_input(&self.frame, colors)).unwrap();
         let cropped = |output: &Image| output.cropped(self.frame.guard_band);

@@ -1,8 +1,8 @@
 //! Faces of OBJ files with more than three corners: their triangles cover them once.
 
 use glam::{DVec2, DVec3, Vec3};
+use scene::Mesh;
 use tests::random::{Numbers, Random};
-use tracer::Mesh;
 
 use super::polygons::{
     ARROW, DOOR, FRAME, Plane, Polygon, WINDOW, distance, draw_star, grow, polygon, surrounds,

@@ -1,7 +1,7 @@
 //! Materials and textures from MTL and picture files.
 
 use glam::{Vec2, Vec3};
-use tracer::{Material, Scene, Translucency};
+use scene::{Material, Scene, Translucency};
 
 use crate::{Folder, OBJ, SCENE};
 

@@ -1,7 +1,7 @@
 //! Meshes, groups and key shapes from OBJ files.
 
 use glam::{Vec2, Vec3};
-use tracer::{Scene, load_scene};
+use scene::{Scene, load_scene};
 
 use crate::{Folder, MTL, OBJ};
 

@@ -9,7 +9,7 @@ mod polygons;
 
 use frame::{Efficiency, ShutterProfile};
 use glam::DVec3;
-use tracer::{Background, Family, Interpolation, Parent, load_scene};
+use scene::{Background, Family, Interpolation, Parent, load_scene};
 
 use crate::{Folder, OBJ};
 

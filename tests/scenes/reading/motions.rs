@@ -3,12 +3,12 @@
 use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
-use tracer::{Interpolation, load_scene};
+use scene::{Interpolation, load_scene};
 
 use crate::Folder;
 
 /// Loads the scene with other keys for its body.
-fn load_with_keys(keys: &str) -> tracer::Scene {
+fn load_with_keys(keys: &str) -> scene::Scene {
     let folder = Folder::new();
     let old = "    { time = -1 },\n    { time = 1, translation = [1, 0, 0] },\n";
     folder.edit("scene.toml", old, keys);
@@ -16,7 +16,7 @@ fn load_with_keys(keys: &str) -> tracer::Scene {
 }
 
 /// Returns the direction of the body's +X at a time.
-fn body_x(scene: &tracer::Scene, time: f64) -> DVec3 {
+fn body_x(scene: &scene::Scene, time: f64) -> DVec3 {
     scene.object_to_world(0, time).transform_vector3(DVec3::X)
 }
 

@@ -4,8 +4,8 @@
 //! Most are in `slips/`, one file per kind of file.
 
 use image::{ImageBuffer, Rgb32FImage};
+use scene::{SceneError, list_scenes, load_scene};
 use serde::Deserialize;
-use tracer::{SceneError, list_scenes, load_scene};
 
 use crate::appearance::{counting_image, folder_with_background};
 use crate::{Folder, OBJ, SCENE};

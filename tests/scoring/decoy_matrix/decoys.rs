@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use frame::{Frame, Picture, Plane, Raster, regions};
+use frame::{Frame, Picture, Plane, Raster, Size, regions};
 use tests::synthetic::{Blur, EXPOSURE, Object, Sampling, Scene, Shape, constant};
 
 use super::touches::touch;
@@ -85,7 +85,7 @@ pub fn map_planes(picture: &Picture, change: impl Fn(&Plane) -> Plane) -> Pictur
 /// Averages for each pixel the colours ahead of it along its own velocity, in 64 steps. Nothing is
 /// carried beyond an outline.
 fn gather(frame: &Frame) -> Picture {
-    let (width, height) = frame.size();
+    let Size { width, height } = frame.size();
     let taps = |x: u32, y: u32| {
         let velocity = frame.velocity.at(x, y).map(f64::from);
         (0..64).map(move |step| {

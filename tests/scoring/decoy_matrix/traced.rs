@@ -5,8 +5,8 @@ use std::path::Path;
 
 use frame::{Alignment, Frame, Image, Picture, Plane, Raster, Truth, regions};
 use measure::{Monitor, Rendering};
+use scene::load_scene;
 use tests::settings;
-use tracer::load_scene;
 
 use super::decoys::blur_isotropically;
 use super::touches::touch;

@@ -6,8 +6,8 @@ use terminal::refuse;
 use clap::Args;
 use filters::{Convention, EXCLUSION, FilterError, Gpu, Input};
 use frame::{
-    Camera, ExrFile, FileError, Image, Plane, Reprojection, Vectors, read_frame_rate, read_passes,
-    write_exr,
+    Camera, ExrFile, FileError, Image, Plane, Reprojection, Size, Vectors, read_frame_rate,
+    read_passes, write_exr,
 };
 use measure::{
     Error, FilterChoice, Runner, file_at_frame, numbered_file, open_gpu, printable_path,
@@ -78,7 +78,7 @@ pub fn execute(args: &BlurArgs) -> Result<(), Error> {
     check_shown(&choice.filter, &args.show)?;
     let convention = read_convention(args.convention.as_deref())?;
     let first = Buffers::read(frame_file(args, 0), args.exposure, &convention)?;
-    let size = (first.color.width, first.color.height);
+    let size = first.color.size();
     let choice = (choice.as_written(args.as_written)).scaled_to(first.picture_width());
     let monitor = make_monitor().without_progress();
     let adapter = args.adapter.adapter.as_deref();
@@ -126,15 +126,13 @@ pub fn execute(args: &BlurArgs) -> Result<(), Error> {
 }
 
 /// Refuses a frame of another size than the first.
-fn check_same_size(now: &Buffers, first: &Path, size: (u32, u32)) -> Result<(), Error> {
-    let (width, height) = (now.color.width, now.color.height);
-    if (width, height) != size {
+fn check_same_size(now: &Buffers, first: &Path, size: Size) -> Result<(), Error> {
+    let found = now.color.size();
+    if found != size {
         refuse!(
-            "{}: has {width}x{height} pixels, {} has {}x{}; the frames of a sequence have one size",
+            "{}: has {found} pixels, {} has {size}; the frames of a sequence have one size",
             now.path.display(),
-            first.display(),
-            size.0,
-            size.1
+            first.display()
         );
     }
     Ok(())
@@ -154,8 +152,8 @@ fn check_frame_numbers(args: &BlurArgs) -> Result<(), Error> {
 }
 
 /// Makes a file without a picture that records what blurred it.
-fn describe_picture(choice: &FilterChoice, gpu: Option<&Gpu>, size: (u32, u32)) -> ExrFile {
-    let mut file = ExrFile::new(size.0, size.1);
+fn describe_picture(choice: &FilterChoice, gpu: Option<&Gpu>, size: Size) -> ExrFile {
+    let mut file = ExrFile::new(size.width, size.height);
     file.set("kind", "output");
     file.set("filter", choice.name());
     file.set("program", measure::PROGRAM);

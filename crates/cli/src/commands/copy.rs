@@ -5,7 +5,7 @@ use terminal::refuse;
 
 use frame::{FileError, write_atomically};
 use measure::{Error, printable_path};
-use tracer::{Location, list_scenes};
+use scene::{Location, list_scenes};
 
 use terminal::output::{count_text, print};
 use terminal::selection::choose_names;

@@ -6,7 +6,8 @@ use terminal::refuse;
 use clap::Args;
 use filters::{AdapterDescription, Filter, FilterError, Limits, list_adapters, try_out};
 use measure::{Error, InputFormat, open_adapter};
-use tracer::{SceneListing, find_coincident_surfaces, list_scenes, load_scene};
+use scene::{SceneListing, list_scenes, load_scene};
+use tracer::find_coincident_surfaces;
 
 use super::copy::copy_scenes;
 use crate::tables::{details_text, filter_json, filters_text, inputs_text, scenes_text};

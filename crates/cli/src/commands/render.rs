@@ -4,12 +4,13 @@ use std::ops::Range;
 use terminal::refuse;
 
 use clap::Args;
-use frame::{Alignment, Truth};
+use frame::{Alignment, Size, Truth};
 use measure::{
     Error, LADDER, MAX_REPLICATES, Rendering, Sharing, deciding_floor, estimate_render_seconds,
     lock_folder, printable_path, scene_folder,
 };
-use tracer::{RenderSettings, Scene, check_next_frame};
+use scene::Scene;
+use tracer::{RenderSettings, check_next_frame};
 
 use terminal::arguments::{
     Replicates, SceneArgs, above_zero, frame_count, parse_replicates, parse_size, within,
@@ -24,7 +25,7 @@ pub struct RenderArgs {
     pub scenes: SceneArgs,
     /// Picture size in pixels [default: each scene's own].
     #[arg(help_heading = "Scenes and files", long, value_name = "WxH", value_parser = parse_size)]
-    pub size: Option<(u32, u32)>,
+    pub size: Option<Size>,
     /// Consecutive frames to render of every scene. Later frames go to numbered folders below the
     /// scene's own.
     #[arg(help_heading = "Sequences", long, value_name = "N", default_value_t = 1, value_parser = frame_count())]
@@ -118,7 +119,7 @@ pub fn execute(args: &RenderArgs) -> Result<(), Error> {
 
 /// Makes a scene's render settings. Refuses frames that the scene does not define.
 fn scene_settings(args: &RenderArgs, scene: &Scene) -> Result<RenderSettings, Error> {
-    let size = args.size.unwrap_or((scene.width, scene.height));
+    let size = args.size.unwrap_or(Size::new(scene.width, scene.height));
     let count = match &args.replicates {
         Replicates::All(count) => *count,
         Replicates::Part(_) => RenderSettings::default().replicates,
@@ -187,7 +188,7 @@ fn render_whole(
         report += &floors_line(truth);
         Ok(())
     };
-    rendering.truths_until(&args.alignments, (target, most), ended)?;
+    rendering.truths_until(&args.alignments, target, most, ended)?;
     Ok(report)
 }
 

@@ -6,8 +6,8 @@ use measure::{
     read_finished_picture, score_sequence, worst_frames,
 };
 use metrics::{Measured, SequenceMeasurement, SequenceMetric};
+use scene::Scene;
 use terminal::refuse;
-use tracer::Scene;
 
 use super::convention::read_convention;
 use super::score::{ScoreArgs, check_scene, scored_json, truth_text};

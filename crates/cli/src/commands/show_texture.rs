@@ -21,8 +21,9 @@ pub fn check_shown(filter: &Filter, names: &[String]) -> Result<(), Error> {
         );
     }
     let declared = filter.textures.iter().map(|texture| &texture.name[..]);
-    let known = declared.chain(BUILT_IN).chain(filter.further_inputs());
-    let known: Vec<&str> = known.collect();
+    let further = filter.further_inputs();
+    let further = further.into_iter().map(|layer| layer.name());
+    let known: Vec<&str> = declared.chain(BUILT_IN).chain(further).collect();
     match names.iter().find(|name| !known.contains(&&name[..])) {
         None => Ok(()),
         Some(name) => refuse!(

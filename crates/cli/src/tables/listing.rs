@@ -2,7 +2,7 @@
 
 use filters::{Filter, Parameter, Preset, Unit};
 use measure::InputKind;
-use tracer::SceneListing;
+use scene::SceneListing;
 
 use terminal::output::{Text, heading, push_wrapped};
 

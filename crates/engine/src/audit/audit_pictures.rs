@@ -25,7 +25,7 @@ pub fn write_audit_picture(
     let error = buffer.zip(right, |vector, right| {
         [vector[0] - right[0], vector[1] - right[1]]
     });
-    let tile = Tile::around(place, SIDE, (right.width, right.height));
+    let tile = Tile::around(place, SIDE, right.size());
     let shade = |part: f32| (0.5 + 0.5 * part / fastest).clamp(0.0, 1.0);
     let parts = [buffer, right, &error].map(|vectors| {
         let shown = vectors.part(tile).map(|[x, y]| [shade(*x), shade(*y), 0.5]);

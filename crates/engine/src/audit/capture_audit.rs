@@ -1,8 +1,9 @@
 //! Audit of a capture.
 
+use frame::Size;
 use measure::Error;
+use scene::Scene;
 use serde::Serialize;
-use tracer::Scene;
 
 use crate::audit::cause::Cause;
 use crate::audit::clear_pixels::select_clear_pixels;
@@ -27,8 +28,8 @@ pub struct CaptureAudit {
     pub scene: String,
     /// Engine, as named in the capture.
     pub engine: String,
-    /// Columns and rows.
-    pub size: [u32; 2],
+    /// Size of the pictures.
+    pub size: Size,
     /// True if the capture has object ids; otherwise its depth identifies objects.
     pub has_ids: bool,
     /// Part of the pixels at which the engine shows the same as the scene.
@@ -56,7 +57,7 @@ pub fn audit_capture(
     scene: &Scene,
 ) -> Result<(CaptureAudit, ExpectedMotion), Error> {
     check_instant(capture)?;
-    let size = [capture.color.width, capture.color.height];
+    let size = capture.color.size();
     let expected = ExpectedMotion::trace(scene, size)?;
     let right = &expected.right;
     let names = scene.object_names();

@@ -1,7 +1,8 @@
 //! Audit of colour, in scenes with colours independent of light.
 
 use frame::{ColorSampling, Image};
-use tracer::{Scene, TraceError};
+use scene::Scene;
+use tracer::TraceError;
 
 use crate::audit::cause::Cause;
 use crate::audit::clear_pixels::{ClearPixels, select_judged};
@@ -45,7 +46,7 @@ pub fn audit_color(
     if !scene.is_unlit() {
         return Ok(Vec::new());
     }
-    let size = [picture.width, picture.height];
+    let size = picture.size();
     let right = render_view(scene, size, SAMPLES, ColorSampling::default())?.color;
     let colors: Vec<ObjectColor> = (select_judged(regions).into_iter())
         .map(|region| ObjectColor {

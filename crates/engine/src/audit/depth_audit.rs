@@ -2,8 +2,9 @@
 
 use filters::DepthKind;
 use frame::{FAR_DEPTH, Plane, Raster};
+use scene::Scene;
 use serde::Serialize;
-use tracer::{PointLayers, Scene};
+use tracer::PointLayers;
 
 use crate::audit::cause::Cause;
 use crate::audit::clear_pixels::{ClearPixels, select_judged};
@@ -212,7 +213,7 @@ impl<'a> DepthPair<'a> {
     /// Computes the distance along the ray; NaN for the background.
     fn along_ray(&self, scene: &Scene) -> Plane {
         let depth = &self.right.depth;
-        let view = scene.camera.view(0.0, depth.width, depth.height);
+        let view = tracer::View::new(&scene.camera, 0.0, depth.width, depth.height);
         Raster::from_fn(depth.width, depth.height, |x, y| {
             let ray = view.ray(f64::from(x) + 0.5, f64::from(y) + 0.5);
             let stretch = ray.direction.length() / view.depth(ray.at(1.0));

@@ -1,7 +1,8 @@
 //! Velocity that an engine should have output, and its variants under known mistakes.
 
-use frame::{Raster, Vectors, VelocityKind};
-use tracer::{PointLayers, PointMotion, RenderSettings, Scene, TraceError, trace_motion};
+use frame::{Raster, Size, Vectors, VelocityKind};
+use scene::Scene;
+use tracer::{PointLayers, PointMotion, RenderSettings, TraceError, trace_motion};
 
 use crate::audit::cause::Cause;
 use crate::export::FRAMES_PER_SECOND;
@@ -19,12 +20,8 @@ pub struct ExpectedMotion {
 
 impl ExpectedMotion {
     /// Traces all of them, with a dozen rays per pixel.
-    pub fn trace(scene: &Scene, [width, height]: [u32; 2]) -> Result<Self, TraceError> {
-        let mut since_last = RenderSettings {
-            width,
-            height,
-            ..RenderSettings::default()
-        };
+    pub fn trace(scene: &Scene, size: Size) -> Result<Self, TraceError> {
+        let mut since_last = RenderSettings::default().with_size(size);
         since_last.options.velocity = VelocityKind::PreviousFrame;
         let trace = |motion: PointMotion| trace_motion(scene, &since_last, &motion);
         let right = trace(PointMotion::RIGHT)?;

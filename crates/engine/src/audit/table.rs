@@ -10,7 +10,7 @@ use super::velocity_audit::ObjectAudit;
 /// Lists, per object, its visibility in the engine's picture and its velocity error; then the depth
 /// error, then what is wrong.
 pub fn audit_table(audit: &CaptureAudit) -> Text {
-    let [width, height] = audit.size;
+    let size = audit.size;
     let columns = [
         "pixels", "shown", "compared", "speed", "error", "95 %", "worst", "at", "scale",
     ];
@@ -30,14 +30,14 @@ pub fn audit_table(audit: &CaptureAudit) -> Text {
         ];
         table.push(&object.object, shown.into_iter().chain(errors));
     }
-    let pixels = f64::from(width) * f64::from(height);
+    let pixels = size.pixels() as f64;
     let basis = if audit.has_ids {
         "their ids"
     } else {
         "their depth"
     };
     let mut text = Text::from(format!(
-        "{} drawn by {}, {width}x{height}: {:.1} % of the pixels show what the scene shows, by {}\nvelocity in pixels per frame, compared at {:.1} % of them\n\n",
+        "{} drawn by {}, {size}: {:.1} % of the pixels show what the scene shows, by {}\nvelocity in pixels per frame, compared at {:.1} % of them\n\n",
         audit.scene,
         printable(engine_name(&audit.engine)),
         100.0 * audit.alike,

@@ -2,8 +2,9 @@
 
 use std::ops::ControlFlow;
 
-use frame::{ColorSampling, Frame, FrameOptions, Image, Plane, Raster};
-use tracer::{RenderSettings, Scene, TraceError, trace_frame};
+use frame::{ColorSampling, Frame, FrameOptions, Image, Plane, Raster, Size};
+use scene::Scene;
+use tracer::{RenderSettings, TraceError, trace_frame};
 
 use crate::audit::cause::Cause;
 use crate::audit::defect::{Buffer, Defect, Explanation};
@@ -69,7 +70,7 @@ pub fn find_other_views(
     depth: &DepthPair,
     scene: &Scene,
 ) -> Result<Vec<Defect>, TraceError> {
-    let size = [depth.buffer.width, depth.buffer.height];
+    let size = depth.buffer.size();
     let right = trace_view(scene, size, 0, Cause::Unknown)?;
     let mut views = vec![View {
         cause: Cause::UpsideDown,
@@ -222,7 +223,7 @@ fn distance(a: [f32; 3], b: [f32; 3]) -> f32 {
 }
 
 /// Traces a rasteriser's buffers some frames after the instant. Unlit colours have no noise.
-fn trace_view(scene: &Scene, size: [u32; 2], time: i32, cause: Cause) -> Result<View, TraceError> {
+fn trace_view(scene: &Scene, size: Size, time: i32, cause: Cause) -> Result<View, TraceError> {
     let scene = scene.clone().pinhole().unlit().later_by(f64::from(time));
     let frame = render_view(&scene, size, 1, ColorSampling::Point)?;
     Ok(View {
@@ -236,20 +237,18 @@ fn trace_view(scene: &Scene, size: [u32; 2], time: i32, cause: Cause) -> Result<
 /// Renders the frame of a scene's instant.
 pub fn render_view(
     scene: &Scene,
-    [width, height]: [u32; 2],
+    size: Size,
     samples_per_pixel: u32,
     color: ColorSampling,
 ) -> Result<Frame, TraceError> {
     let settings = RenderSettings {
-        width,
-        height,
         samples_per_pixel,
         replicates: 1,
         options: FrameOptions {
             color,
             ..FrameOptions::default()
         },
-        ..RenderSettings::default()
+        ..RenderSettings::default().with_size(size)
     };
     trace_frame(scene, &settings, &|_| ControlFlow::Continue(()))
 }

@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 
 use filters::{Convention, DepthKind, EXCLUSION};
 use frame::{
-    ExrFile, FAR_DEPTH, FileError, Image, Plane, Raster, Samples, Vectors, read_passes, read_png,
-    scene_linear,
+    ExrFile, FAR_DEPTH, FileError, Image, Plane, Raster, Samples, Size, Vectors, read_passes,
+    read_png, scene_linear,
 };
 use measure::{Error, SIDES, printable};
-use tracer::limits::BRIGHTEST;
+use scene::limits::BRIGHTEST;
 
 use crate::capture::description::{CAPTURE_FILE, CaptureDescription};
 use crate::files::{name_of, refuse};
@@ -106,7 +106,7 @@ pub fn read_color(
             note: file.meaning.note().map(|note| format!("{name}: {note}")),
         }
     };
-    check_sides(path, (color.image.width, color.image.height))?;
+    check_sides(path, color.image.size())?;
     check_brightness(path, &color.image)?;
     Ok(color)
 }
@@ -229,12 +229,10 @@ pub fn check_size<T>(path: &Path, raster: &Raster<T>, color: &Image) -> Result<(
     } else {
         refuse!(
             path,
-            "has {}x{} pixels, the colour {}x{}; all pictures of a capture have one size: save them from one camera, \
+            "has {} pixels, the colour {}; all pictures of a capture have one size: save them from one camera, \
                  without scaling",
-            raster.width,
-            raster.height,
-            color.width,
-            color.height
+            raster.size(),
+            color.size()
         )
     }
 }
@@ -251,13 +249,13 @@ fn open(path: &Path, description: &CaptureDescription, buffer: &str) -> Result<E
     }
 }
 
-fn check_sides(path: &Path, (width, height): (u32, u32)) -> Result<(), Error> {
-    if SIDES.contains(&width) && SIDES.contains(&height) {
+fn check_sides(path: &Path, size: Size) -> Result<(), Error> {
+    if size.sides().iter().all(|side| SIDES.contains(side)) {
         Ok(())
     } else {
         refuse!(
             path,
-            "has {width}x{height} pixels; allowed: {} to {} columns and rows",
+            "has {size} pixels; allowed: {} to {} columns and rows",
             SIDES.start(),
             SIDES.end()
         )

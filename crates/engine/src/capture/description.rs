@@ -5,8 +5,8 @@ use std::path::Path;
 
 use frame::{Alignment, MAX_STOPS, is_hidden};
 use measure::{Error, read_text};
+use scene::SceneId;
 use serde::Deserialize;
-use tracer::SceneId;
 
 use crate::capture::raw::RawLayout;
 use crate::files::refuse;

@@ -4,11 +4,11 @@ use std::path::PathBuf;
 
 use clap::Args;
 use measure::{Error, Sharing, lock_folder, printable_path};
+use scene::SceneId;
 use terminal::arguments::RootArgs;
 use terminal::output::{Text, print, print_note};
 use terminal::refuse;
 use terminal::result::{Ending, write_json};
-use tracer::SceneId;
 
 use super::capture::{load_drawn_scene, name_folder};
 use crate::audit::{audit_capture, audit_table, write_audit_picture};

@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use measure::Error;
+use scene::{Location, Scene};
 use terminal::refuse;
 use terminal::selection::select_scenes;
-use tracer::{Location, Scene};
 
 /// Names the folder to write: the given one, or one below a default with the capture's name.
 pub fn name_folder(capture: &Path, out: Option<&PathBuf>, below: &str) -> Result<PathBuf, Error> {

@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use frame::{Display, Region, Truth};
 use measure::{Error, IngestedScene, printable_path};
+use scene::{Location, Scene};
 use terminal::arguments::RootArgs;
 use terminal::output::{make_monitor, print, print_note};
 use terminal::refuse;
-use tracer::{Location, Scene};
 
 use super::capture::{load_drawn_scene, name_folder};
 use crate::capture::folder::Capture;
@@ -95,11 +95,10 @@ fn find_scene(capture: &Capture, scenes: &Location) -> Option<Scene> {
 /// Describes the truth, the picture, and what is wrong with them.
 fn describe(ingested: &Ingested, out: &Path, traced: Option<&Scene>) -> String {
     let scene = &ingested.scene;
-    let [width, height] = scene.size;
     let folder = printable_path(out);
     let mut lines = vec![format!(
-        "{}: {width}x{height}, drawn by {}",
-        scene.id, scene.engine
+        "{}: {}, drawn by {}",
+        scene.id, scene.size, scene.engine
     )];
     if let Some(truth) = &ingested.truth {
         push_truth(&mut lines, scene, truth);

@@ -1,7 +1,7 @@
 //! Animation channels of nodes.
 
+use scene::{Motion, Shape};
 use serde_json::{Value, json};
-use tracer::{Motion, Shape};
 
 use crate::export::document::{Document, widen};
 use crate::export::motion::{Track, Tracks};

@@ -3,10 +3,10 @@
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
-use frame::{ExrFile, FileError, Image, write_exr};
+use frame::{ExrFile, FileError, Image, Size, write_exr};
 use glam::{DQuat, DVec3};
+use scene::{Background, Sun};
 use serde_json::{Value, json};
-use tracer::{Background, Sun};
 
 use crate::export::document::{Document, widen};
 
@@ -14,8 +14,8 @@ use crate::export::document::{Document, widen};
 pub const SKY: &str = "sky.exr";
 /// Extension that describes a sun.
 pub const SUN_EXTENSION: &str = "KHR_lights_punctual";
-/// Columns and rows of a sky without a picture.
-const SIZE: (u32, u32) = (512, 256);
+/// Size of a sky without a picture.
+const SIZE: Size = Size::new(512, 256);
 
 /// Describes the sun as a directional light. Its intensity, in lux there, is the irradiance on a
 /// surface that faces it.
@@ -49,8 +49,8 @@ pub fn push_sun(document: &mut Document, sun: &Sun) -> usize {
 /// Writes the radiance of every direction by longitude and latitude: the middle of the picture is
 /// towards -Z, its right quarter towards +X, its top towards +Y.
 pub fn write_sky(background: &Background, path: &Path) -> Result<(), FileError> {
-    let (width, height) = match background {
-        Background::Map(map) => (map.width, map.height),
+    let Size { width, height } = match background {
+        Background::Map(map) => Size::new(map.width, map.height),
         _ => SIZE,
     };
     let sky = Image::from_fn(width, height, |x, y| {

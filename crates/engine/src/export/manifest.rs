@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use frame::{Alignment, Shutter};
+use frame::{Alignment, Shutter, Size};
+use scene::{Background, Lens, Scene};
 use serde::Serialize;
-use tracer::{Background, Lens, Scene};
 
 use crate::export::light::SKY;
 use crate::export::timeline::{FRAMES_PER_SECOND, Timeline};
@@ -25,8 +25,8 @@ pub struct Manifest {
     pub scene: String,
     /// Defect that the scene exposes.
     pub exposes: String,
-    /// Columns and rows of the scene's own picture.
-    pub size: [u32; 2],
+    /// Size of the scene's own picture.
+    pub size: Size,
     /// Seconds per frame of the animation.
     pub seconds_per_frame: f64,
     /// Animation time of the frame, in seconds.
@@ -102,7 +102,7 @@ impl Manifest {
             program: program.to_owned(),
             scene: scene.id.to_string(),
             exposes: scene.exposes.clone(),
-            size: [scene.width, scene.height],
+            size: Size::new(scene.width, scene.height),
             seconds_per_frame: 1.0 / FRAMES_PER_SECOND,
             instant: timeline.seconds(0.0),
             previous: timeline.seconds(-1.0),

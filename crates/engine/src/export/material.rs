@@ -2,8 +2,8 @@
 
 use glam::Vec3;
 use measure::Error;
+use scene::{Finish, Material, Translucency};
 use serde_json::{Value, json};
-use tracer::{Finish, Material, Translucency};
 
 use crate::export::document::{Document, widen};
 use crate::export::textures::Textures;

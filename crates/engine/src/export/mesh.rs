@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use glam::Vec3;
+use scene::{Mesh, Shape};
 use serde_json::{Value, json};
-use tracer::{Mesh, Shape};
 
 use crate::export::document::{Document, VERTICES};
 

@@ -1,7 +1,7 @@
 //! Motions as keys for glTF: positions and scales exactly, turns to a few millionths of a radian.
 
 use glam::{DQuat, DVec3};
-use tracer::{Interpolation, Motion};
+use scene::{Interpolation, Motion};
 
 use crate::export::timeline::{FRAMES_PER_SECOND, Timeline};
 

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use frame::write_atomically;
 use measure::Error;
+use scene::{Location, Parent, Scene};
 use serde_json::json;
-use tracer::{Location, Parent, Scene};
 
 use crate::capture::description::CAPTURE_FILE;
 use crate::export::animation::Channels;

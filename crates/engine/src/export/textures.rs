@@ -5,9 +5,8 @@ use std::path::{Path, PathBuf};
 
 use frame::{FileError, display_srgb, write_atomically};
 use glam::Vec3;
+use scene::{Location, Scene, Texture, limits::LARGEST_IMAGE_FILE};
 use serde_json::json;
-use tracer::limits::LARGEST_IMAGE_FILE;
-use tracer::{Location, Scene, Texture};
 
 use crate::export::document::Document;
 

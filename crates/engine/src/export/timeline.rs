@@ -1,6 +1,6 @@
 //! Times of an animation: frames of a scene as seconds from 0.
 
-use tracer::Scene;
+use scene::Scene;
 
 /// Frames per second of every animation.
 pub const FRAMES_PER_SECOND: f64 = 24.0;

@@ -1,11 +1,13 @@
 //! Text of an imported scene's scene.toml.
 
+use frame::Size;
+
 use crate::import::model::{BLENDED, Model, Up};
 use crate::import::plan::ImportPlan;
 use crate::import::set::{STAND_HEIGHT, WALL_DISTANCE};
 
 /// Size of the picture for speeds in pixels.
-const SIZE: [u32; 2] = [640, 360];
+const SIZE: Size = Size::new(640, 360);
 
 /// Vertical field of view, in degrees.
 const VERTICAL_FOV: f64 = 40.0;
@@ -22,11 +24,11 @@ pub fn scene_toml(plan: &ImportPlan, model: &Model) -> String {
     let half_fov = (0.5 * VERTICAL_FOV).to_radians();
     let distance = model.radius() / (FILLED * half_fov.sin());
     // Length of a pixel at the model's middle, in metres.
-    let pixel = 2.0 * distance * half_fov.tan() / f64::from(SIZE[1]);
+    let pixel = 2.0 * distance * half_fov.tan() / f64::from(SIZE.height);
     let file = plan.model.file_name().unwrap_or_default().to_string_lossy();
     let motions = &plan.motions;
     let exposes = format!("Imported from {file}: {}.", motions.sentence());
-    let [width, height] = SIZE;
+    let Size { width, height } = SIZE;
     format!(
         "# Made by `shuttertruth engine import`; yours to change.\n\
          exposes = {exposes}\nfamily = \"{family}\"\nexposure = {exposure}\nsize = [{width}, {height}]\n\n\

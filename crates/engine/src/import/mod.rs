@@ -11,7 +11,7 @@ use std::path::Path;
 
 use frame::{FileError, write_atomically};
 use measure::Error;
-use tracer::load_scene;
+use scene::load_scene;
 
 use self::model::Model;
 pub use self::model::Up;

@@ -7,8 +7,7 @@ use std::path::{Component, Path, PathBuf};
 use frame::{FileError, read_bounded, write_atomically};
 use glam::DVec3;
 use measure::{Error, named};
-use tracer::limits::LARGEST_MESH_FILE;
-use tracer::{Mesh, Scene, SceneError, load_scene_and_files};
+use scene::{Mesh, Scene, SceneError, limits::LARGEST_MESH_FILE, load_scene_and_files};
 
 use crate::files::refuse;
 

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use measure::Error;
-use tracer::Family;
+use scene::Family;
 
 use crate::import::model::Up;
 

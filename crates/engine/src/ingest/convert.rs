@@ -12,7 +12,8 @@ use measure::{
     RenderFile, Sharing, engine_name, ladder_folder, lock_folder, name_in_one_word,
     refuse_long_names, refuse_scene, velocity_wheel,
 };
-use tracer::{SceneId, Watch};
+use scene::SceneId;
+use tracer::Watch;
 
 use crate::capture::folder::Capture;
 use crate::ingest::engine_truth::{EngineTruth, NOT_TRACED, average_subframes, part_of};
@@ -174,7 +175,7 @@ fn describe_scene(capture: &Capture, hash: String, out: &Path) -> Result<Ingeste
         id: name_scene(capture, out)?,
         engine: capture.description.engine.clone(),
         scene: capture.description.scene.clone(),
-        size: [capture.color.width, capture.color.height],
+        size: capture.color.size(),
         exposure,
         alignment,
         subframes,
@@ -236,7 +237,11 @@ fn make_frame(
         reprojection: Reprojection::STILL,
         camera: None,
         display,
-        coverage: draw_coverage(capture.object_id.as_ref(), (width, height), objects.len()),
+        coverage: draw_coverage(
+            capture.object_id.as_ref(),
+            capture.color.size(),
+            objects.len(),
+        ),
         object_id: match (&capture.object_id, objects.len()) {
             (Some(ids), 2..) => ids.clone(),
             _ => Raster::filled(width, height, 0),

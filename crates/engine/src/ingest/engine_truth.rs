@@ -3,7 +3,7 @@
 
 use frame::{
     Accumulation, Alignment, AtInstant, Ladder, Picture, Plane, Provenance, Raster, Replicate,
-    Shutter, ShutterProfile, Support, Truth,
+    Shutter, ShutterProfile, Size, Support, Truth,
 };
 use measure::{Error, LADDER};
 use tracer::{Progress, Watch};
@@ -57,13 +57,7 @@ pub fn average_subframes(
     let reached = mark_reached(&capture.velocity, shutter);
     let restless = changed.zip(&reached, |changed, reached| *changed && !reached);
     let moving = changed.zip(&reached, |changed, reached| *changed || *reached);
-    let support = Support {
-        seen: (Picture::mean(&halves).coverage.iter())
-            .map(|coverage| coverage.map(|share| *share > 0.0))
-            .collect(),
-        unknowable: moving.map(|_| false),
-        moving,
-    };
+    let support = make_support(&halves, moving);
     let (width, height) = (capture.color.width, capture.color.height);
     let each = (capture.subframes.len() / HALVES) as u32;
     let replicates: Vec<Replicate> = (0..)
@@ -98,6 +92,17 @@ pub fn average_subframes(
             rungs,
         },
     }))
+}
+
+/// Marks what the open shutter saw of each object, in pixels where anything moves or not.
+fn make_support(halves: &Halves, moving: Raster<bool>) -> Support {
+    Support {
+        seen: (Picture::mean(halves).coverage.iter())
+            .map(|coverage| coverage.map(|share| *share > 0.0))
+            .collect(),
+        unknowable: moving.map(|_| false),
+        moving,
+    }
 }
 
 /// Makes the rungs of the ladder from the halves of means of sub-frames, each less its own half of
@@ -178,7 +183,7 @@ fn read_subframes(
     watch: Watch,
 ) -> Result<(Vec<(u32, Halves)>, ColorRange), Error> {
     let count = capture.subframes.len();
-    let size = (capture.color.width, capture.color.height);
+    let size = capture.color.size();
     let mean = |subframes: u32, pick: &dyn Fn(usize) -> Vec<usize>| Mean {
         subframes,
         picks: [0, 1].map(pick),
@@ -224,7 +229,7 @@ struct Sum {
 }
 
 impl Sum {
-    fn new((width, height): (u32, u32), objects: usize) -> Self {
+    fn new(Size { width, height }: Size, objects: usize) -> Self {
         Self {
             colors: Raster::filled(width, height, [0.0; 3]),
             coverage: vec![Plane::filled(width, height, 0.0); objects],

@@ -1,7 +1,7 @@
 //! Pixels where anything moves while an engine's shutter is open, judged by its colours and its
 //! velocity.
 
-use frame::{Image, Raster, Shutter, Vectors};
+use frame::{Image, Raster, Shutter, Size, Vectors};
 
 /// Smallest change of a displayed colour between sub-frames that counts as motion: two steps of 8
 /// bits.
@@ -22,7 +22,7 @@ pub struct ColorRange {
 
 impl ColorRange {
     /// Starts with no sub-frame.
-    pub fn new((width, height): (u32, u32), stops: f32) -> Self {
+    pub fn new(Size { width, height }: Size, stops: f32) -> Self {
         Self {
             stops,
             least: Raster::filled(width, height, [f32::INFINITY; 3]),
@@ -108,7 +108,7 @@ mod tests {
 
     #[test]
     fn what_changes_and_what_velocity_reaches_is_marked() {
-        let mut range = ColorRange::new((8, 1), 0.0);
+        let mut range = ColorRange::new(Size::new(8, 1), 0.0);
         let color =
             |changed: f32| Raster::from_fn(8, 1, |x, _| [if x == 7 { changed } else { 0.5 }; 3]);
         range.add(&color(0.5));

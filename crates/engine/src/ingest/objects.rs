@@ -1,6 +1,6 @@
 //! Objects in an engine's pictures, by their ids.
 
-use frame::{Plane, Raster};
+use frame::{Plane, Raster, Size};
 use measure::Error;
 
 use crate::capture::folder::{Capture, SUBFRAMES};
@@ -55,7 +55,7 @@ pub fn name_objects(capture: &Capture, known: Option<Vec<String>>) -> Result<Vec
 /// Draws, per object, 1 where a picture shows it and 0 elsewhere.
 pub fn draw_coverage(
     ids: Option<&Raster<u32>>,
-    (width, height): (u32, u32),
+    Size { width, height }: Size,
     count: usize,
 ) -> Vec<Plane> {
     let Some(ids) = ids.filter(|_| count > 1) else {

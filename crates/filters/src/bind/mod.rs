@@ -20,7 +20,7 @@ use shader_import::{
 use wgpu::naga::{ResourceBinding, StorageFormat};
 
 use crate::filter::{BindingPlace, PassShader, VerticalDirection};
-use crate::shader::{Shader, guard, try_each, written_texture};
+use crate::shader::{Shader, guard, hash_code, try_each, written_texture};
 use crate::{Filter, FilterError, Settings};
 use binder::bind;
 use places::check_places;
@@ -113,6 +113,7 @@ fn import_with(
     let is_open = (shader.constants.iter()).any(|(_, value)| value.reads_any(&|_| true));
     let bound = stages.iter().zip(made).map(|(stage, (compiled, open))| {
         Ok(Shader {
+            code_hash: hash_code(&compiled),
             compiled: is_open.then(|| Arc::new(compiled)),
             ..bind(filter, &stage.shader, &stage.path, open, &constants)?
         })
@@ -165,7 +166,7 @@ fn find_stored_format(
     let texture = texture.unwrap_or_else(|| written_texture(name));
     let format = match (filter.texture(texture), texture) {
         (Some(declared), _) => Some(declared.format),
-        (None, "output") => Some(filter.convention.format_of("output")),
+        (None, "output") => Some(filter.convention.output_format()),
         _ => None,
     };
     format.map(crate::Format::stored)
@@ -191,6 +192,7 @@ pub(crate) fn specialise(
             .expect("these formats worked with other constants"))
     })?;
     Ok(Shader {
+        code_hash: made.code_hash.clone(),
         compiled: made.compiled.clone(),
         compiled_by: made.compiled_by.clone(),
         ..specialised

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::layer::Layer;
 use crate::Format;
 
 /// Values of a convention that members of uniform blocks may name.
@@ -248,24 +249,29 @@ impl Convention {
         Self {
             velocity_y: Some(self.velocity_y()),
             velocity_scale: self.velocity_scale.or(Some(1.0)),
-            velocity_format: Some(self.format_of("velocity")),
-            depth_format: Some(self.format_of("depth")),
+            velocity_format: Some(self.format_of(Layer::Velocity)),
+            depth_format: Some(self.format_of(Layer::Depth)),
             color_scale: self.color_scale.or(Some(1.0)),
-            color_format: Some(self.format_of("color")),
+            color_format: Some(self.format_of(Layer::Color)),
             ..self
         }
     }
 
-    /// Returns the format of a texture that every filter has; the format of `output` is for
-    /// fragment shaders.
-    pub(crate) fn format_of(&self, name: &str) -> Format {
-        match name.strip_suffix("_before").unwrap_or(name) {
-            "color" => self.color_format.unwrap_or(Format::Rgba32Float),
-            "velocity" | "velocity_next" => self.velocity_format.unwrap_or(Format::Rg32Float),
-            "velocity_z" | "exclusion" => Format::R32Float,
-            "output" => self.output_format.unwrap_or(Format::Rgba32Float),
-            _ => self.depth_format.unwrap_or(Format::R32Float),
+    /// Returns the format of a layer's texture.
+    pub(crate) fn format_of(&self, layer: Layer) -> Format {
+        match layer {
+            Layer::Color => self.color_format.unwrap_or(Format::Rgba32Float),
+            Layer::Velocity | Layer::VelocityNext => {
+                self.velocity_format.unwrap_or(Format::Rg32Float)
+            }
+            Layer::VelocityZ | Layer::Exclusion => Format::R32Float,
+            Layer::Depth => self.depth_format.unwrap_or(Format::R32Float),
         }
+    }
+
+    /// Returns the format of the output, which is for fragment shaders.
+    pub(crate) fn output_format(&self) -> Format {
+        self.output_format.unwrap_or(Format::Rgba32Float)
     }
 }
 

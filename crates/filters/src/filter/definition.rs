@@ -6,22 +6,14 @@ use frame::Alignment;
 
 use super::command::Command;
 use super::convention::Convention;
-use super::history::History;
+use super::history::{History, find_layer};
+use super::layer::Layer;
 use super::parameter::Parameter;
 use super::pass::{Pass, Texture};
 use super::preset::Preset;
 use super::reach::ReachBy;
 use crate::Format;
 use crate::shader::{EntryPoint, Shader};
-
-/// Textures that every filter may read.
-pub(crate) const INPUTS: [&str; 3] = ["color", "velocity", "depth"];
-
-/// The input that marks what a blur leaves alone.
-pub const EXCLUSION: &str = "exclusion";
-
-/// Textures that a filter gets if one of its shaders reads them: few frames have them.
-pub(crate) const FURTHER_INPUTS: [&str; 3] = ["velocity_next", "velocity_z", EXCLUSION];
 
 /// Seconds that one run of a program, or one dispatch of a pass, may take if filter.toml does not
 /// say.
@@ -66,6 +58,9 @@ pub struct Filter {
     pub convention: Convention,
     /// Kernels: those of its WGSL file, and one shader for each pass that names its own.
     pub(crate) shaders: Vec<Shader>,
+    /// Hash of filter.toml and of its kernels, as their compilers left them: equal hashes mean equal
+    /// pictures on one adapter.
+    pub content_hash: String,
     /// Lines of filter.toml that declare it all.
     pub(crate) lines: Lines,
 }
@@ -116,12 +111,12 @@ impl Filter {
         [main].into_iter().chain(corners).collect()
     }
 
-    /// Lists the inputs that its shaders read and few frames have: `velocity_next`, `velocity_z`
+    /// Lists the layers that its shaders read and few frames have: `velocity_next`, `velocity_z`
     /// and `exclusion`.
-    pub fn further_inputs(&self) -> Vec<&'static str> {
+    pub fn further_inputs(&self) -> Vec<Layer> {
         let stages = || self.passes.iter().flat_map(|pass| self.stages(pass));
-        let is_read = |name: &&str| stages().any(|(_, entry)| entry.reads.contains(*name));
-        FURTHER_INPUTS.into_iter().filter(is_read).collect()
+        let is_read = |layer: &Layer| stages().any(|(_, entry)| entry.reads.contains(layer.name()));
+        Layer::FURTHER.into_iter().filter(is_read).collect()
     }
 
     /// Returns true if the first pass that writes the output reads it, too: it begins as a copy of
@@ -143,7 +138,7 @@ impl Filter {
 
     /// Tells whether its shaders read one of the velocities that few frames have.
     pub fn reads_further_velocities(&self) -> bool {
-        self.further_inputs().iter().any(|name| *name != EXCLUSION)
+        (self.further_inputs().iter()).any(|layer| *layer != Layer::Exclusion)
     }
 
     /// Finds a declared texture.
@@ -154,7 +149,13 @@ impl Filter {
     /// Returns the format of a texture that shaders can read.
     pub(crate) fn read_format(&self, name: &str) -> Format {
         let declared = self.texture(name);
-        declared.map_or(self.convention.format_of(name), |texture| texture.format)
+        declared.map_or_else(
+            || match find_layer(name) {
+                Some(layer) => self.convention.format_of(layer),
+                None => self.convention.output_format(),
+            },
+            |texture| texture.format,
+        )
     }
 
     /// Returns true for a texture that shaders can name.
@@ -170,8 +171,8 @@ impl Filter {
     fn texture_names(&self) -> impl Iterator<Item = &str> {
         let declared = self.textures.iter().map(|texture| &texture.name[..]);
         let before = self.history.iter().map(|history| history.texture());
-        let inputs = INPUTS.into_iter().chain(before);
-        let all = inputs.chain(["output"]).chain(declared);
-        all.chain(FURTHER_INPUTS)
+        let inputs = Layer::OF_EVERY_FRAME.map(Layer::name).into_iter();
+        let all = inputs.chain(before).chain(["output"]).chain(declared);
+        all.chain(Layer::FURTHER.map(Layer::name))
     }
 }

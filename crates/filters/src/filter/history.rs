@@ -1,5 +1,7 @@
 //! Inputs of the frame before, for filters that declare them.
 
+use super::layer::Layer;
+
 /// An input of the frame before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -13,10 +15,13 @@ pub enum History {
 }
 
 impl History {
-    /// Returns the name of the input in filter.toml and shaders.
-    pub fn input(self) -> &'static str {
-        let texture = self.texture();
-        texture.strip_suffix("_before").unwrap_or(texture)
+    /// Returns the layer that it is of the frame before.
+    pub fn layer(self) -> Layer {
+        match self {
+            History::Color => Layer::Color,
+            History::Velocity => Layer::Velocity,
+            History::Depth => Layer::Depth,
+        }
     }
 
     /// Returns the name of its texture in shaders.
@@ -27,4 +32,14 @@ impl History {
             History::Depth => "depth_before",
         }
     }
+}
+
+/// Finds the layer that a texture of a shader shows, of this frame or of the one before.
+pub(crate) fn find_layer(texture: &str) -> Option<Layer> {
+    let before = [History::Color, History::Velocity, History::Depth];
+    let before = before.map(|history| (history.texture(), history.layer()));
+    let layers = Layer::OF_EVERY_FRAME.into_iter().chain(Layer::FURTHER);
+    let known = layers.map(|layer| (layer.name(), layer)).chain(before);
+    let mut shown = known.filter(|(name, _)| *name == texture);
+    shown.next().map(|(_, layer)| layer)
 }

@@ -5,6 +5,7 @@ mod convention;
 mod conversion;
 mod definition;
 mod history;
+mod layer;
 mod notes;
 mod parameter;
 mod pass;
@@ -19,9 +20,10 @@ pub use command::Command;
 pub use convention::{
     Convention, DepthKind, Origin, VelocitySign, VelocityTime, VelocityUnit, VerticalDirection,
 };
-pub(crate) use definition::{DEFAULT_TIME_LIMIT, FURTHER_INPUTS, INPUTS, Lines};
-pub use definition::{EXCLUSION, Filter};
+pub use definition::Filter;
+pub(crate) use definition::{DEFAULT_TIME_LIMIT, Lines};
 pub use history::History;
+pub use layer::{EXCLUSION, Layer};
 pub use parameter::{Kind, Parameter, Scale, Unit, Value};
 pub(crate) use pass::{Count, Pass, Rounding};
 pub use pass::{Holds, Texture};

@@ -12,7 +12,7 @@ use super::kernels::{Kernels, Specialised};
 use super::place::Place;
 use super::transfer::{row_bytes, velocity_texels};
 use super::uniforms::FrameValues;
-use crate::filter::{CameraUse, EXCLUSION, History, Origin};
+use crate::filter::{CameraUse, History, Layer, Origin};
 use crate::input::find_broken;
 use crate::{Filter, FilterError, Format, Input, Settings};
 
@@ -238,15 +238,16 @@ impl<'g> Blur<'g> {
     /// Uploads everything but the colour, and what the filter reads of the frame before.
     fn upload_layers(&self, input: &Input, before: &Input) -> Result<(), FilterError> {
         let convention = &self.filter().convention;
-        let texels = |layer: &str, input: &Input| {
+        let texels = |layer: Layer, input: &Input| {
             let velocity = |image| velocity_texels(convention, input, image);
             let is_there = "a checked frame has what the filter reads";
             match layer {
-                "velocity" => velocity(input.velocity),
-                "velocity_next" => velocity(input.velocity_next.expect(is_there)),
-                "velocity_z" => input.velocity_z.expect(is_there).pixels.clone(),
-                EXCLUSION => input.exclusion.expect(is_there).pixels.clone(),
-                _ => convention.convert_depth(input.depth).pixels,
+                Layer::Color => input.color[0].to_texels(self.color_scale()),
+                Layer::Velocity => velocity(input.velocity),
+                Layer::Depth => convention.convert_depth(input.depth).pixels,
+                Layer::VelocityNext => velocity(input.velocity_next.expect(is_there)),
+                Layer::VelocityZ => input.velocity_z.expect(is_there).pixels.clone(),
+                Layer::Exclusion => input.exclusion.expect(is_there).pixels.clone(),
             }
         };
         let history = self
@@ -254,10 +255,10 @@ impl<'g> Blur<'g> {
             .history
             .iter()
             .filter(|history| **history != History::Color);
-        let history = history.map(|history| (history.texture(), history.input(), before));
+        let history = history.map(|history| (history.texture(), history.layer(), before));
         let further = self.filter().further_inputs();
-        let current = ["velocity", "depth"].into_iter().chain(further);
-        let current = current.map(|layer| (layer, layer, input));
+        let current = [Layer::Velocity, Layer::Depth].into_iter().chain(further);
+        let current = current.map(|layer| (layer.name(), layer, input));
         self.gpu.catch_errors(self.place("upload"), || {
             let frame = FrameValues::of(input, convention);
             self.passes.upload_frame(self.gpu, frame);

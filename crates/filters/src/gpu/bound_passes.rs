@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use half::f16;
 
-use super::dependence::{find_color_dependent, find_noise_dependent};
+use super::dependence::{Dependence, find_dependences};
 use super::device::Gpu;
 use super::dispatch::Dispatch;
 use super::kernels::{Compiled, Specialised};
@@ -61,10 +61,8 @@ impl BoundPasses {
             ready: WrittenLevels::default(),
             dispatches: Vec::new(),
         };
-        let depends_on = find_color_dependent(filter)
-            .into_iter()
-            .zip(find_noise_dependent(filter));
-        for ((pass, compiled), depends_on) in filter.passes.iter().zip(passes).zip(depends_on) {
+        let dependences = find_dependences(filter);
+        for ((pass, compiled), depends_on) in filter.passes.iter().zip(passes).zip(dependences) {
             binder.bind_pass(pass, compiled, times(pass), depends_on)?;
         }
         Ok(Self {
@@ -122,14 +120,13 @@ struct Binder<'a> {
 type Groups = (Vec<wgpu::BindGroup>, Vec<(UniformBlock, wgpu::Buffer)>);
 
 impl Binder<'_> {
-    /// Binds every run of a pass. `depends_on` says whether its result changes with colour, and
-    /// with noise.
+    /// Binds every run of a pass.
     fn bind_pass(
         &mut self,
         pass: &Pass,
         compiled: &Compiled,
         iterations: u32,
-        depends_on: (bool, bool),
+        depends_on: Dependence,
     ) -> Result<(), FilterError> {
         let (gpu, filter) = (self.gpu, self.filter);
         let (shader, entry) = (filter.shader(pass), filter.entry_point(pass));
@@ -168,8 +165,8 @@ impl Binder<'_> {
                 groups,
                 workgroups: count_workgroups(targets, filter, pass, &levels),
                 bytes: sum_bytes(targets, filter, pass, &levels),
-                depends_on_color: depends_on.0,
-                depends_on_noise: depends_on.1,
+                depends_on_color: depends_on.color,
+                depends_on_noise: depends_on.noise,
                 written: (entry.writes.iter())
                     .filter(|name| levels.of_written(name) == 0)
                     .map(|name| (name.clone(), targets.written(entry, name).clone()))

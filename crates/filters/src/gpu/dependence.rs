@@ -6,6 +6,23 @@ use crate::Filter;
 use crate::filter::History;
 use crate::shader::EntryPoint;
 
+/// What changes the result of a pass, by itself or through other passes.
+#[derive(Clone, Copy)]
+pub(super) struct Dependence {
+    /// The colour image.
+    pub color: bool,
+    /// The frame's index.
+    pub noise: bool,
+}
+
+/// Finds what each pass depends on.
+pub(super) fn find_dependences(filter: &Filter) -> Vec<Dependence> {
+    let colors = find_color_dependent(filter).into_iter();
+    let passes = colors.zip(find_noise_dependent(filter));
+    let passes = passes.map(|(color, noise)| Dependence { color, noise });
+    passes.collect()
+}
+
 /// Finds the passes whose result depends on the colour image, by themselves or through other
 /// passes.
 pub(super) fn find_color_dependent(filter: &Filter) -> Vec<bool> {
@@ -17,7 +34,7 @@ pub(super) fn find_color_dependent(filter: &Filter) -> Vec<bool> {
 
 /// Finds the passes whose result depends on the frame's index, by themselves or through other
 /// passes.
-pub(super) fn find_noise_dependent(filter: &Filter) -> Vec<bool> {
+fn find_noise_dependent(filter: &Filter) -> Vec<bool> {
     find_dependent(filter, BTreeSet::new(), |entry| entry.draws_noise)
 }
 

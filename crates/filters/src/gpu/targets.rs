@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::device::Gpu;
 use super::transfer::{Target, count_texels};
-use crate::filter::{INPUTS, Rounding};
+use crate::filter::{Layer, Rounding};
 use crate::shader::{EntryPoint, Role, Variable};
 use crate::{Filter, FilterError, Format, Pass, Settings, Texture};
 
@@ -30,10 +30,11 @@ fn plan_targets(
     settings: &Settings,
     size: [u32; 2],
 ) -> Result<Vec<Planned>, String> {
-    let before = filter.history.iter().map(|history| history.texture());
-    let inputs = INPUTS.into_iter().chain(before);
-    let inputs = inputs.chain(filter.further_inputs());
-    let inputs = inputs.map(|name| (name, filter.convention.format_of(name)));
+    let named = |layer: Layer| (layer.name(), layer);
+    let before = (filter.history.iter()).map(|history| (history.texture(), history.layer()));
+    let inputs = Layer::OF_EVERY_FRAME.into_iter().map(named).chain(before);
+    let inputs = inputs.chain(filter.further_inputs().into_iter().map(named));
+    let inputs = inputs.map(|(name, layer)| (name, filter.convention.format_of(layer)));
     let builtin = inputs.chain([("output", output_format(filter))]);
     let builtin = builtin.map(|(name, format)| Texture {
         name: name.to_owned(),
@@ -95,7 +96,7 @@ fn find_divisors(
 /// render targets.
 pub(crate) fn output_format(filter: &Filter) -> Format {
     let mut stored = (filter.shaders.iter()).filter_map(|shader| shader.stored_format("output"));
-    (stored.next()).unwrap_or(filter.convention.format_of("output"))
+    (stored.next()).unwrap_or(filter.convention.output_format())
 }
 
 /// Lists the formats of the render targets of a pass, by location.

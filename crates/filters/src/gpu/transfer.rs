@@ -6,7 +6,7 @@ use wgpu::naga::ScalarKind;
 
 use super::device::Gpu;
 use super::place::Place;
-use crate::filter::DEFAULT_TIME_LIMIT;
+use crate::filter::{DEFAULT_TIME_LIMIT, Layer};
 use crate::{Convention, FilterError, Format, Input};
 
 impl Format {
@@ -156,7 +156,7 @@ pub(super) fn velocity_texels(
 ) -> Vec<f32> {
     let convention = convention.at_rate(input.frames_per_second);
     let velocity = convention.convert_velocity(velocity, input.exposure);
-    match convention.format_of("velocity").components() {
+    match convention.format_of(Layer::Velocity).components() {
         4 => (velocity.pixels.iter())
             .flat_map(|[x, y]| [*x, *y, 0.0, 1.0])
             .collect(),

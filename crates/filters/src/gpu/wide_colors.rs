@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::dependence::find_color_dependent;
 use super::targets::output_format;
-use crate::filter::History;
+use crate::filter::{History, Layer};
 use crate::{Filter, Format};
 
 impl Filter {
@@ -32,7 +32,10 @@ impl Filter {
         }
         let formats = |filter: &Self| {
             let declared = filter.textures.iter().map(|texture| texture.format);
-            let builtin = [filter.convention.format_of("color"), output_format(filter)];
+            let builtin = [
+                filter.convention.format_of(Layer::Color),
+                output_format(filter),
+            ];
             builtin.into_iter().chain(declared).collect::<Vec<_>>()
         };
         (formats(self) != formats(&wide)).then_some(wide)

@@ -4,26 +4,28 @@ use std::collections::BTreeMap;
 
 use serde_json::{Value, json};
 
-use crate::filter::{EXCLUSION, INPUTS};
+use crate::filter::Layer;
 use crate::{Convention, DepthKind, Filter, Input};
 
 /// Lists the textures that the frame fills; those of the frame before show the first frame of a
 /// sequence itself. Each has one expression per component of the frame's input, of `frame.value`
 /// and of [`list_values`]; none if the filter gets the frame's own numbers.
 pub(super) fn list_inputs(filter: &Filter) -> Vec<Value> {
-    let current = INPUTS.into_iter().chain(filter.further_inputs());
-    let current = current.map(|name| (name, name));
-    let before = (filter.history.iter()).map(|history| (history.texture(), history.input()));
+    let current = Layer::OF_EVERY_FRAME
+        .into_iter()
+        .chain(filter.further_inputs());
+    let current = current.map(|layer| (layer.name(), layer));
+    let before = (filter.history.iter()).map(|history| (history.texture(), history.layer()));
     let convention = &filter.convention;
     let scaled = |factor: &str| json!(["*", "frame.value", factor]);
     current.chain(before)
-        .map(|(name, from)| {
-            let convert = match from {
+        .map(|(name, layer)| {
+            let convert = match layer {
                 _ if *convention == Convention::default() => Value::Null,
-                "color" => json!([scaled("frame.color"), scaled("frame.color"), scaled("frame.color")]),
-                "depth" => convert_depth(convention),
-                "velocity_z" | EXCLUSION => Value::Null,
-                _ => {
+                Layer::Color => json!([scaled("frame.color"), scaled("frame.color"), scaled("frame.color")]),
+                Layer::Depth => convert_depth(convention),
+                Layer::VelocityZ | Layer::Exclusion => Value::Null,
+                Layer::Velocity | Layer::VelocityNext => {
                     let bias = convention.velocity_bias.unwrap_or(0.0);
                     let axes = ["frame.velocity[0]", "frame.velocity[1]"];
                     json!(axes.map(|factor| match bias {
@@ -32,7 +34,7 @@ pub(super) fn list_inputs(filter: &Filter) -> Vec<Value> {
                     }))
                 }
             };
-            json!({ "name": name, "from": from, "format": convention.format_of(name), "convert": convert })
+            json!({ "name": name, "from": layer.name(), "format": convention.format_of(layer), "convert": convert })
         })
         .collect()
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use super::stages::{check_coordinates, check_targets, check_vertex};
 use crate::bind::check_texture;
-use crate::filter::{FURTHER_INPUTS, INPUTS, PassShader};
+use crate::filter::{Layer, PassShader};
 use crate::shader::{BlockNumber, EntryPoint, Role, Shader, Variable, written_texture};
 use crate::{Count, Expression, Filter, FilterError, Pass};
 
@@ -178,8 +178,8 @@ impl Filter {
         format!(
             "is no known input or output; uniforms: parameters, frame; read: {}, {}, those of the frame before \
              as color_before and so on if `history` names them, or a [[texture]] by its name; written: output or a [[texture]] as <name>_out; textures of {}: {}",
-            INPUTS.join(", "),
-            FURTHER_INPUTS.join(", "),
+            Layer::list_names(Layer::OF_EVERY_FRAME),
+            Layer::list_names(Layer::FURTHER),
             self.lines.path.display(),
             if names.is_empty() {
                 "none".to_owned()
@@ -191,8 +191,8 @@ impl Filter {
 
     fn check_passes(&self) -> Result<(), FilterError> {
         let before = self.history.iter().map(|history| history.texture());
-        let inputs = INPUTS.into_iter().chain(FURTHER_INPUTS);
-        let mut ready: BTreeSet<&str> = inputs.chain(before).collect();
+        let inputs = Layer::OF_EVERY_FRAME.into_iter().chain(Layer::FURTHER);
+        let mut ready: BTreeSet<&str> = inputs.map(Layer::name).chain(before).collect();
         let mut used = BTreeSet::<String>::new();
         for (pass, line) in self.passes.iter().zip(&self.lines.passes) {
             let refuse = |reason: String| {
@@ -238,7 +238,7 @@ impl Filter {
                 None,
                 format!(
                     "history names \"{}\", and no pass reads \"{}\"; read it, or leave it out",
-                    unread.input(),
+                    unread.layer().name(),
                     unread.texture()
                 ),
             )),

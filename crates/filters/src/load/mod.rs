@@ -10,7 +10,7 @@ use include_dir::{Dir, include_dir};
 use shader_import::{MAX_MODULE_BYTES, stays_below};
 
 use crate::bind::import_stages;
-use crate::shader::Shader;
+use crate::shader::{Shader, hash_code};
 use crate::{Filter, FilterError, manifest};
 
 static BUILTIN: Dir = include_dir!("$CARGO_MANIFEST_DIR/../../shaders");
@@ -112,9 +112,20 @@ fn parse_filter(
             shaders.extend(stages);
         }
     }
+    filter.content_hash = hash_content(manifest, &shaders);
     filter.shaders = shaders;
     filter.check_agreement()?;
     Ok(filter)
+}
+
+/// Hashes filter.toml and the kernels.
+fn hash_content(manifest: &str, shaders: &[Shader]) -> String {
+    let mut hasher = blake3::Hasher::new();
+    hasher.update(hash_code(manifest.as_bytes()).as_bytes());
+    for shader in shaders {
+        hasher.update(shader.code_hash.as_bytes());
+    }
+    hasher.finalize().to_hex().to_string()
 }
 
 /// Reads a file of a filter folder.

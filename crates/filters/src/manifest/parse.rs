@@ -91,6 +91,7 @@ pub(crate) fn parse(path: &Path, text: &str) -> Result<Filter, FilterError> {
         textures: Vec::new(),
         passes: Vec::new(),
         shaders: Vec::new(),
+        content_hash: String::new(),
         lines,
     };
     if let Some(reach_by) = &manifest.reach_by {
@@ -148,7 +149,7 @@ fn read_history(file: &File, manifest: &Manifest) -> Result<Vec<History>, Filter
         if history.contains(entry.get_ref()) {
             let reason = format!(
                 "history names \"{}\" twice; allowed: once",
-                entry.get_ref().input()
+                entry.get_ref().layer().name()
             );
             return Err(file.at(entry, reason));
         }

@@ -33,8 +33,15 @@ pub(crate) struct Shader {
     pub entry_points: Vec<EntryPoint>,
     /// Output of its language's compiler, if parameters set specialisation constants in it.
     pub compiled: Option<Arc<Vec<u8>>>,
+    /// Hash of its WGSL, or of the output of its language's compiler.
+    pub code_hash: String,
     /// Compiler that made it, if its language needs one.
     pub compiled_by: Option<CompiledBy>,
+}
+
+/// Hashes the code of a shader.
+pub(crate) fn hash_code(code: &[u8]) -> String {
+    blake3::hash(code).to_hex().to_string()
 }
 
 impl Shader {
@@ -76,6 +83,7 @@ impl Shader {
             blocks,
             compiled: None,
             compiled_by: None,
+            code_hash: hash_code(kernels.as_bytes()),
             module: Arc::new(module),
         })
     }

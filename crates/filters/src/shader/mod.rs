@@ -19,7 +19,7 @@ mod varying;
 
 pub(crate) use block::{BlockNumber, UniformBlock};
 pub(crate) use compiled_by::try_each;
-pub(crate) use declarations::{COMMON, Shader};
+pub(crate) use declarations::{COMMON, Shader, hash_code};
 pub(crate) use entry_point::{EntryPoint, find_entry_points};
 pub(crate) use loop_counter::count_loop_iterations;
 pub(crate) use member::{Member, NumberKind, list_members, name_element};

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::str::FromStr;
 
 use super::colors::{ColorMeaning, convert};
-use crate::{FileError, Image, Plane, Raster, Vectors};
+use crate::{FileError, Image, Plane, Raster, Size, Vectors};
 
 /// Upper limit on channels that an error names.
 const MOST_SHOWN: usize = 16;
@@ -61,6 +61,11 @@ impl ExrFile {
             odd_pixels: None,
             meaning: ColorMeaning::default(),
         }
+    }
+
+    /// Returns its columns and rows.
+    pub fn size(&self) -> Size {
+        Size::new(self.width, self.height)
     }
 
     /// Sets a text attribute.

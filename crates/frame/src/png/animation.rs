@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::{FileError, Raster, write_atomically};
+use crate::{FileError, Raster, Size, write_atomically};
 
 /// Writes display values in [0, 1] as an animated PNG of 8 bits that plays for ever, at a number of
 /// frames per second. All frames have the size of the first; there is at least one.
@@ -16,14 +16,14 @@ pub fn write_animated_png(
         frames.iter().all(|frame| frame.same_size(first)),
         "the frames of an animation have one size"
     );
-    let bytes = encode(frames, (first.width, first.height), per_second)
+    let bytes = encode(frames, first.size(), per_second)
         .map_err(|error| FileError::io(path, "encode", std::io::Error::other(error)))?;
     write_atomically(path, &bytes)
 }
 
 fn encode(
     frames: &[Raster<[f32; 3]>],
-    (width, height): (u32, u32),
+    Size { width, height }: Size,
     per_second: f64,
 ) -> Result<Vec<u8>, png::EncodingError> {
     let mut bytes = Vec::new();

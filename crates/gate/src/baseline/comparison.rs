@@ -186,7 +186,7 @@ fn decide(mean: &SceneMean, losses: &[SceneLoss], margin: f64) -> (ComparisonKin
 
 #[cfg(test)]
 mod tests {
-    use tracer::SceneId;
+    use scene::SceneId;
 
     use super::*;
 

@@ -2,8 +2,8 @@
 
 use measure::Case;
 use metrics::{Measured, Metric};
+use scene::SceneId;
 use serde::Serialize;
-use tracer::SceneId;
 
 use crate::baseline::Baseline;
 use crate::baseline::accept::round_score;

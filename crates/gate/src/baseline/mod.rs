@@ -11,8 +11,8 @@ use filters::AdapterDescription;
 use frame::Alignment;
 use frame::write_atomically;
 use metrics::Metric;
+use scene::SceneId;
 use serde::{Deserialize, Serialize};
-use tracer::SceneId;
 
 use measure::{Error, read_text};
 

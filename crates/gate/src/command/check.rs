@@ -4,6 +4,8 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use terminal::refuse;
 
+use scene::Location;
+
 use crate::baseline::{Baseline, compare_with_baseline};
 use crate::check::{Check, check};
 use clap::{Args, Command, Id};
@@ -14,7 +16,6 @@ use judge::{
 };
 use measure::{Case, Error, Run, StoredRun, open_gpu, printable_path, refuse_tracked};
 use metrics::Metric;
-use tracer::Location;
 
 use crate::tables::{annotations, check_text, junit, page_verdict, summary, verdict_text};
 use run::{Margins, add_bounds, make_plan, read_margins};
@@ -183,7 +184,7 @@ fn run_and_judge(args: &CheckArgs, judging: &Judging) -> Result<Judged, Error> {
     let (mut plan, bounds) = make_plan(&args.measure, args.measure.scenes.out.clone())?;
     let asked = args.measure.size;
     if let Some(size) = size_for_bounds(bounds.values(), &plan.filters, asked)? {
-        (plan.render.width, plan.render.height) = size;
+        plan.render = plan.render.with_size(size);
     }
     check_lengths(bounds.values(), &plan.filters, args.sequence.frames())?;
     plan.frames = args.sequence.frames();

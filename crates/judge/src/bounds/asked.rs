@@ -1,5 +1,6 @@
 //! Limits that decide how to measure scenes: size, number of frames, and ladders.
 
+use frame::Size;
 use measure::{Error, FilterChoice, Frames};
 use metrics::Metric;
 
@@ -31,31 +32,24 @@ pub fn bound_subframes<'a>(
 pub fn size_for_bounds<'a>(
     scenes: impl Iterator<Item = &'a SceneBounds>,
     filters: &'a [FilterChoice],
-    asked: Option<(u32, u32)>,
-) -> Result<Option<(u32, u32)>, Error> {
-    let text = |(width, height): (u32, u32)| format!("{width}x{height}");
-    let mut first: Option<(Bound, (u32, u32))> = None;
+    asked: Option<Size>,
+) -> Result<Option<Size>, Error> {
+    let mut first: Option<(Bound, Size)> = None;
     for (metric, bound) in list_limits(scenes, filters) {
         let Some(size) = bound.size else { continue };
-        let holds = format!(
-            "{}: the limit on {metric} holds for {}",
-            bound.place,
-            text(size)
-        );
+        let holds = format!("{}: the limit on {metric} holds for {size}", bound.place);
         if let Some(asked) = asked.filter(|asked| *asked != size) {
             return Err(Error::Refused(format!(
-                "{holds}, and the pictures are to have {}; leave the size out, or measure limits for it with \
+                "{holds}, and the pictures are to have {asked}; leave the size out, or measure limits for it with \
                  `shuttertruth limits calibrate` and put them into {} beside the scene",
-                text(asked),
                 sized_bounds_file(asked)
             )));
         }
         let (other, common) = first.get_or_insert_with(|| (bound.clone(), size));
         if *common != size {
             return Err(Error::Refused(format!(
-                "{holds}, that of {} for {}; check them apart, some of the scenes or filters at a time",
-                other.place,
-                text(*common)
+                "{holds}, that of {} for {common}; check them apart, some of the scenes or filters at a time",
+                other.place
             )));
         }
     }

@@ -3,11 +3,12 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
+use frame::Size;
 use measure::{Error, SIDES, printable, printable_path, read_text};
 use metrics::Metric;
+use scene::Location;
 use serde::Deserialize;
 use toml::Spanned;
-use tracer::Location;
 
 use crate::bounds::{Bound, Bounds, Length, Level};
 
@@ -156,7 +157,7 @@ fn read_bound(name: &str, entry: Entry, place: String) -> Result<(Metric, Bound)
     }
     let bound = Bound {
         limit,
-        size: entry.size,
+        size: entry.size.map(Size::from),
         length,
         why,
         level: entry.level,

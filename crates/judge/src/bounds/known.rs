@@ -2,7 +2,7 @@
 
 use filters::Filter;
 use measure::{Error, FilterChoice, Frames};
-use tracer::{Location, SceneId};
+use scene::{Location, SceneId};
 
 use crate::bounds::sized::read_all_bounds;
 use crate::bounds::{BOUNDS_FILE, BoundsFile, Level, SceneBounds};

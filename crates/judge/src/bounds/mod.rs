@@ -6,10 +6,11 @@ mod known;
 mod length;
 mod sized;
 
+use frame::Size;
 use metrics::Metric;
+use scene::{Location, Scene};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use tracer::{Location, Scene};
 
 use measure::{Error, Frames};
 
@@ -32,8 +33,8 @@ pub struct Bound {
     /// Highest value allowed; lowest if higher is better; largest distance from the ideal if that
     /// is a value.
     pub limit: f64,
-    /// Columns and rows of the pictures that it is for; none if for all.
-    pub size: Option<(u32, u32)>,
+    /// Size of the pictures that it is for; none if for all.
+    pub size: Option<Size>,
     /// Length of the sequence that it is for; none for a score of a single frame.
     pub length: Option<Length>,
     /// Reason in one line: what was measured, and how it leads to the limit.
@@ -89,7 +90,7 @@ impl SceneBounds {
     }
 
     /// Removes limits for other picture sizes.
-    pub fn at(self, size: (u32, u32)) -> Self {
+    pub fn at(self, size: Size) -> Self {
         self.retain(|bound| bound.size.is_none_or(|bound_size| bound_size == size))
     }
 
@@ -113,7 +114,7 @@ impl SceneBounds {
 pub fn read_bounds(
     root: impl Into<Location>,
     scene_folder: impl Into<Location>,
-    size: Option<(u32, u32)>,
+    size: Option<Size>,
 ) -> Result<SceneBounds, Error> {
     let root = root.into();
     let mut files = read_folder(&root, size)?;
@@ -132,14 +133,14 @@ pub fn read_bounds(
 /// Reads only the bounds of all scenes, as [`read_bounds`] does.
 pub fn read_bounds_beside_scenes(
     root: impl Into<Location>,
-    size: Option<(u32, u32)>,
+    size: Option<Size>,
 ) -> Result<SceneBounds, Error> {
     let files = read_folder(&root.into(), size)?;
     Ok(SceneBounds { files })
 }
 
 /// Reads the files of bounds in one folder.
-fn read_folder(folder: &Location, size: Option<(u32, u32)>) -> Result<Vec<BoundsFile>, Error> {
+fn read_folder(folder: &Location, size: Option<Size>) -> Result<Vec<BoundsFile>, Error> {
     let any = folder.join(BOUNDS_FILE);
     let any = any.exists().then(|| read_bounds_file(&any));
     let sized = size.and_then(|size| {

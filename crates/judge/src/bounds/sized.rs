@@ -1,19 +1,19 @@
 //! Files of bounds for one picture size, such as `bounds_1280x720.toml`.
 
+use frame::Size;
 use measure::{Error, SIDES};
-use tracer::Location;
+use scene::Location;
 
 use crate::bounds::{BOUNDS_FILE, BoundsFile, read_bounds_file};
 
-/// Names the file of bounds for pictures of `size`, columns and rows, next to the scenes or to one
-/// scene.
-pub fn sized_bounds_file((width, height): (u32, u32)) -> String {
-    format!("bounds_{width}x{height}.toml")
+/// Names the file of bounds for pictures of `size`, next to the scenes or to one scene.
+pub fn sized_bounds_file(size: Size) -> String {
+    format!("bounds_{size}.toml")
 }
 
 /// Reads a file of bounds for pictures of `size`: a limit need not name it, and may not name
 /// another.
-pub(super) fn read_sized_bounds(file: &Location, size: (u32, u32)) -> Result<BoundsFile, Error> {
+pub(super) fn read_sized_bounds(file: &Location, size: Size) -> Result<BoundsFile, Error> {
     let mut read = read_bounds_file(file)?;
     if let Some(margin) = read.margins.values().next() {
         return Err(Error::Refused(format!(
@@ -22,14 +22,12 @@ pub(super) fn read_sized_bounds(file: &Location, size: (u32, u32)) -> Result<Bou
         )));
     }
     for (metric, bound) in read.tables_mut().flatten() {
-        let (width, height) = size;
         let bound_size = *bound.size.get_or_insert(size);
         if bound_size != size {
             return Err(Error::Refused(format!(
-                "{}: {metric}: size = [{}, {}] in a file for {width}x{height}; leave the size out, or move the limit to {}",
+                "{}: {metric}: size = {:?} in a file for {size}; leave the size out, or move the limit to {}",
                 bound.place,
-                bound_size.0,
-                bound_size.1,
+                bound_size.sides(),
                 sized_bounds_file(bound_size)
             )));
         }
@@ -69,12 +67,10 @@ pub(super) fn read_all_bounds(folder: &Location) -> Result<Vec<BoundsFile>, Erro
 
 /// Returns the size in the name of a file of bounds; none if [`sized_bounds_file`] would not write
 /// that name.
-fn size_in_name(name: &str) -> Option<(u32, u32)> {
-    let (width, height) = (name.strip_prefix("bounds_")?)
-        .strip_suffix(".toml")?
-        .split_once('x')?;
-    let size = (width.parse().ok()?, height.parse().ok()?);
-    let allowed = [size.0, size.1].iter().all(|side| SIDES.contains(side));
+fn size_in_name(name: &str) -> Option<Size> {
+    let text = name.strip_prefix("bounds_")?.strip_suffix(".toml")?;
+    let size: Size = text.parse().ok()?;
+    let allowed = size.sides().iter().all(|side| SIDES.contains(side));
     (allowed && sized_bounds_file(size) == name).then_some(size)
 }
 
@@ -84,7 +80,10 @@ mod tests {
 
     #[test]
     fn a_name_holds_a_size() {
-        assert_eq!(size_in_name("bounds_1280x720.toml"), Some((1280, 720)));
+        assert_eq!(
+            size_in_name("bounds_1280x720.toml"),
+            Some(Size::new(1280, 720))
+        );
         for other in [
             "bounds_0x720.toml",
             "bounds_01280x720.toml",

@@ -2,9 +2,9 @@
 
 use measure::FilterId;
 use metrics::{Ideal, Measured, Metric};
+use scene::SceneId;
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
-use tracer::SceneId;
 
 use crate::compare::pairing::Pair;
 use crate::groups::group_by;

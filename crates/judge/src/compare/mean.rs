@@ -136,7 +136,7 @@ mod tests {
     fn frame_rates_have_means_of_their_own() {
         let mut all = changes(&[0.1, 0.1, 0.3, 0.3]);
         for change in &mut all[2..] {
-            change.scene.rate = tracer::FrameRate::in_word("24fps");
+            change.scene.rate = scene::FrameRate::in_word("24fps");
         }
         let means = average_changes(&all);
         let counts: Vec<(&str, usize)> = (means.iter())

@@ -52,8 +52,7 @@ pub fn check_comparable(
         )))
     };
     let there = first.path.display();
-    let size = |side: &StoredRun| format!("{}x{}", side.run.render.width, side.run.render.height);
-    let [expected, pixels] = [first, second].map(size);
+    let [expected, pixels] = [first, second].map(|side| side.run.render.size());
     if pixels != expected {
         return refuse(format!(
             "its pictures have {pixels} pixels, those of {there} {expected}; scores of two sizes do not compare: make one run again \

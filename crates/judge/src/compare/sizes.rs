@@ -4,10 +4,10 @@
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
 
-use frame::Alignment;
+use frame::{Alignment, Size};
 use measure::{Error, Random, SceneMean, TWO_SIDED, plain_mean};
 use metrics::Metric;
-use tracer::SceneId;
+use scene::SceneId;
 
 use crate::results::Results;
 
@@ -21,8 +21,8 @@ pub struct SizeComparison {
     pub alignment: Alignment,
     /// Scenes in every mean.
     pub scenes: Vec<SceneId>,
-    /// Columns and rows of each file of results.
-    pub sizes: Vec<(u32, u32)>,
+    /// Picture size of each file of results.
+    pub sizes: Vec<Size>,
     /// Filters, best first at the largest size.
     pub filters: Vec<FilterAtSizes>,
     /// Agreement of each size with the largest.
@@ -132,7 +132,7 @@ fn compare_group(
     Ok(SizeComparison {
         alignment,
         scenes: scenes.into_iter().cloned().collect(),
-        sizes: results.iter().map(|results| results.size.into()).collect(),
+        sizes: results.iter().map(|results| results.size).collect(),
         filters,
         agreement: (badness.iter())
             .map(|size| compare_order(&names, size, at_largest))

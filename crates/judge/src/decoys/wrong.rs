@@ -1,6 +1,6 @@
 //! Pictures of wrong blurs.
 
-use frame::{Alignment, Frame, Picture, Plane, Raster, Truth};
+use frame::{Alignment, Frame, Picture, Plane, Raster, Size, Truth};
 use metrics::scatter_oracle;
 
 /// Number of sub-frames with a banded mean.
@@ -46,7 +46,7 @@ pub fn make_wrong_pictures(
 
 /// Widens everything that moves by some pixels on all sides.
 fn widen(frame: &Frame) -> Frame {
-    let (width, height) = frame.size();
+    let Size { width, height } = frame.size();
     let nearest = Raster::from_fn(width, height, |x, y| {
         let around = |middle: u32, size: u32| {
             middle.saturating_sub(WIDENED)..=(middle + WIDENED).min(size - 1)

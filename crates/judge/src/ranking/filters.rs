@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use frame::Alignment;
 use measure::{Case, IDENTITY, InputFormat, TWO_SIDED, plain_mean};
 use metrics::Metric;
-use tracer::{FrameRate, SceneId};
+use scene::{FrameRate, SceneId};
 
 use crate::groups::group_by;
 use crate::ranking::side_effects::SideEffects;

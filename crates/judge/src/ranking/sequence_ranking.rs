@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use measure::{Case, FilterId, InputFormat, Run, SceneMean, Sequence, TWO_SIDED, plain_mean};
 use metrics::{Measured, PERFECT_JOD, SequenceMetric};
-use tracer::SceneId;
+use scene::SceneId;
 
 use crate::ranking::filters::{RankedFilter, RankedScore, rank_best, rank_by_score};
 use crate::ranking::side_effects::SideEffects;

@@ -3,7 +3,7 @@
 use std::path::{Component, Path, PathBuf};
 
 use frame::{FileError, is_hidden};
-use tracer::Scene;
+use scene::Scene;
 
 use crate::Error;
 

@@ -5,7 +5,7 @@ use std::io::ErrorKind;
 use std::path::Path;
 
 use frame::{FileError, remove_leftovers};
-use tracer::Scene;
+use scene::Scene;
 use walkdir::WalkDir;
 
 use crate::Error;

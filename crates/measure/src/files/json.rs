@@ -1,7 +1,7 @@
 //! Reader of JSON files that others may have written.
 
 use frame::FileError;
-use tracer::Location;
+use scene::Location;
 
 /// Upper limit on the bytes of a baseline, bench.json, a journal and other files of numbers.
 pub const MAX_JSON_BYTES: u64 = 1 << 28;

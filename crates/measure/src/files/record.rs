@@ -3,7 +3,6 @@
 //! record.
 
 use std::collections::BTreeMap;
-use std::fmt::Debug;
 use std::path::{Path, PathBuf};
 
 use frame::{FileError, open_regular, read_bounded, write_atomically};
@@ -139,10 +138,9 @@ impl<T> Record<T> {
     }
 }
 
-/// Hashes inputs by their debug output, which includes every field, so that a new one is not
-/// forgotten, and numbers that read back equal.
-pub fn hash_inputs(inputs: &dyn Debug) -> String {
-    hex(format!("{inputs:?}").as_bytes())
+/// Hashes inputs as JSON, which has the names of all fields, and numbers that read back equal.
+pub fn hash_inputs<T: Serialize>(inputs: &T) -> String {
+    hex(&serde_json::to_vec(inputs).expect("inputs are plain data"))
 }
 
 /// Hashes the running program. Its bytes change with sources, dependencies, compiler and options:

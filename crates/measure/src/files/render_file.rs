@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::{fmt, fs};
 
 use frame::{Alignment, FileError, read_attribute, rung_file};
-use tracer::SceneId;
+use scene::SceneId;
 use walkdir::{DirEntry, WalkDir};
 
 use crate::files::folder::walk_error;

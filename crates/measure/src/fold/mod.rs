@@ -4,8 +4,8 @@ mod order;
 
 use std::collections::HashMap;
 
+use scene::SceneId;
 use serde::Serialize;
-use tracer::SceneId;
 
 use self::order::Order;
 use crate::Error;

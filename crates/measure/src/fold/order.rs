@@ -1,7 +1,7 @@
 //! The order of scenes and filters in one process's run.
 
 use frame::Alignment;
-use tracer::SceneId;
+use scene::SceneId;
 
 use crate::identity::FilterId;
 use crate::run::Run;

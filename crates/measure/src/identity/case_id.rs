@@ -7,8 +7,8 @@ use std::path::PathBuf;
 
 use filters::Value;
 use frame::Alignment;
+use scene::SceneId;
 use serde::{Deserialize, Serialize};
-use tracer::SceneId;
 
 use super::filter_id::FilterId;
 use super::reference_picture::ReferencePicture;

@@ -1,6 +1,6 @@
 //! Sizes of the velocity and depth buffers.
 
-use frame::{Frame, Plane, Raster};
+use frame::{Frame, Plane, Raster, Size};
 
 use crate::named;
 
@@ -35,7 +35,7 @@ impl BufferSize {
             Self::Quarter => (4, false),
             Self::QuarterDilated => (4, true),
         };
-        let (width, height) = frame.size();
+        let Size { width, height } = frame.size();
         let places = Raster::from_fn(width, height, |x, y| {
             let first = [x - x % side, y - y % side];
             match self {

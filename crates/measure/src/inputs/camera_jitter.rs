@@ -32,7 +32,7 @@ impl CameraJitter {
         let index = renderer.scene.id.frame;
         let settings = settings_of(&frame);
         let grid = PixelGrid {
-            size: [settings.width, settings.height],
+            size: settings.size(),
             // A picture that moves right is sampled further left.
             offset: jitter(index).map(|part| -part),
         };

@@ -3,7 +3,8 @@
 use std::borrow::Cow;
 
 use frame::Frame;
-use tracer::{Defocus, PixelGrid, Scene, trace_defocus};
+use scene::Scene;
+use tracer::{Defocus, PixelGrid, trace_defocus};
 
 use super::renderer::{Renderer, Renders};
 use crate::render::settings::settings_of;

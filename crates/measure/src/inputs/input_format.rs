@@ -1,8 +1,8 @@
 //! Forms of the input that an engine gives its motion blur.
 
 use frame::{Frame, Picture, Vectors, VelocityKind};
+use scene::Scene;
 use serde::{Deserialize, Serialize};
-use tracer::Scene;
 
 use super::border::{Border, repeat_border, smear_margin};
 use super::buffer_size::BufferSize;

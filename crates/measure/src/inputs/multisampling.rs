@@ -1,7 +1,7 @@
 //! Frames with several samples per pixel (MSAA): colour is their mean, velocity and depth come from
 //! one of them.
 
-use frame::{ColorSampling, Frame, Raster};
+use frame::{ColorSampling, Frame, Raster, Size};
 use tracer::{PixelGrid, RenderSettings};
 
 use super::renderer::Renderer;
@@ -40,7 +40,7 @@ impl Multisampling {
         let samples = SAMPLES.iter().zip(sample_settings(&frame));
         let samples = samples.map(|(place, settings)| {
             let grid = PixelGrid {
-                size: [settings.width, settings.height],
+                size: settings.size(),
                 offset: place.map(|part| part - 0.5),
             };
             renderer.frame("frame with 4 samples per pixel", &settings, &grid)
@@ -50,7 +50,7 @@ impl Multisampling {
 
     /// Averages colour and coverage of the samples, and takes velocity and depth from one of them.
     fn resolve(self, frame: Frame, samples: &[Frame]) -> Frame {
-        let (width, height) = frame.size();
+        let Size { width, height } = frame.size();
         let taken = Raster::from_fn(width, height, |x, y| {
             self.choose(samples.iter().map(|sample| *sample.depth.at(x, y)))
         });

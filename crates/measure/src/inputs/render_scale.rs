@@ -1,6 +1,6 @@
 //! Frames that are rendered small and upscaled.
 
-use frame::{Frame, Image, Vectors};
+use frame::{Frame, Image, Size, Vectors};
 use tracer::{PixelGrid, RenderSettings};
 
 use super::renderer::Renderer;
@@ -44,13 +44,13 @@ impl RenderScale {
     }
 
     /// Returns the rendered size of a picture: rounded to whole pixels, at least one.
-    fn rendered_size(self, picture: [u32; 2]) -> [u32; 2] {
+    fn rendered_size(self, picture: Size) -> Size {
         let percent = u64::from(self.parts().0);
         picture.map(|side| ((u64::from(side) * percent + 50) / 100).max(1) as u32)
     }
 
     /// Returns the size that a filter gets for a picture of this size.
-    pub(crate) fn blurred_size(self, picture: [u32; 2]) -> [u32; 2] {
+    pub(crate) fn blurred_size(self, picture: Size) -> Size {
         match self.parts() {
             (_, true) => self.rendered_size(picture),
             (_, false) => picture,
@@ -66,7 +66,7 @@ impl RenderScale {
         let (percent, blurs_first) = self.parts();
         let whole = settings_of(&frame);
         let to = Extent {
-            picture: [whole.width, whole.height],
+            picture: whole.size(),
             band: whole.guard_band,
         };
         let from = Extent {
@@ -77,8 +77,7 @@ impl RenderScale {
             guard_band: from.band,
             ..whole
         };
-        let [width, height] = from.picture;
-        let grid = PixelGrid::of_picture(width, height);
+        let grid = PixelGrid::of_picture(from.picture.width, from.picture.height);
         let small = renderer.frame(&format!("frame at {percent} %"), &settings, &grid)?;
         Ok(if blurs_first {
             small
@@ -90,7 +89,8 @@ impl RenderScale {
 
 /// Upscales a small frame to the size of the whole one.
 fn upscale(frame: Frame, small: &Frame, from: Extent, to: Extent) -> Frame {
-    let step = [0, 1].map(|axis| to.picture[axis] as f32 / from.picture[axis] as f32);
+    let [from_sides, to_sides] = [from, to].map(|extent| extent.picture.sides());
+    let step = [0, 1].map(|axis| to_sides[axis] as f32 / from_sides[axis] as f32);
     let read_velocity = |vectors: &Vectors| {
         let velocity = read_nearest(vectors, from, to);
         velocity.map(|velocity| [0, 1].map(|axis| velocity[axis] * step[axis]))
@@ -111,8 +111,8 @@ fn upscale(frame: Frame, small: &Frame, from: Extent, to: Extent) -> Frame {
 }
 
 /// Upscales an image without a guard band to the size of another.
-pub(crate) fn upscale_picture(image: &Image, picture: [u32; 2]) -> Image {
-    let [from, to] = [[image.width, image.height], picture].map(Extent::bare);
+pub(crate) fn upscale_picture(image: &Image, picture: Size) -> Image {
+    let [from, to] = [image.size(), picture].map(Extent::bare);
     read_bilinear(image, from, to, mix_colors)
 }
 
@@ -151,8 +151,9 @@ mod tests {
             ),
             (RenderScale::HalfBlurFirst, [1, 1], [1, 1], [1, 1]),
         ] {
-            assert_eq!(scale.rendered_size(picture), rendered);
-            assert_eq!(scale.blurred_size(picture), blurred);
+            let picture = Size::from(picture);
+            assert_eq!(scale.rendered_size(picture).sides(), rendered);
+            assert_eq!(scale.blurred_size(picture).sides(), blurred);
         }
     }
 
@@ -166,8 +167,8 @@ mod tests {
         let whole = upscale(
             test_frame(4, 3),
             &small,
-            Extent::bare([2, 1]),
-            Extent::bare([4, 3]),
+            Extent::bare(Size::new(2, 1)),
+            Extent::bare(Size::new(4, 3)),
         );
         let row = [[2.0, 3.0], [2.0, 3.0], [6.0, -6.0], [6.0, -6.0]];
         assert_eq!(whole.velocity.pixels[4..8], row);

@@ -3,7 +3,8 @@
 use std::cell::RefCell;
 
 use frame::{Frame, TracedFrame};
-use tracer::{PixelGrid, RenderSettings, Scene, TraceError, Watch, trace_frame_part};
+use scene::Scene;
+use tracer::{PixelGrid, RenderSettings, TraceError, Watch, trace_frame_part};
 
 use crate::render::velocities::add_further_velocities;
 use crate::{Error, Monitor};

@@ -1,39 +1,39 @@
 //! Rasters read at another picture size.
 
-use frame::Raster;
+use frame::{Raster, Size};
 
 /// Part of a raster that shows the picture.
 #[derive(Clone, Copy)]
 pub(crate) struct Extent {
-    /// Columns and rows of the picture.
-    pub picture: [u32; 2],
+    /// Size of the picture.
+    pub picture: Size,
     /// Pixels beyond it on every side.
     pub band: u32,
 }
 
 impl Extent {
     /// Returns the extent of a raster without a guard band.
-    pub fn bare(picture: [u32; 2]) -> Self {
+    pub fn bare(picture: Size) -> Self {
         Self { picture, band: 0 }
     }
 
-    /// Returns columns and rows of the raster.
-    fn size(&self) -> [u32; 2] {
+    /// Returns the size of the raster.
+    fn size(&self) -> Size {
         self.picture.map(|side| side + 2 * self.band)
     }
 
     /// Finds the position of another raster's pixel centre along an axis, in pixels from this
     /// raster's corner.
     fn place(&self, axis: usize, other: &Extent, pixel: u32) -> f64 {
-        let step = f64::from(self.picture[axis]) / f64::from(other.picture[axis]);
+        let step = f64::from(self.picture.sides()[axis]) / f64::from(other.picture.sides()[axis]);
         (f64::from(pixel) + 0.5 - f64::from(other.band)) * step + f64::from(self.band)
     }
 }
 
 /// Gives each pixel of another size the pixel that contains its centre.
 pub(crate) fn read_nearest<T: Clone>(raster: &Raster<T>, from: Extent, to: Extent) -> Raster<T> {
-    let [width, height] = to.size();
-    let size = from.size();
+    let Size { width, height } = to.size();
+    let size = from.size().sides();
     let pixel = |axis: usize, at: u32| {
         let place = from.place(axis, &to, at).floor().max(0.0);
         (place as u32).min(size[axis] - 1)
@@ -51,8 +51,8 @@ pub(crate) fn read_bilinear<T: Copy>(
     to: Extent,
     mix: impl Fn(T, T, f32) -> T,
 ) -> Raster<T> {
-    let [width, height] = to.size();
-    let size = from.size();
+    let Size { width, height } = to.size();
+    let size = from.size().sides();
     let between = |axis: usize, at: u32| {
         let last = size[axis] - 1;
         let place = from.place(axis, &to, at) - 0.5;
@@ -79,11 +79,11 @@ mod tests {
     use super::*;
 
     const SMALL: Extent = Extent {
-        picture: [4, 2],
+        picture: Size::new(4, 2),
         band: 1,
     };
     const LARGE: Extent = Extent {
-        picture: [8, 6],
+        picture: Size::new(8, 6),
         band: 2,
     };
 
@@ -112,7 +112,11 @@ mod tests {
         assert_eq!(column, [0, 0, 1, 1, 1, 2, 2, 2, 3, 3]);
         // The centres of 7 pixels are at 0.2, 0.6, 1.1, 1.5, 1.9, 2.4 and 2.8 of 3.
         let three = Raster::from_fn(3, 1, |x, _| x);
-        let seven = read_nearest(&three, Extent::bare([3, 1]), Extent::bare([7, 1]));
+        let seven = read_nearest(
+            &three,
+            Extent::bare(Size::new(3, 1)),
+            Extent::bare(Size::new(7, 1)),
+        );
         assert_eq!(seven.pixels, [0, 0, 1, 1, 1, 2, 2]);
     }
 }

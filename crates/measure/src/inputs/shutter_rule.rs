@@ -1,7 +1,7 @@
 //! Rules by which an engine's filter follows the frame rate.
 
 use frame::Frame;
-use tracer::Scene;
+use scene::Scene;
 
 use crate::named;
 

@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use frame::{Frame, Raster, Vectors, VelocityKind};
-use tracer::{PointMotion, Scene, trace_motion};
+use frame::{Frame, Raster, Size, Vectors, VelocityKind};
+use scene::Scene;
+use tracer::{PointMotion, trace_motion};
 
 use super::camera_jitter::jitter_motion;
 use crate::render::settings::settings_of;
@@ -134,7 +135,7 @@ fn lose_largest_mover(frame: &Frame, camera: &Vectors) -> Vectors {
 /// their own motion.
 fn mark_still(frame: &Frame) -> Vectors {
     let velocity = &frame.velocity;
-    let (width, height) = frame.size();
+    let Size { width, height } = frame.size();
     let picture = [width, height].map(|side| (side - 2 * frame.guard_band) as f32);
     let is_still = |x: u32, y: u32| *velocity.at(x, y) == [0.0; 2];
     Raster::from_fn(width, height, |x, y| {

@@ -1,6 +1,6 @@
 //! Formats of the velocity buffer.
 
-use frame::{Frame, Vectors};
+use frame::{Frame, Size, Vectors};
 use half::f16;
 
 use super::depth_format::unorm;
@@ -39,7 +39,7 @@ type Store = fn([f64; 2]) -> [f64; 2];
 impl VelocityFormat {
     /// Returns a velocity of the frame as read from this buffer.
     pub(crate) fn apply(self, frame: &Frame, velocity: &Vectors) -> Vectors {
-        let (width, height) = frame.size();
+        let Size { width, height } = frame.size();
         let [width, height] = [width, height].map(|side| f64::from(side - 2 * frame.guard_band));
         let to_border = [0.5 * width, 0.5 * height];
         let half_smear = 0.5 * frame.exposure;

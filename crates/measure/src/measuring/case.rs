@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use filters::{Convention, FilterError};
-use frame::{Accumulation, Frame, Ladder, Picture, Vectors};
+use frame::{Accumulation, Frame, Ladder, Picture, Size, Vectors};
 use metrics::{
     ColorReference, ImageScores, Jitter, MeasureError, Measurement, Metric, ProbeScores, Reference,
 };
@@ -12,7 +12,9 @@ use tracer::Defocus;
 use super::dilated_velocity::read_dilated_velocity;
 use super::pictures::{PARTS_FILE, write_case, write_parts};
 use super::planned_case::{PictureSource, PlannedCase};
-use super::probes::{FilterOutput, blur_noise_frames, blur_picture, blur_with_probes};
+use super::probes::{
+    FilterOutput, FilteredFrame, Runners, blur_noise_frames, blur_picture, blur_with_probes,
+};
 use super::references::TruthReferences;
 use super::scene::SceneContext;
 use super::stored_frames::StoredFrame;
@@ -139,19 +141,18 @@ impl CaseContext<'_> {
         let stored = stored.expect("the frame was stored in every form of the plan");
         let frame = &stored.frame;
         let picture = self.picture_size();
-        let mut runner = Runner::new(self.scene.gpu, choice, frame.size())?;
-        let mut wide = Runner::with_wide_colors(self.scene.gpu, choice, frame.size());
+        let mut runners = Runners::new(self.scene.gpu, choice, frame.size())?;
         let pass = self.pass_behind(input);
         let (output, parts) = self
-            .blur_stored(stored, (&mut runner, wide.as_mut()), pass)
+            .blur_stored(stored, &mut runners, pass)
             .map_err(|error| name_scene(error, self.scene.scene))?;
         // A smaller one would not fit into the output's file.
         let dilated_velocity = if input.scale.blurred_size(picture) == picture {
-            read_dilated_velocity(&choice.filter, &runner, frame)?
+            read_dilated_velocity(&choice.filter, &runners.color, frame)?
         } else {
             None
         };
-        let jitter = self.measure_jitter(&mut runner, frame, pass)?;
+        let jitter = self.measure_jitter(&mut runners.color, frame, pass)?;
         let (measurement, intervals) = self.measure_with_intervals(&parts, &output.picture, {
             |reference, picture| measure_output(reference, picture, &output)
         })?;
@@ -170,7 +171,7 @@ impl CaseContext<'_> {
     fn blur_stored(
         &self,
         stored: &StoredFrame,
-        (runner, mut wide): (&mut Runner, Option<&mut Runner>),
+        runners: &mut Runners,
         pass: Option<&Defocus>,
     ) -> Result<(FilterOutput, Vec<Picture>), FilterError> {
         // The first frame has no previous one; it serves as its own.
@@ -178,22 +179,22 @@ impl CaseContext<'_> {
             Some(before) => (before, &stored.parts_before),
             None => (&stored.frame, &stored.parts),
         };
-        let index = self.scene.scene.id().frame;
+        let filtered = FilteredFrame {
+            now: &stored.frame,
+            before,
+            index: self.scene.scene.id().frame,
+        };
         let size = self.picture_size();
         let defocused = |picture: Picture| match pass {
             Some(pass) => pass.apply(&picture),
             None => picture,
         };
-        let history = (before, index);
-        let mut output =
-            blur_with_probes(runner, wide.as_deref_mut(), &stored.frame, history, size)?;
+        let mut output = blur_with_probes(runners, filtered, size)?;
         output.picture = defocused(output.picture);
         let parts = (stored.parts.iter().zip(parts_before))
             .map(|(part, part_before)| {
-                let wide = wide.as_deref_mut();
-                let source = (&stored.frame, part);
-                let before = (before, part_before, index);
-                Ok(defocused(blur_picture(runner, wide, source, before, size)?))
+                let blurred = blur_picture(runners, filtered, [part, part_before], size)?;
+                Ok(defocused(blurred))
             })
             .collect::<Result<_, FilterError>>()?;
         Ok((output, parts))
@@ -205,9 +206,9 @@ impl CaseContext<'_> {
         (self.depth_of_field).filter(|_| input.depth_of_field == DepthOfField::After)
     }
 
-    /// Returns columns and rows of the picture.
-    fn picture_size(&self) -> [u32; 2] {
-        self.references.truth.size().into()
+    /// Returns the size of the picture.
+    fn picture_size(&self) -> Size {
+        self.references.truth.size()
     }
 
     /// Measures a picture, with score intervals from the pictures of `parts` of the frame's
@@ -292,7 +293,8 @@ impl CaseContext<'_> {
         let mut files = write_case(
             &path,
             self.frame,
-            (picture, measured.dilated_velocity.as_ref()),
+            picture,
+            measured.dilated_velocity.as_ref(),
             measurement,
         )?;
         let plan = self.scene.plan;

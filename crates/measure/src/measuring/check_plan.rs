@@ -39,7 +39,7 @@ impl RunPlan {
         }
         for scene in &self.ingested {
             scene.check_truth()?;
-            scene.check_size((self.render.width, self.render.height))?;
+            scene.check_size(self.render.size())?;
         }
         for input in &self.inputs {
             let has_scenes = self.ingested.is_empty();

@@ -1,7 +1,7 @@
 //! Dilated velocity of a filter, for inspection.
 
 use filters::{Filter, FilterError, Holds};
-use frame::{Frame, Raster, Vectors};
+use frame::{Frame, Raster, Size, Vectors};
 
 use crate::runner::Runner;
 
@@ -25,7 +25,7 @@ pub(crate) fn read_dilated_velocity(
 
 /// Looks up the velocity at each place; places beyond the frame use border pixels.
 fn velocities_at(places: &Raster<[f32; 4]>, frame: &Frame) -> Vectors {
-    let (width, height) = frame.size();
+    let Size { width, height } = frame.size();
     places.map(|[x, y, ..]| {
         let [column, row] =
             [(x, width), (y, height)].map(|(at, size)| (at.floor().max(0.0) as u32).min(size - 1));

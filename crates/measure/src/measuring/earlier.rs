@@ -5,7 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use filters::AdapterDescription;
-use tracer::SceneId;
+use frame::Size;
+use scene::SceneId;
 
 use crate::fold::fold_runs;
 use crate::identity::FilterId;
@@ -123,12 +124,10 @@ impl Planned {
 ///
 /// # Errors
 /// The run in `out` cannot be read.
-pub fn folder_for_size(out: &Path, (width, height): (u32, u32)) -> Result<PathBuf, Error> {
+pub fn folder_for_size(out: &Path, size: Size) -> Result<PathBuf, Error> {
     let earlier = read_earlier_run(&out.join("run.json"))?;
     Ok(match earlier {
-        Some(run) if (run.render.width, run.render.height) != (width, height) => {
-            out.join(format!("{width}x{height}"))
-        }
+        Some(run) if run.render.size() != size => out.join(size.to_string()),
         _ => out.to_owned(),
     })
 }
@@ -140,10 +139,7 @@ pub fn find_newer_sizes(out: &Path) -> Vec<PathBuf> {
     let (Ok(written_out), Ok(entries)) = (written(out), fs::read_dir(out)) else {
         return Vec::new();
     };
-    let is_size = |folder: &Path| {
-        let sides = folder.file_name()?.to_str()?.split_once('x')?;
-        Some(sides.0.parse::<u32>().is_ok() && sides.1.parse::<u32>().is_ok())
-    };
+    let is_size = |folder: &Path| Some(folder.file_name()?.to_str()?.parse::<Size>().is_ok());
     let mut newer: Vec<PathBuf> = (entries.flatten().map(|entry| entry.path()))
         .filter(|folder| is_size(folder) == Some(true))
         .filter(|folder| written(folder).is_ok_and(|time| time > written_out))

@@ -11,7 +11,7 @@ use tracer::RenderSettings;
 use super::frames::visit_frames;
 use super::plan::RunPlan;
 use super::planned_case::PlannedCase;
-use crate::render::ladders::needed_rungs;
+use crate::render::run_scene::needed_rungs;
 
 /// CPU time in seconds to prepare a scene for rays, and of a sample: means over the shipped scenes,
 /// on two cores of a server with llvmpipe.

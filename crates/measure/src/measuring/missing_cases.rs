@@ -8,6 +8,7 @@ use frame::{Alignment, Frame, Ladder, Picture, Truth};
 use metrics::{ColorReference, Reference};
 use tracer::{Defocus, Progress, TraceError, Watch};
 
+use super::attempt::Attempt;
 use super::case::{CaseContext, CommonTruth};
 use super::planned_case::PlannedCase;
 use super::references::{TruthPart, TruthReferences};
@@ -15,7 +16,6 @@ use super::scene::SceneContext;
 use super::stored_frames::{read_replicates, store_frames};
 use crate::inputs::depth_of_field::DepthOfField;
 use crate::inputs::input_format::InputFormat;
-use crate::run::case::Case;
 use crate::run::failure::Failure;
 use crate::stats::parts::Groups;
 
@@ -26,14 +26,14 @@ impl SceneContext<'_> {
         missing: &[&PlannedCase],
         frame: &Frame,
         watch: Watch,
-    ) -> Result<Vec<Result<Case, Failure>>, Error> {
+    ) -> Result<Vec<Attempt>, Error> {
         if missing.is_empty() {
             return Ok(Vec::new());
         }
         let is_needed = |input: &&InputFormat| missing.iter().any(|case| case.id.input == **input);
         let inputs: Vec<InputFormat> = self.plan.inputs.iter().filter(is_needed).copied().collect();
         let replicates = read_replicates(self.plan, self.scene)?;
-        let stored_frames = store_frames(self.plan, self.scene, &inputs, (frame, &replicates))?;
+        let stored_frames = store_frames(self.plan, self.scene, &inputs, frame, &replicates)?;
         let depth_of_field = self.prepare_passes(&inputs, frame)?;
         let common_alignment = self.plan.common_alignment();
         let has_others = (missing.iter()).any(|case| case.id.alignment != common_alignment);
@@ -117,21 +117,16 @@ impl SceneContext<'_> {
         }
     }
 
-    /// Measures a case and writes its record; returns a failure if the error concerns this case
-    /// alone.
-    fn measure_case(
-        &self,
-        context: &CaseContext,
-        planned: &PlannedCase,
-    ) -> Result<Result<Case, Failure>, Error> {
+    /// Measures a case and writes its record. An error that concerns this case alone is its failure.
+    fn measure_case(&self, context: &CaseContext, planned: &PlannedCase) -> Result<Attempt, Error> {
         let (case, files) = match context.measure(planned) {
             Ok(measured) => measured,
-            Err(error) => return Ok(Err(self.failure(error, planned)?)),
+            Err(error) => return Ok(Attempt::Failed(self.failure(error, planned)?)),
         };
         if let Some(key) = self.case_keys(planned).into_iter().next() {
             put(&self.case_record(planned), key, &files, &case)?;
         }
-        Ok(Ok(case))
+        Ok(Attempt::Measured(Box::new(case)))
     }
 
     /// Turns an error of one case into its failure. Returns any other error, which ends the run.

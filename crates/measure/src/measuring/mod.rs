@@ -1,6 +1,7 @@
 //! The main job: renders every scene, runs every filter on it, and measures each picture's distance
 //! from the truth.
 
+mod attempt;
 pub mod case;
 mod check_plan;
 pub mod dilated_velocity;

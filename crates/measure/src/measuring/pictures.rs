@@ -80,7 +80,8 @@ pub fn write_truth(
 pub fn write_case(
     folder: &Path,
     frame: &Frame,
-    (output, dilated_velocity): (&Picture, Option<&Vectors>),
+    output: &Picture,
+    dilated_velocity: Option<&Vectors>,
     measurement: &Measurement,
 ) -> Result<Vec<String>, FileError> {
     let maps = &measurement.maps;

@@ -2,9 +2,10 @@
 
 use std::path::PathBuf;
 
-use filters::{AdapterDescription, EXCLUSION};
+use filters::{AdapterDescription, Layer};
 use frame::Alignment;
-use tracer::{RenderSettings, Scene};
+use scene::Scene;
+use tracer::RenderSettings;
 
 use super::part::Part;
 use crate::filter_choice::FilterChoice;
@@ -141,7 +142,7 @@ impl RunPlan {
     /// Tells whether a filter reads the mask of what a blur leaves alone.
     pub(crate) fn reads_exclusion(&self) -> bool {
         let mut filters = self.filters.iter();
-        filters.any(|choice| choice.filter.further_inputs().contains(&EXCLUSION))
+        filters.any(|choice| choice.filter.further_inputs().contains(&Layer::Exclusion))
     }
 
     /// Lists the scenes that are rendered, then those that engines drew.

@@ -1,8 +1,8 @@
 //! A case before it is measured.
 
-use crate::LADDER;
-use filters::AdapterDescription;
+use filters::{AdapterDescription, Settings};
 use frame::Alignment;
+use serde::Serialize;
 
 use super::plan::RunPlan;
 use crate::filter_choice::FilterChoice;
@@ -10,6 +10,7 @@ use crate::identity::{CaseId, ReferencePicture};
 use crate::inputs::input_format::InputFormat;
 use crate::render::ingested_scene::IngestedScene;
 use crate::render::run_scene::RunScene;
+use crate::{LADDER, hash_inputs};
 
 /// Numbers of sub-frames in the accumulations that filters are compared with, rungs of the ladder.
 const SUBFRAMES: [u32; 4] = [4, 8, 16, 64];
@@ -30,6 +31,25 @@ pub(crate) enum PictureSource<'a> {
     Filter(Box<FilterChoice>, InputFormat),
     /// The engine that drew the frame.
     Engine(&'a IngestedScene),
+}
+
+/// Inputs of a picture to compare filters with. The hash of an engine's frame covers the engine's
+/// picture.
+#[derive(Serialize)]
+struct ReferenceInputs<'a> {
+    filter: &'a str,
+    preset: &'a str,
+}
+
+/// Inputs of a filter's picture.
+#[derive(Serialize)]
+struct FilterInputs<'a> {
+    filter: &'a str,
+    preset: &'a str,
+    settings: &'a Settings,
+    input: &'a InputFormat,
+    adapter: Option<&'a AdapterDescription>,
+    jitter_frames: u32,
 }
 
 impl<'a> PlannedCase<'a> {
@@ -57,10 +77,10 @@ impl<'a> PlannedCase<'a> {
             alignments.contains(&choice.filter.alignment)
                 && !scene.ingested().is_some_and(is_left_out)
         };
-        let picture = [plan.render.width, plan.render.height];
+        let picture = plan.render.size();
         let filters = plan.filters.iter().filter(is_measured).flat_map(|choice| {
             plan.inputs.iter().map(move |input| {
-                let [width, _] = input.scale.blurred_size(picture);
+                let width = input.scale.blurred_size(picture).width;
                 let source = PictureSource::Filter(Box::new(choice.scaled_to(width)), *input);
                 Self::new(scene, choice.filter.alignment, source)
             })
@@ -92,12 +112,14 @@ impl<'a> PlannedCase<'a> {
         Self { id, source }
     }
 
-    /// Writes out all that determines the scores, apart from the program, the scene, its frame and
-    /// its truths; none for a filter that is a program, since nothing records what it does.
+    /// Hashes all that determines the scores, apart from the program, the scene, its frame and its
+    /// truths; none for a filter that is a program, since nothing records what it does.
     pub fn inputs(&self, plan: &RunPlan, adapter: Option<&AdapterDescription>) -> Option<String> {
-        // The hash of an engine's frame covers the engine's picture.
         let PictureSource::Filter(choice, input) = &self.source else {
-            return Some(format!("{} {}", self.id.filter, self.id.preset));
+            return Some(hash_inputs(&ReferenceInputs {
+                filter: &self.id.filter,
+                preset: &self.id.preset,
+            }));
         };
         let FilterChoice {
             filter,
@@ -105,15 +127,15 @@ impl<'a> PlannedCase<'a> {
             settings,
             ..
         } = &**choice;
-        // A filter contains the text of its kernels.
         filter.command.is_none().then(|| {
-            format!(
-                "{:?}",
-                (
-                    (filter, preset, settings, input, adapter),
-                    plan.jitter_frames,
-                )
-            )
+            hash_inputs(&FilterInputs {
+                filter: &filter.content_hash,
+                preset,
+                settings,
+                input,
+                adapter,
+                jitter_frames: plan.jitter_frames,
+            })
         })
     }
 }

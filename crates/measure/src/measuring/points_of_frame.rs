@@ -2,7 +2,8 @@
 
 use frame::{FrameOptions, Truth, VelocityKind};
 use metrics::Instant;
-use tracer::{PointLayers, PointMotion, RenderSettings, Scene, TraceError, trace_motion};
+use scene::Scene;
+use tracer::{PointLayers, PointMotion, RenderSettings, TraceError, trace_motion};
 
 /// Samples depth and objects of a scene at one of its frames, with the motion since the previous
 /// frame, whatever velocity filters get.

@@ -1,10 +1,11 @@
 //! Runs of a filter on a frame: on its colour and, with the same weights, on probes with exact
 //! truths.
 
-use filters::{FilterError, Input};
-use frame::{Image, Picture, Plane, Raster};
+use filters::{FilterError, Gpu, Input};
+use frame::{Image, Picture, Plane, Raster, Size};
 use metrics::Probes;
 
+use crate::filter_choice::FilterChoice;
 use crate::inputs::render_scale::upscale_picture;
 use crate::render::exclusion::FilterFrame;
 use crate::runner::Runner;
@@ -22,23 +23,78 @@ pub(crate) struct FilterOutput {
     pub is_rounded: bool,
 }
 
+/// A filter for colours, and for numbers that are not colours.
+pub(crate) struct Runners<'g> {
+    /// The filter as it is.
+    pub color: Runner<'g>,
+    /// The filter with 32-bit colours; none if it has them already, or if the adapter cannot.
+    wide: Option<Runner<'g>>,
+}
+
+impl<'g> Runners<'g> {
+    /// Prepares a filter for pictures of a size.
+    pub fn new(
+        gpu: Option<&'g Gpu>,
+        choice: &FilterChoice,
+        size: Size,
+    ) -> Result<Self, FilterError> {
+        Ok(Self {
+            color: Runner::new(gpu, choice, size)?,
+            wide: Runner::with_wide_colors(gpu, choice, size),
+        })
+    }
+
+    /// Returns the filter for numbers that are not colours.
+    fn wide(&mut self) -> &mut Runner<'g> {
+        self.wide.as_mut().unwrap_or(&mut self.color)
+    }
+}
+
+/// A frame that a filter gets.
+#[derive(Clone, Copy)]
+pub(crate) struct FilteredFrame<'a> {
+    /// The frame.
+    pub now: &'a FilterFrame,
+    /// The previous frame, for filters with history.
+    pub before: &'a FilterFrame,
+    /// Number of the frame, which seeds the filter's noise.
+    pub index: u32,
+}
+
+impl FilteredFrame<'_> {
+    /// Runs a filter on other colours in place of the frame's, and of the previous one's; returns
+    /// the outputs without the guard band.
+    fn run(
+        &self,
+        runner: &mut Runner,
+        colors: &[&Image],
+        colors_before: &[&Image],
+    ) -> Result<Vec<Image>, FilterError> {
+        let now = Input {
+            frame_index: self.index,
+            ..filter_input(self.now, colors)
+        };
+        let outputs = runner.run_after(&now, &filter_input(self.before, colors_before))?;
+        Ok(crop_all(outputs, self.now.guard_band))
+    }
+}
+
 /// Runs the filter with the noise of one frame: on the frame's colour and, in the colour's place,
 /// on the instant's coverage of each object, on the probes, and on a mixture of colour and probe.
-/// All but the picture comes from `wide`, the filter with 32-bit colours, if there is one. `before`
-/// is the previous frame, for filters with history; its pictures are replaced like the frame's. The
-/// output is upscaled to `picture` if the frame shows it smaller.
+/// All but the picture comes from the filter with 32-bit colours, if there is one. The previous
+/// frame's pictures are replaced like the frame's. The output is upscaled to `picture` if the frame
+/// shows it smaller.
 pub(crate) fn blur_with_probes(
-    runner: &mut Runner,
-    wide: Option<&mut Runner>,
-    frame: &FilterFrame,
-    (before, frame_index): (&FilterFrame, u32),
-    picture: [u32; 2],
+    runners: &mut Runners,
+    filtered: FilteredFrame,
+    picture: Size,
 ) -> Result<FilterOutput, FilterError> {
+    let (frame, before) = (filtered.now, filtered.before);
     let mattes = pack_planes(&frame.coverage);
-    let (width, height) = frame.size();
+    let Size { width, height } = frame.size();
     let step = [
-        picture[0] as f32 / (width - 2 * frame.guard_band) as f32,
-        picture[1] as f32 / (height - 2 * frame.guard_band) as f32,
+        picture.width as f32 / (width - 2 * frame.guard_band) as f32,
+        picture.height as f32 / (height - 2 * frame.guard_band) as f32,
     ];
     let probes = Probes::images_with_step(width, height, step);
     let mixture = mix(&frame.color, &probes[0]);
@@ -48,21 +104,15 @@ pub(crate) fn blur_with_probes(
     let mixture_before = mix(&before.color, &probes[0]);
     let mut colors_before = vec![&before.color, &probes[0], &probes[1], &mixture_before];
     colors_before.extend(&mattes_before);
-    let run = |runner: &mut Runner, count: usize| {
-        let now = Input {
-            frame_index,
-            ..filter_input(frame, &colors[..count])
-        };
-        let outputs = runner.run_after(&now, &filter_input(before, &colors_before[..count]))?;
-        Ok::<_, FilterError>(crop_all(outputs, frame.guard_band))
-    };
-    let (color, outputs) = match wide {
-        None => (None, run(runner, colors.len())?),
-        Some(wide) => {
-            let color = run(runner, 1)?.remove(0);
-            (Some(color), run(wide, colors.len())?)
+    let color = match runners.wide {
+        None => None,
+        Some(_) => {
+            let mut outputs =
+                filtered.run(&mut runners.color, &colors[..1], &colors_before[..1])?;
+            Some(outputs.remove(0))
         }
     };
+    let outputs = filtered.run(runners.wide(), &colors, &colors_before)?;
     let nonlinearity = nonlinearity(
         &mixture.cropped(frame.guard_band),
         &outputs[3],
@@ -86,33 +136,24 @@ pub(crate) fn blur_with_probes(
 /// replicates, and of the previous one. Outputs are upscaled to `picture` as in
 /// [`blur_with_probes`].
 pub(crate) fn blur_picture(
-    runner: &mut Runner,
-    wide: Option<&mut Runner>,
-    (frame, source): (&FilterFrame, &Picture),
-    (before, source_before, frame_index): (&FilterFrame, &Picture, u32),
-    picture: [u32; 2],
+    runners: &mut Runners,
+    filtered: FilteredFrame,
+    [source, source_before]: [&Picture; 2],
+    picture: Size,
 ) -> Result<Picture, FilterError> {
-    let mattes = pack_planes(&source.coverage);
-    let mattes_before = pack_planes(&source_before.coverage);
-    let run = |runner: &mut Runner, colors: &[&Image], colors_before: &[&Image]| {
-        let now = Input {
-            frame_index,
-            ..filter_input(frame, colors)
-        };
-        let outputs = runner.run_after(&now, &filter_input(before, colors_before))?;
-        let outputs = crop_all(outputs, frame.guard_band);
-        Ok::<_, FilterError>(upscale_all(outputs, picture))
-    };
-    let color = run(runner, &[&source.color], &[&source_before.color])?.remove(0);
-    let mattes: Vec<&Image> = mattes.iter().collect();
-    let mattes_before: Vec<&Image> = mattes_before.iter().collect();
-    let mattes = match wide {
-        Some(wide) => run(wide, &mattes, &mattes_before)?,
-        None => run(runner, &mattes, &mattes_before)?,
-    };
+    let color = filtered.run(
+        &mut runners.color,
+        &[&source.color],
+        &[&source_before.color],
+    )?;
+    let [mattes, mattes_before] =
+        [source, source_before].map(|source| pack_planes(&source.coverage));
+    let [mattes, mattes_before]: [Vec<&Image>; 2] =
+        [&mattes, &mattes_before].map(|mattes| mattes.iter().collect());
+    let mattes = filtered.run(runners.wide(), &mattes, &mattes_before)?;
     Ok(Picture {
-        color,
-        coverage: unpack_planes(&mattes, source.coverage.len()),
+        color: upscale_all(color, picture).remove(0),
+        coverage: unpack_planes(&upscale_all(mattes, picture), source.coverage.len()),
     })
 }
 
@@ -151,15 +192,15 @@ pub(crate) fn blur_noise_frames(
     runner: &mut Runner,
     frame: &FilterFrame,
     frames: u32,
-    picture: [u32; 2],
+    picture: Size,
 ) -> Result<Option<Vec<Image>>, FilterError> {
     let outputs = runner.run_noise(&filter_input(frame, &[&frame.color]), 0..frames)?;
     Ok(outputs.map(|outputs| upscale_all(crop_all(outputs, frame.guard_band), picture)))
 }
 
 /// Upscales smaller outputs.
-fn upscale_all(outputs: Vec<Image>, picture: [u32; 2]) -> Vec<Image> {
-    let is_whole = |output: &Image| [output.width, output.height] == picture;
+fn upscale_all(outputs: Vec<Image>, picture: Size) -> Vec<Image> {
+    let is_whole = |output: &Image| output.size() == picture;
     if outputs.iter().all(is_whole) {
         outputs
     } else {

@@ -9,6 +9,7 @@ use crate::{
 use filters::Gpu;
 use frame::{Alignment, Frame};
 
+use super::attempt::Attempt;
 use super::pictures::{PARTS_FILE, write_frame, write_truth};
 use super::plan::RunPlan;
 use super::planned_case::PlannedCase;
@@ -51,14 +52,20 @@ impl<'a> SceneContext<'a> {
     }
 }
 
+/// Cases of a scene, in the order of the plan.
+pub struct SceneCases {
+    /// Cases with scores.
+    pub cases: Vec<Case>,
+    /// Cases whose filter made no measurable picture.
+    pub failures: Vec<Failure>,
+    /// How many of the cases were read back.
+    pub read_back: usize,
+}
+
 impl SceneContext<'_> {
-    /// Returns each alignment's reference pictures, then one case per filter preset and input form;
-    /// a failure if a filter made no measurable picture. Also counts the cases that were read back.
+    /// Measures each alignment's reference pictures, then one case per filter preset and input form.
     /// `advance` gets the number of finished steps.
-    pub fn measure_cases(
-        &self,
-        advance: &dyn Fn(u64),
-    ) -> Result<(Vec<Result<Case, Failure>>, usize), Error> {
+    pub fn measure_cases(&self, advance: &dyn Fn(u64)) -> Result<SceneCases, Error> {
         if self.plan.no_cache {
             clear_scene(&self.folder())?;
         }
@@ -68,10 +75,11 @@ impl SceneContext<'_> {
             .collect();
         let read_back = stored_cases.iter().flatten().count();
         if read_back == stored_cases.len() && self.has_its_files() {
-            return Ok((
-                stored_cases.into_iter().flatten().map(Ok).collect(),
+            return Ok(SceneCases {
+                cases: stored_cases.into_iter().flatten().collect(),
+                failures: Vec::new(),
                 read_back,
-            ));
+            });
         }
         let truths = self.plan.alignments().len();
         (self.scene).check(&self.plan.render, self.plan.measured(self.scene, truths))?;
@@ -83,14 +91,22 @@ impl SceneContext<'_> {
         advance(self.render_steps());
         let measured = monitor.watch(&label, |watch| self.measure(&missing, &frame, watch))?;
         let mut measured = measured.into_iter();
-        let mut cases = Vec::new();
+        let (mut cases, mut failures) = (Vec::new(), Vec::new());
         for stored in stored_cases {
-            cases.push(match stored {
-                Some(case) => Ok(case),
+            let attempt = match stored {
+                Some(case) => Attempt::Measured(Box::new(case)),
                 None => measured.next().expect("every missing case was tried"),
-            });
+            };
+            match attempt {
+                Attempt::Measured(case) => cases.push(*case),
+                Attempt::Failed(failure) => failures.push(failure),
+            }
         }
-        Ok((cases, read_back))
+        Ok(SceneCases {
+            cases,
+            failures,
+            read_back,
+        })
     }
 
     /// Renders the scene's frame and one truth per alignment that a filter of the plan declares,

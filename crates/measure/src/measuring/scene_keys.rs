@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 
 use crate::{RenderFile, SHARP, hash_inputs};
 use frame::Alignment;
+use scene::SceneId;
+use serde::Serialize;
 use tracer::RenderSettings;
 
 use crate::render::run_scene::RunScene;
@@ -19,6 +21,38 @@ pub(crate) struct SceneKeys {
     truths: BTreeMap<Alignment, [String; 2]>,
 }
 
+/// What all pictures and scores of a scene depend on.
+#[derive(Serialize)]
+struct SceneInputs<'a> {
+    program: &'a str,
+    scene: &'a SceneId,
+    description: String,
+}
+
+/// What the frame and its pictures depend on.
+#[derive(Serialize)]
+struct FrameInputs<'a> {
+    scene: &'a str,
+    frame: &'a str,
+}
+
+/// What a truth, its ladder and its pictures depend on.
+#[derive(Serialize)]
+struct TruthInputs<'a> {
+    scene: &'a str,
+    truth: &'a [String; 2],
+}
+
+/// What the scores of a case depend on.
+#[derive(Serialize)]
+struct CaseInputs<'a> {
+    scene: &'a str,
+    frame: &'a str,
+    truths: [&'a [String; 2]; 2],
+    has_ladder: bool,
+    case: &'a str,
+}
+
 impl SceneKeys {
     /// Computes the hashes from the scene and the settings; reads no file.
     pub fn new(
@@ -29,7 +63,11 @@ impl SceneKeys {
     ) -> Self {
         let hash = |file| scene.content_hash(file, settings);
         Self {
-            scene: hash_inputs(&(program, scene.id(), scene.description_hash())),
+            scene: hash_inputs(&SceneInputs {
+                program,
+                scene: scene.id(),
+                description: scene.description_hash(),
+            }),
             frame: hash(RenderFile::Frame),
             truths: (alignments.into_iter())
                 .map(|alignment| {
@@ -42,18 +80,29 @@ impl SceneKeys {
 
     /// Returns the hash for the frame and its pictures.
     pub fn frame(&self) -> String {
-        hash_inputs(&(&self.scene, &self.frame))
+        hash_inputs(&FrameInputs {
+            scene: &self.scene,
+            frame: &self.frame,
+        })
     }
 
     /// Returns the hash for a truth, its ladder and its pictures.
     pub fn truth(&self, alignment: Alignment) -> String {
-        hash_inputs(&(&self.scene, &self.truths[&alignment]))
+        hash_inputs(&TruthInputs {
+            scene: &self.scene,
+            truth: &self.truths[&alignment],
+        })
     }
 
-    /// Returns the hash for a case with its own inputs, measured against its own truth and the
-    /// common one, with their ladders or without.
-    pub fn case(&self, inputs: &str, alignments: [Alignment; 2], has_ladder: bool) -> String {
-        let truths = alignments.map(|alignment| &self.truths[&alignment]);
-        hash_inputs(&(&self.scene, &self.frame, truths, has_ladder, inputs))
+    /// Returns the hash for a case with the hash of its own inputs, measured against its own truth
+    /// and the common one, with their ladders or without.
+    pub fn case(&self, case: &str, alignments: [Alignment; 2], has_ladder: bool) -> String {
+        hash_inputs(&CaseInputs {
+            scene: &self.scene,
+            frame: &self.frame,
+            truths: alignments.map(|alignment| &self.truths[&alignment]),
+            has_ladder,
+            case,
+        })
     }
 }

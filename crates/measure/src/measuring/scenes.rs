@@ -6,6 +6,7 @@ use tracer::{Progress, Watch};
 use super::frames::{count_frames, visit_frames};
 use super::measured_filters::copy_filters;
 use super::plan::RunPlan;
+use super::scene::SceneCases;
 use super::sequence::measure_sequences;
 use crate::Error;
 use crate::run::Run;
@@ -58,16 +59,14 @@ fn measure_all(
             });
         };
         advance(0);
-        let (measured, read_back) = scene.measure_cases(&advance)?;
+        let SceneCases {
+            cases,
+            failures,
+            read_back,
+        } = scene.measure_cases(&advance)?;
         number += 1;
         run.read_back += read_back;
-        let mut cases = Vec::new();
-        for case in measured {
-            match case {
-                Ok(case) => cases.push(case),
-                Err(failure) => run.failures.push(failure),
-            }
-        }
+        run.failures.extend(failures);
         let frame = scene.scene.id().frame;
         if frame == 0 {
             run.cases.extend_from_slice(&cases);

@@ -1,11 +1,13 @@
 //! Scores of sequences, from the pictures of the frames' cases.
 
+use scene::Scene;
+
 use crate::{Error, RenderFile, RenderPath};
 use frame::{
     Alignment, Image, Truth, read_exr, read_png, tile_pictures, write_animated_png, write_png,
 };
 use metrics::{Instant, SequenceReference, SequenceScores};
-use tracer::{PointLayers, Scene};
+use tracer::PointLayers;
 
 use super::pictures::{PARTS_FILE, part_layer};
 use super::plan::RunPlan;

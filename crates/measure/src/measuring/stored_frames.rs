@@ -1,7 +1,7 @@
 //! The frame in the forms that filters get, and the previous frame for filters that read it.
 
 use frame::{Frame, Picture};
-use tracer::Scene;
+use scene::Scene;
 
 use super::plan::RunPlan;
 use crate::Error;
@@ -29,7 +29,8 @@ pub(super) fn store_frames(
     plan: &RunPlan,
     scene: RunScene,
     formats: &[InputFormat],
-    (frame, replicates): (&Frame, &[Picture]),
+    frame: &Frame,
+    replicates: &[Picture],
 ) -> Result<Vec<StoredFrame>, Error> {
     let whole = read_further_velocities(plan, scene)?;
     if let Some(whole) = whole.as_ref().filter(|_| scene.id().frame == 0) {

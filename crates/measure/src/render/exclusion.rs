@@ -5,7 +5,7 @@ use std::path::Path;
 
 use filters::EXCLUSION;
 use frame::{ExrFile, FileError, Frame, Plane, read_exr, write_exr};
-use tracer::{Parent, Scene};
+use scene::{Parent, Scene};
 
 /// Name of the mask's file in the folder of a scene.
 pub const EXCLUSION_FILE: &str = "exclusion.exr";
@@ -58,6 +58,6 @@ pub fn read_exclusion(frame: &Frame, folder: &Path) -> Result<Option<Plane>, Fil
     }
     let file = read_exr(&path)?;
     let hash: String = file.get("content_hash")?;
-    let is_own = hash == frame.provenance.content_hash && (file.width, file.height) == frame.size();
+    let is_own = hash == frame.provenance.content_hash && file.size() == frame.size();
     is_own.then(|| file.plane(EXCLUSION)).transpose()
 }

@@ -5,11 +5,13 @@
 
 use std::path::{Path, PathBuf};
 
+use scene::SceneId;
+
 use crate::{Error, FilterChoice, RenderFile, hash_inputs, put, read_record, read_text};
-use filters::EXCLUSION;
-use frame::{Alignment, Frame, Picture, Plane, read_exr};
+use filters::{EXCLUSION, Layer};
+use frame::{Alignment, Frame, Picture, Plane, Size, read_exr};
 use serde::{Deserialize, Serialize};
-use tracer::{RenderSettings, SceneId};
+use tracer::RenderSettings;
 
 use super::exclusion::EXCLUSION_FILE;
 
@@ -36,8 +38,8 @@ pub struct IngestedScene {
     pub engine: String,
     /// Scene of the suite that the engine drew.
     pub scene: Option<SceneId>,
-    /// Columns and rows of all pictures.
-    pub size: [u32; 2],
+    /// Size of all pictures.
+    pub size: Size,
     /// Time that the shutter is open, in frames.
     pub exposure: f64,
     /// Alignment of the shutter.
@@ -59,6 +61,13 @@ pub struct IngestedScene {
     /// The folder.
     #[serde(skip)]
     pub folder: PathBuf,
+}
+
+/// What a case or a picture takes from an ingested scene, wherever its folder is.
+#[derive(Serialize)]
+struct DrawnDescription<'a> {
+    capture: &'a str,
+    scene: &'a IngestedScene,
 }
 
 /// Engine that drew a frame and a truth, as a case names it.
@@ -152,7 +161,8 @@ impl IngestedScene {
             ));
         }
         let is_there = |name: &&str| self.further_inputs.iter().any(|input| input == name);
-        let mut further = choice.filter.further_inputs().into_iter();
+        let further = choice.filter.further_inputs().into_iter();
+        let mut further = further.map(Layer::name);
         let lacking = if choice.filter.reads_camera(&choice.settings) {
             "the camera"
         } else {
@@ -189,9 +199,9 @@ impl IngestedScene {
 
     /// Hashes the description, wherever the folder is.
     pub(crate) fn description_hash(&self) -> String {
-        hash_inputs(&Self {
-            folder: PathBuf::new(),
-            ..self.clone()
+        hash_inputs(&DrawnDescription {
+            capture: &self.hash,
+            scene: self,
         })
     }
 
@@ -223,16 +233,15 @@ impl IngestedScene {
     }
 
     /// Refuses a run with pictures of another size.
-    pub fn check_size(&self, (width, height): (u32, u32)) -> Result<(), Error> {
-        if self.size == [width, height] {
+    pub fn check_size(&self, size: Size) -> Result<(), Error> {
+        if self.size == size {
             Ok(())
         } else {
             Err(Error::Refused(format!(
-                "{}: was drawn at {}x{} pixels, and the pictures of this run are to have {width}x{height}; scenes of one run \
+                "{}: was drawn at {} pixels, and the pictures of this run are to have {size}; scenes of one run \
                  have one size: run it apart, or at its own size",
                 self.folder.display(),
-                self.size[0],
-                self.size[1]
+                self.size
             )))
         }
     }

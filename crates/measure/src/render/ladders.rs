@@ -10,17 +10,6 @@ use tracer::LadderTracer;
 
 use super::rendering::Rendering;
 
-/// Lists the rungs that measuring against a truth needs: all if ladders are requested. Otherwise
-/// only the sharp picture of the shutter's middle, the zero of skill, unless that is the frame
-/// itself.
-pub(crate) fn needed_rungs(alignment: Alignment, ladders: bool) -> &'static [u32] {
-    match (ladders, alignment) {
-        (true, _) => &LADDER,
-        (false, Alignment::Centred) => &[],
-        (false, _) => &LADDER[..1],
-    }
-}
-
 /// Returns the sharp picture of the middle of a truth's shutter: the frame if that is its instant,
 /// or else the rung [`SHARP`] from `read`. `frame` has no guard band.
 pub fn sharp_picture<E>(

@@ -2,7 +2,8 @@
 
 use std::fs;
 
-use tracer::{RenderSettings, Scene};
+use scene::Scene;
+use tracer::RenderSettings;
 
 use crate::Error;
 

@@ -2,13 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
+use scene::Scene;
+
 use crate::{Error, Monitor, RenderFile, refuse_scene};
-use filters::{EXCLUSION, Filter};
+use filters::{EXCLUSION, Filter, Layer};
 use frame::{
     Alignment, Frame, Picture, Plane, Provenance, TracedFrame, read_attribute,
     read_frame_replicates, write_small_exr,
 };
-use tracer::{PixelGrid, RenderSettings, Scene};
+use tracer::{PixelGrid, RenderSettings};
 
 use super::exclusion::{FilterFrame, draw_exclusion};
 use super::ingested_scene::refuse_file;
@@ -94,7 +96,7 @@ impl<'a> Rendering<'a> {
         } else {
             self.frame()?
         };
-        let reads = filter.further_inputs().contains(&EXCLUSION);
+        let reads = filter.further_inputs().contains(&Layer::Exclusion);
         let exclusion = if reads { self.exclusion(&frame)? } else { None };
         Ok(FilterFrame { frame, exclusion })
     }

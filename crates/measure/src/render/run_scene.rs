@@ -3,13 +3,26 @@
 
 use std::path::{Path, PathBuf};
 
+use scene::{Family, Scene, SceneId};
+
 use crate::{Error, LADDER, RenderFile, hash_inputs};
-use frame::Alignment;
-use tracer::{Family, RenderSettings, Scene, SceneId};
+use frame::{Alignment, Display};
+use serde::Serialize;
+use tracer::RenderSettings;
 
 use super::ingested_scene::{Drawn, IngestedScene};
-use super::ladders::needed_rungs;
 use super::memory::{Measured, bound_memory, count_measured, refuse_beyond_free};
+
+/// Lists the rungs that measuring against a truth needs: all if ladders are requested. Otherwise
+/// only the sharp picture of the shutter's middle, the zero of skill, unless that is the frame
+/// itself.
+pub(crate) fn needed_rungs(alignment: Alignment, ladders: bool) -> &'static [u32] {
+    match (ladders, alignment) {
+        (true, _) => &LADDER,
+        (false, Alignment::Centred) => &[],
+        (false, _) => &LADDER[..1],
+    }
+}
 
 /// A scene of a run.
 #[derive(Clone, Copy, Debug)]
@@ -18,6 +31,14 @@ pub enum RunScene<'a> {
     Traced(&'a Scene),
     /// Frame and truth are copied from the folder that `ingest` wrote.
     Ingested(&'a IngestedScene),
+}
+
+/// What a case or a picture takes from a scene that rays are traced in.
+#[derive(Serialize)]
+struct TracedDescription<'a> {
+    exposes: &'a str,
+    family: Family,
+    display: &'a Display,
 }
 
 impl<'a> From<&'a Scene> for RunScene<'a> {
@@ -130,7 +151,11 @@ impl<'a> RunScene<'a> {
     /// Hashes what a case or a picture takes from the scene itself.
     pub(crate) fn description_hash(self) -> String {
         match self {
-            Self::Traced(scene) => hash_inputs(&(&scene.exposes, scene.family, &scene.display)),
+            Self::Traced(scene) => hash_inputs(&TracedDescription {
+                exposes: &scene.exposes,
+                family: scene.family,
+                display: &scene.display,
+            }),
             Self::Ingested(scene) => scene.description_hash(),
         }
     }

@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use frame::Frame;
+use frame::{Frame, Size};
 use tracer::RenderSettings;
 
 /// Allowed numbers of columns and rows of a picture.
@@ -30,7 +30,7 @@ pub fn list_settings(settings: &RenderSettings) -> [(&'static str, String); 8] {
 
 /// Reads the settings of a frame that was rendered here.
 pub(crate) fn settings_of(frame: &Frame) -> RenderSettings {
-    let (width, height) = frame.size();
+    let Size { width, height } = frame.size();
     let band = frame.guard_band;
     RenderSettings {
         width: width - 2 * band,

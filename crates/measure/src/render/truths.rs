@@ -31,7 +31,8 @@ impl<'a> Rendering<'a> {
     pub fn truths_until(
         mut self,
         alignments: &[Alignment],
-        (target, most): (f64, u32),
+        target: f64,
+        most: u32,
         mut ended: impl FnMut(&Truth, bool) -> Result<(), Error>,
     ) -> Result<(), Error> {
         let mut open = alignments.to_vec();

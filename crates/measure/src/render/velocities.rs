@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
-use frame::{ExrFile, FileError, Frame, read_exr, write_exr};
-use tracer::{PixelGrid, RenderSettings, Scene, trace_further_velocities};
+use frame::{ExrFile, FileError, Frame, Size, read_exr, write_exr};
+use scene::Scene;
+use tracer::{PixelGrid, RenderSettings, trace_further_velocities};
 
 use crate::Error;
 
@@ -32,7 +33,7 @@ const FILE: &str = "further_velocities.exr";
 /// Writes the velocities of a frame that has them, so that a page can show what filters got. The
 /// frame's own file stays without them, since runs of other filters share it.
 pub(crate) fn write_further_velocities(frame: &Frame, folder: &Path) -> Result<(), FileError> {
-    let (width, height) = frame.size();
+    let Size { width, height } = frame.size();
     let mut file = ExrFile::new(width, height);
     if let (Some(next), Some(z)) = (&frame.velocity_next, &frame.velocity_z) {
         file.push_vectors("velocity_next", next);
@@ -52,7 +53,7 @@ pub fn read_further_velocities(frame: &mut Frame, folder: &Path) -> Result<(), F
     }
     let file = read_exr(&path)?;
     let hash: String = file.get("content_hash")?;
-    if hash == frame.provenance.content_hash && (file.width, file.height) == frame.size() {
+    if hash == frame.provenance.content_hash && file.size() == frame.size() {
         frame.velocity_next = Some(file.vectors("velocity_next")?);
         frame.velocity_z = Some(file.plane("velocity_z")?);
     }

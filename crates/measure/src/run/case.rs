@@ -4,12 +4,13 @@ use std::collections::BTreeMap;
 use std::ops::Deref;
 use std::path::{Path, PathBuf};
 
+use scene::{Family, FrameRate};
+
 use crate::{RenderFile, SHARP};
 use filters::{Convention, Value};
 use frame::{FileError, Frame, Truth};
 use metrics::{ImageScores, Interval, Jitter, Metric, Scores};
 use serde::{Deserialize, Serialize};
-use tracer::{Family, FrameRate};
 
 use crate::identity::{CaseId, ReferencePicture};
 use crate::render::ingested_scene::Drawn;

@@ -3,7 +3,7 @@
 use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
 
-use frame::{Display, ExrFile, Frame, Image, Picture, Plane, Truth, read_exr};
+use frame::{Display, ExrFile, Frame, Image, Picture, Plane, Size, Truth, read_exr};
 use half::f16;
 use metrics::{ErrorMap, Measurement, Reference, flip_ldr};
 
@@ -45,9 +45,9 @@ impl<'a> ErrorMaps<'a> {
         })
     }
 
-    /// Returns pixels per row and rows.
-    pub fn size(&self) -> (u32, u32) {
-        (self.file.width, self.file.height)
+    /// Returns the size of the maps.
+    pub fn size(&self) -> Size {
+        self.file.size()
     }
 
     /// Makes the map of FLIP from the picture and its truth, as halves like those of the file.

@@ -1,8 +1,8 @@
 //! Cases without scores: their filter made no measurable picture.
 
 use frame::Alignment;
+use scene::SceneId;
 use serde::{Deserialize, Serialize};
-use tracer::SceneId;
 
 use crate::Error;
 use crate::identity::FilterId;

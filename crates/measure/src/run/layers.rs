@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use frame::{ExrFile, Frame, Truth, read_exr, write_exr};
+use frame::{ExrFile, Frame, Size, Truth, read_exr, write_exr};
 use metrics::ErrorMap;
 use tracer::{Progress, TraceError, Watch};
 
@@ -59,21 +59,20 @@ fn collect_layers(
     let case_folder = folder.join(&case.folder);
     let output = read_exr(&case_folder.join("output.exr"))?;
     let errors = ErrorMaps::read(case, folder)?;
-    let (width, height) = truth.size();
     let sizes = [
         ("frame.exr", frame.size()),
-        ("output.exr", (output.width, output.height)),
+        ("output.exr", output.size()),
         ("errors.exr", errors.size()),
     ];
-    if let Some((name, size)) = sizes.iter().find(|(_, size)| *size != (width, height)) {
+    if let Some((name, size)) = sizes.iter().find(|(_, size)| *size != truth.size()) {
         return Err(Error::Refused(format!(
-            "{}: {name} has {}x{} pixels, the truth {width}x{height}; run the case again",
+            "{}: {name} has {size} pixels, the truth {}; run the case again",
             case_folder.display(),
-            size.0,
-            size.1
+            truth.size()
         )));
     }
     let mean = truth.mean();
+    let Size { width, height } = truth.size();
     let mut file = ExrFile::new(width, height);
     file.push_color("truth", &mean.color);
     let color = output.color("")?;

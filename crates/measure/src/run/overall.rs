@@ -3,8 +3,8 @@
 use std::ops::Deref;
 
 use metrics::Metric;
+use scene::FrameRate;
 use serde::{Deserialize, Serialize};
-use tracer::FrameRate;
 
 use crate::identity::FilterId;
 

@@ -5,8 +5,8 @@ use std::ops::Deref;
 use std::path::PathBuf;
 
 use metrics::{Metric, SequenceMeasurement, SequenceScores};
+use scene::SceneId;
 use serde::{Deserialize, Serialize};
-use tracer::SceneId;
 
 use super::case::Intervals;
 use crate::identity::{CaseId, FilterId};
@@ -99,7 +99,7 @@ impl Frames {
     /// for a scene at its file's rate.
     pub fn shown(&self, scene: &SceneId) -> f64 {
         let rate = scene.rate.unwrap_or_default();
-        if rate.per_second == tracer::FrameRate::WRITTEN.per_second {
+        if rate.per_second == scene::FrameRate::WRITTEN.per_second {
             self.per_second
         } else {
             rate.per_second

@@ -50,24 +50,18 @@ pub fn read_finished_picture(
         }
     };
     let band = frame.guard_band;
-    let size = (finished.color.width, finished.color.height);
+    let size = finished.color.size();
     if size == truth.size() {
         Ok(finished)
     } else if band > 0 && size == frame.size() {
         Ok(finished.cropped(band))
     } else {
-        let (width, height) = truth.size();
         let reason = format!(
-            "has {}x{} pixels, the truth has {width}x{height}{}",
-            size.0,
-            size.1,
+            "has {size} pixels, the truth has {}{}",
+            truth.size(),
             match band {
                 0 => String::new(),
-                _ => format!(
-                    ", and the frame with its guard band {}x{}",
-                    frame.size().0,
-                    frame.size().1
-                ),
+                _ => format!(", and the frame with its guard band {}", frame.size()),
             }
         );
         refuse(path, &reason)

@@ -2,9 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use frame::{Frame, Image, Truth};
+use frame::{Frame, Image, Size, Truth};
 use metrics::{Instant, SequenceMeasurement, SequenceReference};
-use tracer::{RenderSettings, Scene, truth_hash};
+use scene::Scene;
+use tracer::{RenderSettings, truth_hash};
 
 use crate::Error;
 use crate::measuring::points_of_frame::{make_instant, trace_points};
@@ -55,7 +56,7 @@ pub fn score_sequence(
 
 /// Returns a truth's render settings, as stated in its files.
 fn settings_of(frame_truth: &SequenceTruth) -> RenderSettings {
-    let (width, height) = frame_truth.truth.size();
+    let Size { width, height } = frame_truth.truth.size();
     let provenance = &frame_truth.truth.provenance;
     RenderSettings {
         width,

@@ -25,7 +25,7 @@ pub fn intervals(
     (metrics.into_iter())
         .filter_map(|metric| {
             let interval = match metric {
-                Metric::Object(object) => worst_interval(whole, parts, (metric, object), true),
+                Metric::Object(object) => worst_interval(whole, parts, metric, object, true),
                 Metric::Image(ImageMetric::Psnr, region) => {
                     let error = Metric::Image(ImageMetric::Mse, region);
                     let parts = parts.iter().map(|scores| scores.get(error).value());
@@ -42,7 +42,7 @@ pub fn intervals(
                 }
                 Metric::OccluderContamination => {
                     let object = ObjectMetric::LabelTotalVariation;
-                    worst_interval(whole, parts, (metric, object), false)
+                    worst_interval(whole, parts, metric, object, false)
                 }
                 Metric::Equivalent(count) => match whole.equivalent_subframes.get(count) {
                     Equivalent::Subframes(count) => Some(count.interval(LADDER_ENDS)),
@@ -185,7 +185,8 @@ fn psnr_interval(
 fn worst_interval(
     whole: &Scores,
     parts: &[Scores],
-    (metric, object): (Metric, ObjectMetric),
+    metric: Metric,
+    object: ObjectMetric,
     moves: bool,
 ) -> Option<Interval> {
     let ideal = metric.ideal();

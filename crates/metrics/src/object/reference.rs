@@ -74,8 +74,10 @@ struct MassScores {
 impl ObjectReference {
     /// Prepares object `id` of a truth and its frame. `noise` are the errors of the first half.
     pub fn new(
-        (frame, truth): (&Frame, &Truth),
-        (mean, noise): (&Picture, &ErrorMaps),
+        frame: &Frame,
+        truth: &Truth,
+        mean: &Picture,
+        noise: &ErrorMaps,
         regions: &Regions,
         id: usize,
     ) -> Self {

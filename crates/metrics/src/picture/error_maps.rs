@@ -45,7 +45,8 @@ impl ErrorMaps {
     /// Maps the errors of `output`, also given as `displayed`, against the truth's mean; squared
     /// errors against `halves`.
     pub fn new(
-        (output, displayed): (&Picture, &Displayed),
+        output: &Picture,
+        displayed: &Displayed,
         halves: [&Image; 2],
         mean: &Picture,
         seen: &SeenTruth,

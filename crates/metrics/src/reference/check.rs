@@ -73,10 +73,9 @@ pub fn check_rung(rung: &Accumulation, truth: &Truth, what: &str) -> Result<(), 
 
 /// Refuses a truth that is too large, and a frame of another scene or shutter than the truth's.
 pub fn check_agreement(frame: &Frame, truth: &Truth) -> Result<(), MeasureError> {
-    let (width, height) = truth.size();
-    if u64::from(width) * u64::from(height) > LARGEST_PICTURE {
+    if truth.size().pixels() > LARGEST_PICTURE {
         return Err(MeasureError::TooLarge {
-            truth: (width, height),
+            truth: truth.size(),
             limit: LARGEST_PICTURE,
         });
     }
@@ -152,7 +151,7 @@ fn agree<T: std::fmt::Debug + PartialEq>(
 }
 
 fn check_size<T>(raster: &Raster<T>, truth: &Truth, what: &str) -> Result<(), MeasureError> {
-    let (found, truth) = ((raster.width, raster.height), truth.size());
+    let (found, truth) = (raster.size(), truth.size());
     if found == truth {
         Ok(())
     } else {

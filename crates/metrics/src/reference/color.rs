@@ -51,10 +51,12 @@ impl ColorReference {
     pub fn measure(&self, output: &Picture) -> Result<ImageScores, MeasureError> {
         check_brightness(output, &self.viewing, "the output")?;
         let displayed = Displayed::new(&output.color, &self.viewing);
-        let truth = (self.halves.each_ref(), &self.mean.color);
-        let halves = halves_for(&output.color, (&self.instant, &self.shared), truth);
+        let halves = self.halves.each_ref();
+        let mean = &self.mean.color;
+        let halves = halves_for(&output.color, &self.instant, &self.shared, halves, mean);
         let errors = ErrorMaps::new(
-            (output, &displayed),
+            output,
+            &displayed,
             halves.each_ref(),
             &self.mean,
             &self.seen,

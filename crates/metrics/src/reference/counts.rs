@@ -71,7 +71,7 @@ impl Reference<'_> {
         if let Some((own, noise)) = measured_errors(scores)
             && !self.curves.is_empty()
         {
-            let found = self.count_all((&own, &noise), &without);
+            let found = self.count_all(&own, &noise, &without);
             for metric in EquivalentMetric::ALL {
                 if let Equivalent::Subframes(_) = counts.get(metric) {
                     *counts.get_mut(metric) = found.get(metric).clone();
@@ -84,10 +84,11 @@ impl Reference<'_> {
     /// Counts by every kind of error.
     fn count_all(
         &self,
-        (own, noise): (&Errors, &Errors),
+        errors: &Errors,
+        noise: &Errors,
         without: &[(Errors, &Curves)],
     ) -> EquivalentScores {
-        let count = |kind| equivalent(kind, (own, &self.curves), noise, without);
+        let count = |kind| equivalent(kind, errors, &self.curves, noise, without);
         EquivalentScores {
             mse: count(ErrorKind::Mse),
             flip: count(ErrorKind::Flip),
@@ -107,7 +108,7 @@ impl Reference<'_> {
         match moving {
             Ok((own, noise)) => {
                 let [own, noise] = [*own, *noise].each_ref().map(Errors::from);
-                self.count_all((&own, &noise), &[])
+                self.count_all(&own, &noise, &[])
             }
             Err(reason) => missing(reason),
         }

@@ -45,7 +45,8 @@ impl FrozenReference {
     /// that error, too.
     pub fn measure(
         &self,
-        (output, displayed): (&Image, &Displayed),
+        output: &Image,
+        displayed: &Displayed,
         halves: [&Image; 2],
         regions: &Regions,
         viewing: &Viewing,

@@ -12,7 +12,7 @@ mod shared_noise;
 mod sharp;
 mod still;
 
-use frame::{Frame, Image, Ladder, Picture, Plane, Raster, Truth, regions};
+use frame::{Frame, Image, Ladder, Picture, Plane, Raster, Size, Truth, regions};
 use rayon::prelude::*;
 
 use crate::color::flip::Displayed;
@@ -91,7 +91,7 @@ impl<'a> Reference<'a> {
         let seen = SeenTruth::new(&mean.color, halves, viewing);
         let half = &truth.halves[0];
         let displayed = Displayed::new(&half.color, viewing);
-        let noise = ErrorMaps::new((half, &displayed), [&mean.color; 2], &mean, &seen);
+        let noise = ErrorMaps::new(half, &displayed, [&mean.color; 2], &mean, &seen);
         let at_instant = truth.at_instant_mean();
         let frozen = at_instant.frozen(&mean.color);
         let mut reference = Self {
@@ -103,7 +103,7 @@ impl<'a> Reference<'a> {
             origins: OriginReference::new(truth, &at_instant, &masks),
             objects: (1..truth.objects.len())
                 .into_par_iter()
-                .map(|id| ObjectReference::new((frame, truth), (&mean, &noise), &masks, id))
+                .map(|id| ObjectReference::new(frame, truth, &mean, &noise, &masks, id))
                 .collect(),
             curves: Curves::default(),
             regions: masks,
@@ -145,7 +145,8 @@ impl<'a> Reference<'a> {
         let errors = self.map_errors(output, &displayed, halves);
         let (objects, [bleed, gradient_error]) = self.measure_objects(output, &errors);
         let (frozen, frozen_squared) = self.frozen.measure(
-            (&output.color, &displayed),
+            &output.color,
+            &displayed,
             frozen_halves,
             &self.regions,
             &self.viewing,
@@ -245,8 +246,14 @@ impl<'a> Reference<'a> {
     /// Returns the halves of the truth for the squared error of a picture that was made from the
     /// frame: see [`halves_for`].
     fn halves_for(&self, output: &Image) -> [Image; 2] {
-        let truth = (self.half_colors(), &self.mean.color);
-        halves_for(output, (&self.instant, &self.shared), truth)
+        let halves = self.half_colors();
+        halves_for(
+            output,
+            &self.instant,
+            &self.shared,
+            halves,
+            &self.mean.color,
+        )
     }
 
     fn display(&self, picture: &Picture) -> Displayed {
@@ -259,12 +266,12 @@ impl<'a> Reference<'a> {
         displayed: &Displayed,
         halves: [&Image; 2],
     ) -> ErrorMaps {
-        ErrorMaps::new((picture, displayed), halves, &self.mean, &self.seen)
+        ErrorMaps::new(picture, displayed, halves, &self.mean, &self.seen)
     }
 }
 
 /// Marks the pixels with their SSIM window in the picture.
-fn mark_whole_windows((width, height): (u32, u32)) -> Raster<bool> {
+fn mark_whole_windows(Size { width, height }: Size) -> Raster<bool> {
     Raster::from_fn(width, height, |x, y| {
         x.min(y) >= SSIM_BORDER && x + SSIM_BORDER < width && y + SSIM_BORDER < height
     })

@@ -36,8 +36,10 @@ pub fn mark_shared(
 /// halves there.
 pub fn halves_for(
     output: &Image,
-    (instant, shared): (&Image, &Raster<bool>),
-    (halves, mean): ([&Image; 2], &Image),
+    instant: &Image,
+    shared: &Raster<bool>,
+    halves: [&Image; 2],
+    mean: &Image,
 ) -> [Image; 2] {
     let is_handed_on = |at: usize| {
         let [value, color] = [output, instant].map(|image| image.pixels[at]);
@@ -69,7 +71,7 @@ mod tests {
         let shared = Raster::from_fn(4, 1, |x, _| x < 3);
         // Left alone, rounded, changed, and left alone where something moves.
         let output = image([1.0, 1.0005, 1.01, 1.0]);
-        let pair = halves_for(&output, (&mean, &shared), ([&a, &b], &mean));
+        let pair = halves_for(&output, &mean, &shared, [&a, &b], &mean);
         assert_eq!(pair[0], image([1.0, 1.0, 0.5, 0.5]));
         assert_eq!(pair[1], image([1.0, 1.0, 1.5, 1.5]));
     }

@@ -174,13 +174,13 @@ impl SequenceReference {
                 allowed: format!("{} frames", self.instants.len()),
             });
         }
-        let size = &self.masks[0];
-        match pictures.iter().position(|picture| !picture.same_size(size)) {
+        let size = self.masks[0].size();
+        match (pictures.iter()).position(|picture| picture.size() != size) {
             None => Ok(()),
             Some(at) => Err(MeasureError::Size {
                 what: format!("the picture of frame {at}"),
-                found: (pictures[at].width, pictures[at].height),
-                truth: (size.width, size.height),
+                found: pictures[at].size(),
+                truth: size,
             }),
         }
     }

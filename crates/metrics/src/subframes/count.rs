@@ -5,7 +5,7 @@ use super::ladder::{Curves, ErrorKind, Errors, Rung};
 use super::{Equivalent, Subframes};
 use crate::jackknife;
 
-/// Counts the accumulated sub-frames with the errors `own`. `without` holds the picture's errors
+/// Counts the accumulated sub-frames with the picture's `errors`. `without` holds the picture's errors
 /// and the rungs' without each group of samples in turn: of the picture's frame, the truth and the
 /// rungs together. `noise` holds the errors that the truth's noise alone makes.
 ///
@@ -18,25 +18,27 @@ use crate::jackknife;
 /// noise. Then counts up to [`Subframes::floor`] are taken as certain and others as open.
 pub fn equivalent(
     kind: ErrorKind,
-    (own, curves): (&Errors, &Curves),
+    errors: &Errors,
+    curves: &Curves,
     noise: &Errors,
     without: &[(Errors, &Curves)],
 ) -> Equivalent {
-    let error = own.square(kind);
-    let difference = |own: &Errors, curves: &Curves, at: usize| {
-        own.square(kind) - curves.rungs[at].noisy.square(kind)
+    let error = errors.square(kind);
+    let difference = |errors: &Errors, curves: &Curves, at: usize| {
+        errors.square(kind) - curves.rungs[at].noisy.square(kind)
     };
     let points: Vec<Point> = (curves.rungs.iter().enumerate())
         .map(|(at, rung)| {
             let others = without.iter();
             let others: Vec<f64> = others
-                .map(|(own, curves)| difference(own, curves, at))
+                .map(|(errors, curves)| difference(errors, curves, at))
                 .collect();
-            let whole = difference(own, curves, at);
+            let whole = difference(errors, curves, at);
             let found = jackknife(whole, &others);
             // The rung's error is the picture's less the difference.
-            let [center, low, high] =
-                found.map_or([whole; 3], |own| [own.center, own.low, own.high]);
+            let [center, low, high] = found.map_or([whole; 3], |interval| {
+                [interval.center, interval.low, interval.high]
+            });
             Point {
                 subframes: f64::from(rung.subframes),
                 error: error - center,
@@ -94,12 +96,13 @@ mod tests {
 
     /// Counts by every kind of error.
     fn list(
-        own: (Errors, &Curves),
+        errors: Errors,
+        curves: &Curves,
         noise: Errors,
         without: &[(Errors, &Curves)],
     ) -> [Subframes; 3] {
         [ErrorKind::Mse, ErrorKind::Flip, ErrorKind::Label].map(|kind| {
-            match equivalent(kind, (&own.0, own.1), &noise, without) {
+            match equivalent(kind, &errors, curves, &noise, without) {
                 Equivalent::Subframes(count) => count,
                 Equivalent::NotApplicable { reason } => panic!("{reason}"),
             }
@@ -116,7 +119,7 @@ mod tests {
             .map(|own| (errors(own), &others))
             .to_vec();
         let own = errors(1.0 / 6.0 + 0.03);
-        for count in list((own, &whole), errors(0.1), &without) {
+        for count in list(own, &whole, errors(0.1), &without) {
             assert!((5.9..6.1).contains(&count.value), "{count:?}");
             assert_eq!((count.floor - 10.0).round(), 0.0, "{count:?}");
             assert_eq!(count.range, LadderRange::Within);
@@ -133,7 +136,7 @@ mod tests {
             .map(|own| (errors(1.0 / 6.0 + 0.04 + own), &whole))
             .to_vec();
         let own = errors(1.0 / 6.0 + 0.03);
-        for count in list((own, &whole), errors(0.001), &without) {
+        for count in list(own, &whole, errors(0.001), &without) {
             assert!((5.9..6.1).contains(&count.value), "{count:?}");
             assert!(count.low.is_some_and(|low| low < 5.0), "{count:?}");
             assert!(count.high.is_none_or(|high| high > 8.0), "{count:?}");
@@ -144,7 +147,7 @@ mod tests {
     fn without_groups_the_floor_bounds_what_is_certain() {
         let whole = curves(0.0);
         for (own, low, high) in [(0.3, 3.3, Some(3.3)), (0.08, 10.0, None)] {
-            for count in list((errors(own), &whole), errors(0.1), &[]) {
+            for count in list(errors(own), &whole, errors(0.1), &[]) {
                 assert!((count.low.unwrap() - low).abs() < 0.2, "{count:?}");
                 assert_eq!(count.high.map(|high| (10.0 * high).round() / 10.0), high);
             }

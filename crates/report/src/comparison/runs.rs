@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use frame::Alignment;
 use maud::{Markup, html};
 use measure::{Case, Run, StoredRun};
-use tracer::SceneId;
+use scene::SceneId;
 
 use crate::run_facts::facts;
 use crate::table::Column::{Plain, Text};

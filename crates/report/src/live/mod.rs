@@ -6,7 +6,8 @@ pub mod scene;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-use filters::{EXCLUSION, Filter, Input};
+use filters::{Filter, Input, Layer};
+use frame::Size;
 use measure::{
     Case, Error, FilterFrame, InputFormat, MEASURED_FILTERS, PROGRAM, Run, filter_input,
 };
@@ -150,11 +151,12 @@ fn describe_case(
     number: usize,
     filter: &Filter,
 ) -> Result<String, String> {
-    let (width, height) = frame.size();
-    let is_missing = |name: &&str| match *name {
-        EXCLUSION => frame.exclusion.is_none(),
-        "velocity_z" => frame.velocity_z.is_none(),
-        _ => frame.velocity_next.is_none(),
+    let Size { width, height } = frame.size();
+    let is_missing = |layer: &Layer| match layer {
+        Layer::Color | Layer::Velocity | Layer::Depth => false,
+        Layer::VelocityNext => frame.velocity_next.is_none(),
+        Layer::VelocityZ => frame.velocity_z.is_none(),
+        Layer::Exclusion => frame.exclusion.is_none(),
     };
     let missing = filter.further_inputs().into_iter().find(is_missing);
     let refused = if width * height > MOST_PIXELS {
@@ -164,7 +166,8 @@ fn describe_case(
         format!("its frame had another form ({change})")
     } else if case.scene.frame > 0 && !filter.history.is_empty() {
         "it needs the frame before".to_owned()
-    } else if let Some(name) = missing {
+    } else if let Some(layer) = missing {
+        let name = layer.name();
         format!("the run's folder does not hold {name}, which the filter reads")
     } else {
         String::new()

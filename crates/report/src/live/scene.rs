@@ -14,7 +14,7 @@ use crate::pixels::scene_files::SceneFiles;
 /// Writes a scene as JSON. Adds the regions of its truths to its planes, as numbers that are 1
 /// where scores are pooled.
 pub fn scene_json(files: &mut SceneFiles) -> String {
-    let ((width, height), (inner_width, inner_height)) = (files.whole.size(), files.frame.size());
+    let (whole, inner) = (files.whole.size(), files.frame.size());
     let band = files.whole.guard_band;
     let [mut truths, mut noises, mut regions] = [(); 3].map(|()| Map::new());
     for (alignment, truth) in &files.truths {
@@ -25,9 +25,9 @@ pub fn scene_json(files: &mut SceneFiles) -> String {
         regions.insert(name, json!(files.planes.add(&moving)));
     }
     let scene = json!({
-        "width": width,
-        "height": height,
-        "crop": { "x": band, "y": band, "width": inner_width, "height": inner_height },
+        "width": whole.width,
+        "height": whole.height,
+        "crop": { "x": band, "y": band, "width": inner.width, "height": inner.height },
         "inputs": list_inputs(&files.whole),
         "stops": files.frame.display.stops,
         "truth": truths,

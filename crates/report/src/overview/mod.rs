@@ -7,8 +7,8 @@ mod winners;
 use judge::{Decision, Level, Verdict, lag_text};
 use maud::{Markup, html};
 use metrics::{Ideal, Metric};
+use scene::SceneId;
 use score_table::ScoreTable;
-use tracer::SceneId;
 use winners::{sequence_winners, winners};
 
 use crate::case::bounds::broken_bounds;

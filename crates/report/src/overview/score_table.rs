@@ -4,7 +4,7 @@ use judge::{Level, list_summarized};
 use maud::{Markup, html};
 use measure::{Case, FilterId, Overall};
 use metrics::{Ideal, Metric};
-use tracer::FrameRate;
+use scene::FrameRate;
 
 use super::cell::{Colors, cell};
 use crate::addition::{FilterColumn, columns};

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use frame::{
-    Alignment, ExrFile, Frame, Image, Picture, Plane, Region, Regions, Truth, read_exr, regions,
+    Alignment, ExrFile, Frame, Image, Picture, Plane, Region, Regions, Size, Truth, read_exr,
+    regions,
 };
 use measure::{
     Case, Error, ErrorMaps, FilterFrame, ReferencePicture, RenderFile, Run, read_exclusion,
@@ -84,12 +85,12 @@ impl SceneFiles {
         let frame_folder = path.parent().unwrap_or(folder);
         read_further_velocities(&mut whole, frame_folder)?;
         let exclusion = read_exclusion(&whole, frame_folder)?;
-        check_size(&path, frame.size(), (run.render.width, run.render.height))?;
+        check_size(&path, frame.size(), run.render.size())?;
         let mut accumulations = BTreeMap::new();
         for case in cases.iter().filter(|case| is_in_profiles(case)) {
             let path = folder.join(&case.folder).join("output.exr");
             let file = read_exr(&path)?;
-            check_size(&path, (file.width, file.height), frame.size())?;
+            check_size(&path, file.size(), frame.size())?;
             let named = (format!("{} sub-frames", case.preset), file.color("")?);
             accumulations.insert(case.alignment, named);
         }
@@ -189,7 +190,7 @@ impl SceneFiles {
         file.expect_finite()?;
         let errors = ErrorMaps::read(case, &self.folder)?;
         let output = file.color("")?;
-        let (pixels, size) = ((output.width, output.height), self.frame.size());
+        let (pixels, size) = (output.size(), self.frame.size());
         check_size(&folder.join("output.exr"), pixels, size)?;
         check_size(&folder.join("errors.exr"), errors.size(), size)?;
         if !self.truths.contains_key(&case.alignment) {
@@ -252,11 +253,10 @@ pub fn find_traced<'a>(run: &'a Run, case: &Case) -> Option<&'a Case> {
 }
 
 /// Refuses a file of another size than the run's pictures.
-fn check_size(path: &Path, size: (u32, u32), expected: (u32, u32)) -> Result<(), Error> {
+fn check_size(path: &Path, size: Size, expected: Size) -> Result<(), Error> {
     if size == expected {
         return Ok(());
     }
-    let [size, expected] = [size, expected].map(|(width, height)| format!("{width}x{height}"));
     Err(Error::Refused(format!(
         "{}: has {size} pixels, the run's pictures have {expected}; run it again",
         path.display()

@@ -5,8 +5,8 @@ use std::path::Path;
 use judge::{Finding, RANKED_BY};
 use maud::{Markup, html};
 use measure::{CHANGE_PICTURE, RenderFile, Run, Sequence, SequenceFrame};
+use scene::SceneId;
 use serde_json::{Value, json};
-use tracer::SceneId;
 
 use super::ranking::ranking_tables;
 use super::scores::score_tables;

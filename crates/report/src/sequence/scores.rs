@@ -5,7 +5,7 @@ use judge::{Finding, RankedSequence, rank_sequences_on};
 use maud::{Markup, html};
 use measure::{Run, Sequence};
 use metrics::{Measured, Metric, SequenceMetric};
-use tracer::SceneId;
+use scene::SceneId;
 
 use super::ranking::metric_table;
 use crate::finding_text::{Status, limit_text};

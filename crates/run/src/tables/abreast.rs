@@ -4,8 +4,8 @@
 use judge::{RankedFilter, list_summarized};
 use measure::{Case, FilterId, InputFormat, ReferencePicture};
 use metrics::Metric;
+use scene::{FrameRate, SceneId};
 use terminal::output::Text;
-use tracer::{FrameRate, SceneId};
 
 use super::{Table, bracket_name, cell, legend_text, list_once, mean_text};
 

@@ -7,7 +7,7 @@ use judge::{
 };
 use measure::Case;
 use metrics::Metric;
-use tracer::FrameRate;
+use scene::FrameRate;
 
 use terminal::output::{Text, push_wrapped};
 

@@ -4,7 +4,7 @@
 use judge::{RANK_RULE, RANKED_BY, RankedSequence, rank_sequences, rank_sequences_on};
 use measure::{Run, Sequence};
 use metrics::{SequenceMetric, SequenceScores};
-use tracer::SceneId;
+use scene::SceneId;
 
 use super::{
     Table, bracket_name, cell, legend_text, list_once, ranked_name, ranking_cells, shutter_text,

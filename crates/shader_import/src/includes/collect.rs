@@ -106,7 +106,7 @@ impl Collector<'_> {
                 ));
             };
             let place = self
-                .find((file, base), path, include.is_module)
+                .find(file, base, path, include.is_module)
                 .map_err(refuse)?;
             let lead = place
                 .as_ref()
@@ -156,7 +156,8 @@ impl Collector<'_> {
     /// module's name may lack its ending.
     fn find(
         &self,
-        (by, base): (&Path, &Path),
+        by: &Path,
+        base: &Path,
         path: &str,
         is_module: bool,
     ) -> Result<Option<PathBuf>, String> {

@@ -2,8 +2,10 @@
 
 use clap::Args;
 use measure::Error;
-use tracer::FrameRate;
-use tracer::limits::{FASTEST_RATE, FASTEST_SHUTTER, SLOWEST_RATE, SLOWEST_SHUTTER};
+use scene::{
+    FrameRate,
+    limits::{FASTEST_RATE, FASTEST_SHUTTER, SLOWEST_RATE, SLOWEST_SHUTTER},
+};
 
 use super::parse_number;
 use crate::selection::{find_twin, split_scene};

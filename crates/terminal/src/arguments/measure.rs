@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use frame::Size;
 
 use super::{InputFormArgs, ProgramArgs, SceneArgs, parse_even, parse_size, within};
 
@@ -36,7 +37,7 @@ pub struct MeasureArgs {
     /// below it, such as out/160x90 [default: 320x180; for `check`, the size that the bounds hold
     /// at].
     #[arg(help_heading = "Scenes and files", long, value_name = "WxH", value_parser = parse_size)]
-    pub size: Option<(u32, u32)>,
+    pub size: Option<Size>,
     /// Independent renders per truth, an even number; each has an eighth of --samples-per-pixel.
     #[arg(
         help_heading = "Scenes and files",

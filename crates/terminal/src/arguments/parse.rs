@@ -4,7 +4,7 @@ use std::num::{ParseFloatError, ParseIntError};
 use std::ops::{Range, RangeBounds};
 
 use clap::builder::{PossibleValue, PossibleValuesParser, RangedU64ValueParser, TypedValueParser};
-use frame::Alignment;
+use frame::{Alignment, Size};
 use measure::{MAX_FRAMES, MAX_REPLICATES, SIDES};
 use tracer::{MAX_SAMPLES, RenderSettings};
 
@@ -112,10 +112,9 @@ pub fn above_zero(most: f64) -> impl Fn(&str) -> Result<f64, String> + Clone {
 }
 
 /// Parses `640x360`.
-pub fn parse_size(text: &str) -> Result<(u32, u32), String> {
-    let side = |text: &str| text.parse().ok().filter(|side| SIDES.contains(side));
-    let sides = text.split_once('x');
-    let size = sides.and_then(|(width, height)| Some((side(width)?, side(height)?)));
+pub fn parse_size(text: &str) -> Result<Size, String> {
+    let is_allowed = |size: &Size| size.sides().iter().all(|side| SIDES.contains(side));
+    let size = text.parse().ok().filter(is_allowed);
     let (least, most) = (SIDES.start(), SIDES.end());
     size.ok_or_else(|| {
         format!("allowed: WIDTHxHEIGHT, each from {least} to {most} pixels, such as 640x360")
@@ -184,7 +183,7 @@ mod tests {
 
     #[test]
     fn values_have_their_form_and_their_range() {
-        assert_eq!(parse_size("640x360"), Ok((640, 360)));
+        assert_eq!(parse_size("640x360"), Ok(Size::new(640, 360)));
         assert_eq!(parse_replicates("16"), Ok(Replicates::All(16)));
         assert_eq!(parse_replicates("3..6"), Ok(Replicates::Part(3..6)));
         assert_eq!(above_zero(1.0)("0.002"), Ok(0.002));

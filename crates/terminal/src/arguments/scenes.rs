@@ -3,9 +3,10 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use frame::{ColorSampling, FrameOptions, VelocityKind};
+use frame::{ColorSampling, FrameOptions, Size, VelocityKind};
 use measure::Error;
-use tracer::{RenderSettings, SceneId};
+use scene::SceneId;
+use tracer::RenderSettings;
 
 use super::{FrameRateArgs, RootArgs, parse_exposure, parse_samples, thread_count};
 use crate::selection::split_scene;
@@ -109,10 +110,8 @@ impl SceneArgs {
     }
 
     /// Makes the settings of renders, for pictures of one size.
-    pub fn render_settings(&self, (width, height): (u32, u32), replicates: u32) -> RenderSettings {
+    pub fn render_settings(&self, size: Size, replicates: u32) -> RenderSettings {
         RenderSettings {
-            width,
-            height,
             exposure: self.exposure,
             options: self.frame_options(),
             guard_band: self.guard_band,
@@ -120,6 +119,7 @@ impl SceneArgs {
             seed: self.seed,
             ..RenderSettings::default()
         }
+        .with_size(size)
         .with_replicates(replicates)
     }
 

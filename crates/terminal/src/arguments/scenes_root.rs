@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use clap::builder::{PathBufValueParser, TypedValueParser};
-use tracer::Location;
+use scene::Location;
 
 /// Default folder of scenes.
 const DEFAULT: &str = "scenes";

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::io::{ErrorKind, IsTerminal, Write};
 
 use measure::{Error, printable, printable_lines};
-use tracer::Scene;
+use scene::Scene;
 
 use super::{Text, wrap_lines};
 

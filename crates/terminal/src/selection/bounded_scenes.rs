@@ -1,8 +1,9 @@
 //! Scenes with their bounds.
 
+use frame::Size;
 use judge::{BoundedScene, SceneBounds, read_bounds, read_bounds_beside_scenes};
 use measure::Error;
-use tracer::{Location, SceneId};
+use scene::{Location, SceneId};
 
 use super::select_scenes;
 use crate::output::print_scene_notes;
@@ -12,7 +13,7 @@ use crate::output::print_scene_notes;
 pub fn load_scenes(
     root: &Location,
     names: &[String],
-    size: Option<(u32, u32)>,
+    size: Option<Size>,
 ) -> Result<Vec<BoundedScene>, Error> {
     let choices = select_scenes(root, names)?;
     print_scene_notes(choices.iter().map(|choice| &choice.scene));
@@ -33,7 +34,7 @@ pub fn read_scene_bounds(
     root: &Location,
     folder: &Location,
     id: &SceneId,
-    size: Option<(u32, u32)>,
+    size: Option<Size>,
 ) -> Result<SceneBounds, Error> {
     if id.seal.is_some() || id.rate.is_some() {
         read_bounds_beside_scenes(root, size)

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use measure::{Error, IngestedScene};
-use tracer::{Location, Scene, SceneId, list_scene, list_scenes, load_scene};
+use scene::{Location, Scene, SceneId, list_scene, list_scenes, load_scene};
 
 use super::names::{is_path, match_names, refuse_empty_names, suggest_names};
 

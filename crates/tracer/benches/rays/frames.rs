@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use frame::{Alignment, Region, Truth};
-use tracer::{Progress, RenderSettings, Scene, TruthTracer, load_scene, trace_frame};
+use scene::{Scene, load_scene};
+use tracer::{Progress, RenderSettings, TruthTracer, trace_frame};
 
 use crate::written_scenes::write_scenes;
 

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 
 use frame::ShutterProfile;
 use glam::{DQuat, DVec3, Vec3};
-use tracer::{
+use scene::{
     Background, Camera, Display, Family, Key, Material, Mesh, Motion, Object, Parent, Scene,
     SceneId, Turn,
 };

@@ -11,7 +11,8 @@ use std::time::{Duration, Instant};
 
 use glam::DVec3;
 use made_scene::{SHUTTER, made_scene};
-use tracer::{Ray, Scene, Stage};
+use scene::Scene;
+use tracer::{Ray, Stage, View};
 
 /// Rays of one turn.
 const RAYS: usize = 1 << 16;
@@ -154,7 +155,7 @@ fn number(index: usize, dimension: usize) -> f64 {
 
 /// Camera rays in rows from left to right, as a renderer takes them, each with a time of its own.
 fn camera_rays(scene: &Scene, [from, to]: [f64; 2]) -> Vec<TimedRay> {
-    let view = scene.camera.view(0.0, scene.width, scene.height);
+    let view = View::new(&scene.camera, 0.0, scene.width, scene.height);
     let columns = 341; // about 16:9
     let rows = RAYS / columns;
     (0..RAYS)

@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use tracer::Mesh;
+use scene::Mesh;
 
 use crate::made_scene::bumpy_sphere;
 

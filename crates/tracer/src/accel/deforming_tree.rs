@@ -1,16 +1,7 @@
 //! The tree of a deforming mesh, in object space.
 
-use crate::accel::build::build_tree;
-use crate::accel::bvh::{Child, Leaves, Tree};
-use crate::accel::collapse::LeafRules;
-use crate::accel::lanes::Lanes;
-use crate::geometry::aabb::Aabb;
-use crate::geometry::ball::Ball;
-use crate::geometry::ray::Ray;
-use crate::geometry::triangle::Crossing;
-use crate::motion::keys::times_within;
-use crate::motion::slices::Slices;
-use crate::scene::Mesh;
+use bvh::{Aabb, Ball, Child, Crossing, Lanes, LeafRules, Leaves, Ray, Slices, Tree, build_tree};
+use scene::{Mesh, times_within};
 
 /// Triangles are tested one by one, each in the time of a visit.
 const LEAF_RULES: LeafRules = LeafRules {
@@ -55,7 +46,7 @@ impl<'a> DeformingTree<'a> {
         sizes.max().unwrap_or(0)
     }
 
-    /// Traverses the mesh at a time; see [`crate::accel::rigid_tree::RigidTree::traverse`].
+    /// Traverses the mesh at a time; see [`bvh::RigidTree::traverse`].
     #[inline(always)]
     pub fn traverse<L: Lanes, const SORTED: bool>(
         &self,

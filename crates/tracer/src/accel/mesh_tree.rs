@@ -1,11 +1,9 @@
 //! The tree of a mesh, rigid or deforming, in object space.
 
+use bvh::{Crossing, Lanes, Ray, RigidTree};
+use scene::Mesh;
+
 use crate::accel::deforming_tree::DeformingTree;
-use crate::accel::lanes::Lanes;
-use crate::accel::rigid_tree::RigidTree;
-use crate::geometry::ray::Ray;
-use crate::geometry::triangle::Crossing;
-use crate::scene::Mesh;
 
 /// A mesh and its trees; shared by every object that shows it.
 pub(crate) enum MeshTree<'a> {
@@ -19,7 +17,7 @@ impl<'a> MeshTree<'a> {
         if mesh.deforms() {
             MeshTree::Deforming(DeformingTree::build(mesh, from, to))
         } else {
-            MeshTree::Rigid(RigidTree::build(mesh))
+            MeshTree::Rigid(RigidTree::build(&mesh.positions, &mesh.triangles))
         }
     }
 

@@ -1,13 +1,6 @@
-//! The bounding volume hierarchies that rays traverse.
+//! The trees of a scene's meshes, and of the scene.
 
-pub(crate) mod binary_tree;
-pub(crate) mod build;
-pub(crate) mod bvh;
-pub(crate) mod collapse;
 pub(crate) mod deforming_tree;
-pub(crate) mod lanes;
 pub(crate) mod mesh_tree;
-pub(crate) mod rigid_tree;
 pub(crate) mod scene_tree;
 pub(crate) mod world_leaves;
-pub(crate) mod world_tree;

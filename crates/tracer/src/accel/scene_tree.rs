@@ -1,19 +1,16 @@
 //! The geometry of a scene under its trees: the nearest hit of a ray, and occlusion.
 
-use crate::accel::lanes::Lanes;
+use bvh::{Aabb, Crossing, Lanes, LeafRay, Part, Ray, RigidTree, WorldTree};
+use scene::Scene;
+
 use crate::accel::mesh_tree::MeshTree;
-use crate::accel::rigid_tree::{LeafRay, RigidTree};
 use crate::accel::world_leaves::collect_world_leaves;
-use crate::accel::world_tree::{Part, WorldTree};
 use crate::error::TraceError;
-use crate::geometry::aabb::Aabb;
-use crate::geometry::ray::{Hit, IN_ONE_PLACE, LIFT, Ray};
-use crate::geometry::triangle::Crossing;
+use crate::hit::{Hit, IN_ONE_PLACE, LIFT};
 use crate::limits::LARGEST_COORDINATE;
 use crate::material::surface::{Sight, find_solid_objects, is_seen};
 use crate::motion::poses::Poses;
 use crate::motion::slices::sweep_slices;
-use crate::scene::Scene;
 
 /// A limit before every crossing: it ends a traversal.
 const NOWHERE: f64 = f64::NEG_INFINITY;

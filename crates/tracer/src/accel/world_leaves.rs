@@ -1,10 +1,10 @@
 //! The choice of objects with leaves in the world tree.
 
+use bvh::{Aabb, Numbers};
+use scene::Scene;
+
 use crate::accel::mesh_tree::MeshTree;
-use crate::accel::world_tree::Numbers;
-use crate::geometry::aabb::Aabb;
 use crate::motion::poses::Poses;
-use crate::scene::Scene;
 
 /// Upper limit on instanced leaves that are copied into the world tree; so many hold up to 2
 /// million triangles.
@@ -53,9 +53,9 @@ pub(crate) fn collect_world_leaves(
 #[cfg(test)]
 mod tests {
     use glam::{DVec3, Vec3};
+    use scene::{Key, Mesh, Motion, Object, Parent, Turn};
 
     use super::*;
-    use crate::scene::{Key, Mesh, Motion, Object, Parent, Turn};
     use crate::test_scene::load_test_scene;
 
     /// A fan of this many triangles, two metres wide.

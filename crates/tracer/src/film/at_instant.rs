@@ -1,13 +1,14 @@
 //! The instant's view of points that are seen at other times.
 
+use bvh::Ray;
 use glam::{DVec2, DVec3, Vec3};
 
 use crate::film::canvas::Canvas;
 use crate::film::eye::EyeRay;
-use crate::geometry::ray::{Hit, LIFT, Ray};
-use crate::motion::camera::{Target, View};
+use crate::hit::{Hit, LIFT};
 use crate::motion::lens::LensPoint;
 use crate::motion::poses::Poses;
+use crate::motion::view::{Target, View};
 use crate::path::integrator::Integrator;
 use crate::path::stops::Stop;
 use crate::sampler::Sampler;
@@ -67,7 +68,7 @@ pub(crate) struct InstantMeans {
 impl InstantView {
     pub fn new(stage: &Stage, canvas: Canvas) -> Self {
         Self {
-            view: stage.scene.camera.view(0.0, canvas.width, canvas.height),
+            view: View::new(&stage.scene.camera, 0.0, canvas.width, canvas.height),
             canvas,
             camera_stands_still: stage.scene.camera.stands_still(),
             unchanging: stage.stands_still() && stage.is_diffuse(),

@@ -1,6 +1,6 @@
 //! The pixels of a picture and of the guard band around it.
 
-use frame::Tile;
+use frame::{Size, Tile};
 
 use crate::pixel_grid::PixelGrid;
 
@@ -15,7 +15,7 @@ pub(crate) struct Canvas {
     /// Pixels by which the rasters extend beyond the picture on every side.
     pub guard_band: u32,
     /// Size of the picture in the pixels that the camera's view counts in.
-    pub view: [u32; 2],
+    pub view: Size,
     /// Width and height of a pixel, in pixels of the view.
     pub step: [f64; 2],
     /// Distance by which every pixel looks to the right of its place, and below it, in pixels.
@@ -31,10 +31,10 @@ impl Canvas {
     /// A grid of pixels over a picture of `width` x `height`, with a band of pixels of the grid.
     pub fn new(width: u32, height: u32, guard_band: u32, grid: &PixelGrid) -> Self {
         Self {
-            width: grid.size[0],
-            height: grid.size[1],
+            width: grid.size.width,
+            height: grid.size.height,
             guard_band,
-            view: [width, height],
+            view: Size::new(width, height),
             step: grid.step(width, height),
             offset: grid.offset,
         }

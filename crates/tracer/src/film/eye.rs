@@ -1,12 +1,14 @@
 //! The camera and all poses, at the time of one sample after the other.
 
+use bvh::Ray;
+use frame::Size;
+use scene::Scene;
+
 use crate::film::canvas::Canvas;
-use crate::geometry::ray::Ray;
-use crate::motion::camera::View;
 use crate::motion::lens::LensPoint;
 use crate::motion::poses::Poses;
+use crate::motion::view::View;
 use crate::sampler::Sampler;
-use crate::scene::Scene;
 use crate::stage::Stage;
 
 /// A ray of the camera.
@@ -25,7 +27,7 @@ pub(crate) struct Eye<'a> {
     pub instant: Poses<'a>,
     view: View,
     moves: bool,
-    size: [u32; 2],
+    size: Size,
 }
 
 impl<'a> Eye<'a> {
@@ -36,7 +38,12 @@ impl<'a> Eye<'a> {
         instant.at(0.0);
         Self {
             scene,
-            view: (scene.camera).view(poses.time(), canvas.view[0], canvas.view[1]),
+            view: View::new(
+                &scene.camera,
+                poses.time(),
+                canvas.view.width,
+                canvas.view.height,
+            ),
             poses,
             instant,
             moves: !scene.camera.stands_still(),
@@ -47,7 +54,9 @@ impl<'a> Eye<'a> {
     /// Moves everything to `time`; returns the ray of a sample through a place of the picture.
     pub fn ray_at(&mut self, time: f64, place: [f64; 2], sampler: &Sampler) -> EyeRay {
         let lens = self.scene.camera.lens;
-        let from = lens.map_or(LensPoint::CENTRE, |lens| lens.point(sampler.lens()));
+        let from = lens.map_or(LensPoint::CENTRE, |lens| {
+            LensPoint::new(&lens, sampler.lens())
+        });
         let ray = self.view_at(time).ray_through(place, from);
         EyeRay { ray, from }
     }
@@ -56,7 +65,7 @@ impl<'a> Eye<'a> {
     fn view_at(&mut self, time: f64) -> &View {
         self.poses.at(time);
         if self.moves {
-            self.view = self.scene.camera.view(time, self.size[0], self.size[1]);
+            self.view = View::new(&self.scene.camera, time, self.size.width, self.size.height);
         }
         &self.view
     }

@@ -1,10 +1,10 @@
 //! The last check of a render: every pixel is a finite number.
 
 use frame::{AtInstant, Picture, Plane, Raster};
+use scene::Scene;
 
 use crate::error::TraceError;
 use crate::limits::LARGEST_VALUE;
-use crate::scene::Scene;
 
 /// Refuses a picture with a pixel that is not a finite number.
 pub(crate) fn check_picture(scene: &Scene, picture: &Picture) -> Result<(), TraceError> {

@@ -3,10 +3,10 @@
 use std::f64::consts::TAU;
 
 use glam::{DVec3, Vec3};
+use scene::{Scene, Sun};
 
 use crate::material::surface::{emission, find_material};
 use crate::motion::poses::Poses;
-use crate::scene::{Scene, Sun};
 
 /// A point sampled on a light, as seen from a surface.
 pub(crate) struct LightSample {
@@ -136,53 +136,31 @@ impl Emitters {
     }
 }
 
-impl Sun {
-    /// Draws a direction to the sun from two numbers in [0, 1). A point sun has a density of 1 and
-    /// its irradiance as radiance, since nothing else can draw it.
-    pub(crate) fn sample(&self, [u, v]: [f64; 2]) -> LightSample {
-        let direction = if self.angular_radius == 0.0 {
-            self.direction
-        } else {
-            let cosine = 1.0 - u * self.cap();
-            let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
-            let (y, x) = (TAU * v).sin_cos();
-            let (tangent, bitangent) = self.direction.any_orthonormal_pair();
-            sine * x * tangent + sine * y * bitangent + cosine * self.direction
-        };
-        LightSample {
-            direction,
-            distance: f64::INFINITY,
-            radiance: self.radiance(),
-            density: self.density(),
-        }
+/// Draws a direction to the sun from two numbers in [0, 1). A point sun has a density of 1 and
+/// its irradiance as radiance, since nothing else can draw it.
+pub(crate) fn sample_sun(sun: &Sun, [u, v]: [f64; 2]) -> LightSample {
+    let direction = if sun.angular_radius == 0.0 {
+        sun.direction
+    } else {
+        let cosine = 1.0 - u * sun.cap();
+        let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
+        let (y, x) = (TAU * v).sin_cos();
+        let (tangent, bitangent) = sun.direction.any_orthonormal_pair();
+        sine * x * tangent + sine * y * bitangent + cosine * sun.direction
+    };
+    LightSample {
+        direction,
+        distance: f64::INFINITY,
+        radiance: sun.radiance(),
+        density: sun_density(sun),
     }
+}
 
-    /// The radiance of the disc: its irradiance on a facing surface is radiance x pi sin^2(radius).
-    pub(crate) fn radiance(&self) -> Vec3 {
-        if self.angular_radius == 0.0 {
-            return self.irradiance;
-        }
-        let sine = self.angular_radius.sin();
-        self.irradiance * (1.0 / (std::f64::consts::PI * sine * sine)) as f32
-    }
-
-    /// The probability per steradian of a direction inside the disc.
-    pub(crate) fn density(&self) -> f64 {
-        if self.angular_radius == 0.0 {
-            1.0
-        } else {
-            1.0 / (TAU * self.cap())
-        }
-    }
-
-    /// Returns true if a ray that leaves the scene in this unit direction ends on the disc.
-    pub(crate) fn covers(&self, direction: DVec3) -> bool {
-        self.angular_radius > 0.0 && 1.0 - direction.dot(self.direction) <= self.cap()
-    }
-
-    /// 1 - cos(radius), without cancellation.
-    fn cap(&self) -> f64 {
-        let sine = (0.5 * self.angular_radius).sin();
-        2.0 * sine * sine
+/// The probability per steradian with which [`sample_sun`] draws a direction inside the disc.
+pub(crate) fn sun_density(sun: &Sun) -> f64 {
+    if sun.angular_radius == 0.0 {
+        1.0
+    } else {
+        1.0 / (TAU * sun.cap())
     }
 }

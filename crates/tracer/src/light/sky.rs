@@ -1,36 +1,17 @@
-//! The background: its radiance, and directions sampled to it.
+//! Directions sampled to the background.
 
 use std::f64::consts::TAU;
 
-use glam::{DVec3, Vec3};
+use glam::DVec3;
+use scene::Background;
 
 use crate::light::environment::EnvironmentSampler;
 use crate::light::lights::LightSample;
-use crate::scene::Background;
 
 /// Ratio of the brightest to the darkest level above which a sky is sampled as a light. A more even
 /// sky is left to the BRDFs, which sample it nearly in proportion to its radiance: another shadow
 /// ray per bounce would lower the noise by less than as many more samples.
 const UNEVEN: f64 = 8.0;
-
-impl Background {
-    /// Radiance from a unit direction.
-    pub fn radiance(&self, direction: DVec3) -> Vec3 {
-        match self {
-            Background::Constant(radiance) => *radiance,
-            Background::Gradient {
-                ground,
-                horizon,
-                zenith,
-            } => {
-                let height = direction.y as f32;
-                let end = if height < 0.0 { ground } else { zenith };
-                horizon.lerp(*end, height.abs())
-            }
-            Background::Map(map) => map.radiance(direction),
-        }
-    }
-}
 
 /// A background, prepared to be sampled as a light.
 pub(crate) struct Sky<'a> {
@@ -150,6 +131,8 @@ fn sample_linear(from: f64, to: f64, u: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use glam::Vec3;
+
     use super::*;
 
     #[test]

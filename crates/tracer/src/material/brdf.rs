@@ -67,8 +67,9 @@ impl<'a> Brdf<'a> {
 
 #[cfg(test)]
 mod tests {
+    use scene::{Finish, Material};
+
     use super::*;
-    use crate::scene::{Finish, Material};
 
     const FINISHES: [Finish; 6] = [
         Finish::Conductor { roughness: 0.3 },

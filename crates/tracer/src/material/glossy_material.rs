@@ -1,8 +1,9 @@
 //! Glossy materials: microfacets and the table of their albedo.
 
+use scene::{Finish, Material};
+
 use crate::material::fresnel;
 use crate::material::ggx::Ggx;
-use crate::scene::{Finish, Material};
 
 /// Cosines at which the albedo is tabulated, 0 and 1 included, denser towards grazing angles.
 const COSINES: usize = 129;

@@ -9,4 +9,3 @@ pub(crate) mod glossy_brdf;
 pub(crate) mod glossy_material;
 pub(crate) mod passage;
 pub(crate) mod surface;
-pub(crate) mod texture;

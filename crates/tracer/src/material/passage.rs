@@ -1,12 +1,13 @@
 //! The light that a translucent surface stops, reflects and lets pass.
 
+use bvh::Ray;
 use glam::Vec3;
+use scene::Scene;
 
-use crate::geometry::ray::{Hit, Ray};
+use crate::hit::Hit;
 use crate::material::fresnel;
 use crate::material::surface::{find_material, incidence, opacity};
 use crate::motion::poses::Poses;
-use crate::scene::Scene;
 
 /// Shares of the light along a ray through one point of a translucent surface.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,12 +1,13 @@
 //! The surface at a hit: position, normals, colour and emission.
 
+use bvh::Ray;
 use glam::{DVec3, Vec2, Vec3, Vec4};
+use scene::{Material, Mesh, Scene};
 
-use crate::geometry::ray::{Hit, Ray};
+use crate::hit::Hit;
 use crate::material::brdf::Brdf;
 use crate::material::glossy_material::GlossyMaterial;
 use crate::motion::pose::Pose;
-use crate::scene::{Material, Mesh, Scene};
 
 /// A point of a surface at one time, in the world.
 #[derive(Clone, Copy, Debug)]

@@ -1,9 +1,8 @@
 //! The extent of a mesh in every direction, for boxes around it at any pose.
 
+use bvh::Aabb;
 use glam::{DAffine3, DVec3};
-
-use crate::geometry::aabb::Aabb;
-use crate::scene::{Mesh, Scene};
+use scene::{Mesh, Scene};
 
 /// Nodes along an edge of the cube of directions. With 9 a cell is 0.25 wide and a box around a
 /// sphere at most `2 x 0.25^2 / 8` = 1.6 % too large, because the curvature of a vector's length on

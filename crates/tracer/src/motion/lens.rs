@@ -3,8 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use glam::DVec2;
-
-use crate::scene::Lens;
+use scene::Lens;
 
 /// A point of a camera's lens, in metres from its centre; +x right, +y up. A pinhole has only the
 /// centre.
@@ -13,13 +12,11 @@ pub(crate) struct LensPoint(pub DVec2);
 
 impl LensPoint {
     pub const CENTRE: Self = Self(DVec2::ZERO);
-}
 
-impl Lens {
-    /// The point of the lens for two numbers in [0, 1). Uniform numbers give points that are
-    /// uniform over the disc.
-    pub(crate) fn point(&self, numbers: [f64; 2]) -> LensPoint {
-        LensPoint(0.5 * self.aperture * map_to_disc(numbers))
+    /// The point of a lens for two numbers in [0, 1). Uniform numbers give points that are uniform
+    /// over the disc.
+    pub fn new(lens: &Lens, numbers: [f64; 2]) -> Self {
+        Self(0.5 * lens.aperture * map_to_disc(numbers))
     }
 }
 

@@ -1,11 +1,9 @@
 //! The objects that move on screen while the shutter is open.
 
+use bvh::Aabb;
 use frame::Shutter;
 use glam::{DAffine3, DVec3};
-
-use crate::geometry::aabb::Aabb;
-use crate::motion::keys::times_within;
-use crate::scene::Scene;
+use scene::{Scene, times_within};
 
 /// Times examined besides the shutter's ends and the keys inside it.
 const EXTRA_TIMES: u32 = 61;

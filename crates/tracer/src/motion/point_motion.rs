@@ -1,7 +1,9 @@
 //! Motion and points of a velocity buffer.
 
-use crate::motion::camera::{View, ViewRate};
-use crate::scene::Scene;
+use frame::Size;
+use scene::Scene;
+
+use crate::motion::view::{View, ViewRate};
 
 /// Motion and points of a velocity buffer: the right ones, or a broken buffer's.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -90,12 +92,12 @@ impl PointMotion {
     };
 
     /// The view at the time of the motion, and its derivative just before.
-    pub(super) fn view(&self, scene: &Scene, [width, height]: [u32; 2]) -> (View, ViewRate) {
-        let view = scene.camera.view(self.moved_at, width, height);
+    pub(super) fn view(&self, scene: &Scene, Size { width, height }: Size) -> (View, ViewRate) {
+        let view = View::new(&scene.camera, self.moved_at, width, height);
         let rate = if self.camera_stands {
             ViewRate::STILL
         } else {
-            scene.camera.view_rate_before(self.moved_at, &view)
+            ViewRate::before(&scene.camera, self.moved_at, &view)
         };
         (view, rate)
     }

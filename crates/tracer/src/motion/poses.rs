@@ -3,11 +3,11 @@
 
 use std::sync::Arc;
 
-use crate::geometry::ray::Ray;
-use crate::motion::keys::{Segment, key_times};
+use bvh::Ray;
+use scene::{Mesh, Motion, Parent, Scene, Segment, key_times};
+
 use crate::motion::pose::Pose;
 use crate::motion::screw::Screw;
-use crate::scene::{Mesh, Motion, Parent, Scene};
 
 /// The poses of all objects at one time.
 #[derive(Clone)]

@@ -1,10 +1,9 @@
 //! Motion that turns about a fixed axis, worked out in advance.
 
+use bvh::Ball;
 use glam::{DAffine3, DMat3, DVec3};
+use scene::{Cubic, Segment};
 
-use crate::geometry::ball::Ball;
-use crate::motion::curve::Cubic;
-use crate::motion::keys::Segment;
 use crate::motion::pose::Pose;
 
 /// A segment of a motion that turns about one axis and keeps its scale.
@@ -83,9 +82,9 @@ impl Screw {
 #[cfg(test)]
 mod tests {
     use glam::DQuat;
+    use scene::{Interpolation, Key, Motion, Turn};
 
     use super::*;
-    use crate::scene::{Interpolation, Key, Motion, Turn};
 
     /// A drift of metres and a turn of this many radians about a tilted axis, for a large, flat,
     /// mirrored object.

@@ -1,11 +1,10 @@
 //! Boxes around a moving mesh over an interval of time.
 
+use bvh::Aabb;
 use glam::DVec3;
+use scene::{Mesh, Motion, Scene, Segment, times_within};
 
-use crate::geometry::aabb::Aabb;
 use crate::motion::extent::Extent;
-use crate::motion::keys::{Segment, times_within};
-use crate::scene::{Mesh, Motion, Scene};
 
 /// Upper limits for all points of a mesh within an interval.
 #[derive(Clone, Copy)]
@@ -135,10 +134,9 @@ mod tests {
     use std::f64::consts::PI;
 
     use glam::{DQuat, Vec3};
+    use scene::{Chance, Interpolation, Key, Object, Parent, Shape, Turn};
 
     use super::*;
-    use crate::scene::{Interpolation, Key, Object, Parent, Shape, Turn};
-    use crate::seal::chance::Chance;
     use crate::test_scene::load_test_scene;
 
     fn random_vector(chance: &mut Chance) -> DVec3 {

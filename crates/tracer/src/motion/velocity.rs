@@ -1,12 +1,12 @@
 //! Screen velocity of a visible point, from its exact position as a function of time.
 
-use frame::{Camera, Reprojection, VelocityKind};
+use frame::{Camera, Reprojection, Size, VelocityKind};
 use glam::DVec3;
+use scene::Scene;
 
-use crate::geometry::ray::Hit;
-use crate::motion::camera::{Target, View, ViewRate};
+use crate::hit::Hit;
 use crate::motion::point_motion::{ObjectsBefore, PointMotion};
-use crate::scene::Scene;
+use crate::motion::view::{Target, View, ViewRate};
 
 /// Step of the difference quotient, in frames.
 const STEP: f64 = 1e-5;
@@ -39,7 +39,7 @@ impl TrackedPoint {
     pub fn velocity(
         &self,
         scene: &Scene,
-        size: [u32; 2],
+        size: Size,
         kind: VelocityKind,
         motion: &PointMotion,
     ) -> [f64; 3] {
@@ -96,7 +96,7 @@ impl TrackedPoint {
     fn difference_quotient(
         &self,
         scene: &Scene,
-        size: [u32; 2],
+        size: Size,
         motion: &PointMotion,
     ) -> Option<[f64; 3]> {
         let at = |steps: f64| self.project(scene, size, motion.moved_at - steps * STEP, motion);
@@ -111,13 +111,13 @@ impl TrackedPoint {
     fn project(
         &self,
         scene: &Scene,
-        [width, height]: [u32; 2],
+        Size { width, height }: Size,
         time: f64,
         motion: &PointMotion,
     ) -> Option<[f64; 3]> {
         let now = motion.moved_at;
         let camera_time = if motion.camera_stands { now } else { time };
-        let view = scene.camera.view(camera_time, width, height);
+        let view = View::new(&scene.camera, camera_time, width, height);
         let (target, depth) = match *self {
             TrackedPoint::Surface(hit) => {
                 let [shape_time, own_time, parents_time] = motion.times(time);
@@ -170,8 +170,8 @@ fn surface_motion(
 }
 
 /// The map from this frame's picture to the last one's, for points that stand still in the world.
-pub(crate) fn reprojection(scene: &Scene, [width, height]: [u32; 2]) -> Reprojection {
-    let [now, then] = [0.0, -1.0].map(|time| scene.camera.view(time, width, height));
+pub(crate) fn reprojection(scene: &Scene, Size { width, height }: Size) -> Reprojection {
+    let [now, then] = [0.0, -1.0].map(|time| View::new(&scene.camera, time, width, height));
     if now == then {
         // Without rounding, so that a point keeps its place exactly.
         return Reprojection::STILL;
@@ -182,8 +182,9 @@ pub(crate) fn reprojection(scene: &Scene, [width, height]: [u32; 2]) -> Reprojec
 }
 
 /// The camera at the instant and one frame before.
-pub(crate) fn camera(scene: &Scene, [width, height]: [u32; 2]) -> Camera {
-    let [now, before] = [0.0, -1.0].map(|time| scene.camera.view(time, width, height).pose());
+pub(crate) fn camera(scene: &Scene, Size { width, height }: Size) -> Camera {
+    let [now, before] =
+        [0.0, -1.0].map(|time| View::new(&scene.camera, time, width, height).pose());
     Camera { now, before }
 }
 

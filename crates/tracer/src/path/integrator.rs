@@ -1,9 +1,12 @@
 //! The path integrator: radiance along one path.
 
+use bvh::Ray;
 use glam::{DVec3, Vec3};
 
-use crate::geometry::ray::{Hit, LIFT, Ray};
-use crate::light::lights::{Emitters, LightSample, density_per_steradian, power_heuristic};
+use crate::hit::{Hit, LIFT};
+use crate::light::lights::{
+    Emitters, LightSample, density_per_steradian, power_heuristic, sample_sun, sun_density,
+};
 use crate::material::brdf::Brdf;
 use crate::material::brdf_sample::{BrdfSample, BrdfValue};
 use crate::material::passage::Passage;
@@ -154,7 +157,8 @@ impl<'a> Integrator<'a> {
         let background = scene.background.radiance(ray.direction) * weight as f32;
         match &scene.sun {
             Some(sun) if sun.covers(ray.direction) => {
-                let weight = density.map_or(1.0, |density| power_heuristic(density, sun.density()));
+                let weight =
+                    density.map_or(1.0, |density| power_heuristic(density, sun_density(sun)));
                 background + sun.radiance() * weight as f32
             }
             _ => background,
@@ -189,7 +193,13 @@ impl<'a> Integrator<'a> {
         let mut light = Vec3::ZERO;
         if let Some(sun) = &scene.sun {
             let by_surface = sun.angular_radius > 0.0;
-            light += self.light_from(poses, start, brdf, &sun.sample([sun_u, sun_v]), by_surface);
+            light += self.light_from(
+                poses,
+                start,
+                brdf,
+                &sample_sun(sun, [sun_u, sun_v]),
+                by_surface,
+            );
         }
         if let Some(sampled) = self.emitters.sample(scene, poses, start, choice, [u, v]) {
             light += self.light_from(poses, start, brdf, &sampled, true);

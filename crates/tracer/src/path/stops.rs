@@ -1,8 +1,9 @@
 //! Ways of rays through translucent surfaces, to where they stop.
 
+use bvh::Ray;
 use glam::Vec3;
 
-use crate::geometry::ray::{Hit, Ray};
+use crate::hit::Hit;
 use crate::material::passage::Passage;
 use crate::motion::poses::Poses;
 use crate::stage::Stage;

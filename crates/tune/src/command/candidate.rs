@@ -2,6 +2,7 @@
 
 use clap::Args;
 use filters::Gpu;
+use frame::Size;
 use judge::BoundedScene;
 use measure::{
     Error, FilterChoice, Sharing, estimate_case_seconds, estimate_render_seconds, lock_folder,
@@ -36,7 +37,7 @@ pub struct CandidateArgs {
     pub objective: Vec<Objective>,
     /// Picture size in pixels.
     #[arg(help_heading = "Scenes and files", long, value_name = "WxH", default_value = "320x180", value_parser = parse_size)]
-    pub size: (u32, u32),
+    pub size: Size,
     /// Scenes to score it on.
     #[command(flatten)]
     pub scenes: SceneArgs,
@@ -54,7 +55,9 @@ impl CandidateArgs {
         let names = [self.filter.clone()];
         let preset = self.from.as_deref();
         let choice = select_filters(&names, preset, &[], self.programs.programs())?.remove(0);
-        Ok(choice.as_written(self.as_written).scaled_to(self.size.0))
+        Ok(choice
+            .as_written(self.as_written)
+            .scaled_to(self.size.width))
     }
 
     /// Loads the scenes, with their bounds for the requested picture size.

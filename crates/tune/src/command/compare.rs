@@ -31,7 +31,7 @@ pub fn execute(args: &CompareArgs) -> Result<(), Error> {
     let candidate = &args.candidate;
     let choice = candidate.select()?;
     let presets = [&args.first, &args.second];
-    let [first, second] = presets.map(|preset| choice.preset_at(preset, candidate.size.0));
+    let [first, second] = presets.map(|preset| choice.preset_at(preset, candidate.size.width));
     let (first, second) = (first?, second?);
     let bleed = candidate.objective.contains(&Objective::Bleed);
     let paired = candidate.score(&choice, bleed, Some(2), |evaluator| {

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use clap::Args;
-use frame::FileError;
+use frame::{FileError, Size};
 use measure::{Error, FilterChoice, Sharing, lock_folder};
 use terminal::arguments::{above_zero, parse_ratio, parse_samples, parse_size, within};
 use terminal::output::{is_quiet, make_monitor, print_error};
@@ -63,7 +63,7 @@ pub struct SearchArgs {
     pub held_out: Vec<String>,
     /// Picture size of the held-out scenes.
     #[arg(help_heading = "Held-out scenes", long, value_name = "WxH", default_value = "320x180", value_parser = parse_size)]
-    pub held_out_size: (u32, u32),
+    pub held_out_size: Size,
     /// Mean samples per pixel of the held-out scenes' truths.
     #[arg(
         help_heading = "Held-out scenes",
@@ -131,8 +131,8 @@ fn make_options(args: &SearchArgs, choice: FilterChoice) -> Result<TuneOptions, 
         held_out,
         render,
         held_out_render: RenderSettings {
-            width: args.held_out_size.0,
-            height: args.held_out_size.1,
+            width: args.held_out_size.width,
+            height: args.held_out_size.height,
             samples_per_pixel: args.held_out_samples_per_pixel,
             ..render
         },

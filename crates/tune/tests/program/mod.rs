@@ -250,6 +250,32 @@ fn a_larger_budget_extends_a_smaller_one_and_another_seed_searches_differently()
     assert_eq!(read_journal(&sandbox, "out"), before, "nothing is lost");
 }
 
+#[test]
+fn an_edited_journal_is_refused_with_its_line() {
+    let sandbox = set_up();
+    let tuning = format!("{ON_TWO} --budget 4");
+    tune(&sandbox, "out", &tuning);
+    let journal = read_journal(&sandbox, "out");
+    let lines: Vec<&str> = journal.lines().collect();
+    let without_a_trial = [&lines[..2], &lines[3..]].concat().join("\n") + "\n";
+    let flip = journal.find("\"flip\":").unwrap() + "\"flip\":".len();
+    let negative = format!("{}-{}", &journal[..flip], &journal[flip..]);
+    for (edited, reason) in [
+        (without_a_trial, ":3: trial 2, expected 1"),
+        (negative, ":2: flip is -"),
+        (
+            journal.replacen("{\"trial\":1", "\"trial\":1", 1),
+            ":3: is no trial",
+        ),
+    ] {
+        assert_ne!(edited, journal);
+        sandbox.put("out/journal.jsonl", &edited);
+        let line = format!("{TUNE} --out out {tuning}");
+        sandbox.refuse(&line, &[&format!("journal.jsonl{reason}"), "begin anew"]);
+        assert_eq!(read_journal(&sandbox, "out"), edited, "nothing is lost");
+    }
+}
+
 /// Limits the size of files, as a substitute for a full disk: either way, a write fails.
 #[cfg(unix)]
 #[test]

@@ -1,0 +1,5 @@
+//! The library: audits of honest and planted frames, and exported scenes played back. A part of
+//! tests/scenes.
+
+mod audit;
+mod gltf;

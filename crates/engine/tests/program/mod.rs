@@ -1,0 +1,12 @@
+//! The commands of `engine`, as their user sees them. A part of tests/command_line, which is linked
+//! with the program once.
+
+mod audit;
+#[cfg(unix)]
+mod blender;
+mod foreign_pictures;
+mod further_inputs;
+mod import;
+mod ingest;
+#[cfg(unix)]
+mod threejs;
