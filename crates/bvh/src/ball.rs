@@ -30,6 +30,7 @@ pub struct Approach {
 
 impl Ball {
     /// A ball of this radius, in metres.
+    #[inline]
     pub fn new(centre: DVec3, radius: f64) -> Self {
         Self {
             centre,

@@ -14,11 +14,13 @@ pub struct Ray {
 
 impl Ray {
     /// The point at `t`.
+    #[inline]
     pub fn at(&self, t: f64) -> DVec3 {
         self.origin + t * self.direction
     }
 
     /// The same ray in another space; `t` is unchanged.
+    #[inline]
     pub fn transformed(&self, to: &DAffine3) -> Ray {
         Ray {
             origin: to.transform_point3(self.origin),

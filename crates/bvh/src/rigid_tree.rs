@@ -85,6 +85,7 @@ impl RigidTree {
     }
 
     /// Size of the stack that [`RigidTree::traverse`] needs.
+    #[inline]
     pub fn stack_size(&self) -> usize {
         self.tree.as_ref().map_or(0, |tree| tree.stack_size)
     }

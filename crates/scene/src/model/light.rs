@@ -57,6 +57,7 @@ pub struct Sun {
 
 impl Background {
     /// Radiance from a unit direction.
+    #[inline]
     pub fn radiance(&self, direction: DVec3) -> Vec3 {
         match self {
             Background::Constant(radiance) => *radiance,
@@ -85,11 +86,13 @@ impl Sun {
     }
 
     /// Returns true if a ray that leaves the scene in this unit direction ends on the disc.
+    #[inline]
     pub fn covers(&self, direction: DVec3) -> bool {
         self.angular_radius > 0.0 && 1.0 - direction.dot(self.direction) <= self.cap()
     }
 
     /// 1 - cos(radius), without cancellation.
+    #[inline]
     pub fn cap(&self) -> f64 {
         let sine = (0.5 * self.angular_radius).sin();
         2.0 * sine * sine

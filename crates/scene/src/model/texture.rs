@@ -7,6 +7,7 @@ use crate::model::Texture;
 impl Texture {
     /// The texture's linear RGBA at texture coordinates `uv`, v up: (0, 0) is the image's bottom
     /// left corner.
+    #[inline]
     pub fn sample(&self, uv: Vec2) -> Vec4 {
         let x = wrap(uv.x, self.width);
         let y = wrap(1.0 - uv.y, self.height);

@@ -127,6 +127,7 @@ impl Rotation {
         Self { axis, angle }
     }
 
+    #[inline]
     fn at(&self, since: f64) -> DQuat {
         DQuat::from_axis_angle(self.axis, self.angle.at(since))
     }
@@ -134,6 +135,7 @@ impl Rotation {
 
 impl Segment {
     /// The pose at `time` (frames) within the segment.
+    #[inline]
     pub fn at(&self, time: f64) -> DAffine3 {
         let since = self.since(time);
         let mut turn = self.turn.at(since);
@@ -171,6 +173,7 @@ impl Segment {
     }
 
     /// Frames since the start, as the curves count them.
+    #[inline]
     pub fn since(&self, time: f64) -> f64 {
         time - self.start
     }

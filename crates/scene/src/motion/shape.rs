@@ -20,12 +20,14 @@ struct Between<'a> {
 
 impl Mesh {
     /// The mesh at `time` (frames).
+    #[inline]
     pub fn at(&self, time: f64) -> ShapeAt<'_> {
         let next = self.shapes.partition_point(|shape| shape.time <= time);
         self.between(next, time)
     }
 
     /// The mesh at `time` (frames), between the shape `next` and the one before it.
+    #[inline]
     fn between(&self, next: usize, time: f64) -> ShapeAt<'_> {
         let last = self.shapes.len().saturating_sub(1);
         let between = (last > 0).then(|| {
@@ -57,6 +59,7 @@ impl Mesh {
     }
 
     /// Returns true if the mesh changes its shape.
+    #[inline]
     pub fn deforms(&self) -> bool {
         !self.shapes.is_empty()
     }

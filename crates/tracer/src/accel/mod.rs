@@ -1,5 +1,6 @@
 //! The trees of a scene's meshes, and of the scene.
 
+pub(crate) mod coordinates;
 pub(crate) mod deforming_tree;
 pub(crate) mod mesh_tree;
 pub(crate) mod scene_tree;

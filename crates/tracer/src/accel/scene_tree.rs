@@ -3,11 +3,11 @@
 use bvh::{Aabb, Crossing, Lanes, LeafRay, Part, Ray, RigidTree, WorldTree};
 use scene::Scene;
 
+use crate::accel::coordinates::check_coordinates;
 use crate::accel::mesh_tree::MeshTree;
 use crate::accel::world_leaves::collect_world_leaves;
 use crate::error::TraceError;
 use crate::hit::{Hit, IN_ONE_PLACE, LIFT};
-use crate::limits::LARGEST_COORDINATE;
 use crate::material::surface::{Sight, find_solid_objects, is_seen};
 use crate::motion::poses::Poses;
 use crate::motion::slices::sweep_slices;
@@ -60,7 +60,7 @@ impl LastLeafRay {
 
 impl<'a> SceneTree<'a> {
     /// Builds all trees for rays at times in `[from, to]`, the interval of `poses`. Refuses objects
-    /// with coordinates above [`LARGEST_COORDINATE`].
+    /// with coordinates above [`LARGEST_COORDINATE`](crate::limits::LARGEST_COORDINATE).
     pub fn build(
         scene: &'a Scene,
         poses: &mut Poses,
@@ -368,41 +368,4 @@ impl<'a> SceneTree<'a> {
             .as_ref()
             .expect("every shown mesh has a tree")
     }
-}
-
-/// Refuses objects with too large coordinates: of their swept boxes, or of their meshes in their
-/// own space.
-fn check_coordinates(scene: &Scene, slices: &[Vec<Aabb>]) -> Result<(), TraceError> {
-    let mesh_extents: Vec<f64> = (scene.meshes.iter())
-        .map(|mesh| {
-            let shapes = mesh.shapes.iter().flat_map(|shape| &shape.positions);
-            let positions = mesh.positions.iter().chain(shapes);
-            positions.fold(0.0, |largest: f64, position| {
-                largest.max(f64::from(position.abs().max_element()))
-            })
-        })
-        .collect();
-    for (index, object) in scene.objects.iter().enumerate() {
-        let swept = slices.iter().map(|swept| swept[index]);
-        let corners = swept.flat_map(|swept| [swept.min, swept.max]);
-        let mut coordinates = corners.map(|corner| {
-            if corner.is_finite() {
-                corner.abs().max_element()
-            } else {
-                f64::INFINITY
-            }
-        });
-        let too_large = |coordinate: &f64| *coordinate > LARGEST_COORDINATE;
-        if let Some(coordinate) = coordinates
-            .find(too_large)
-            .or(Some(mesh_extents[object.mesh]).filter(too_large))
-        {
-            return Err(TraceError::TooFar {
-                scene: scene.id.to_string(),
-                object: object.name.clone(),
-                coordinate,
-            });
-        }
-    }
-    Ok(())
 }

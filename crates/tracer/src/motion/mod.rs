@@ -1,4 +1,4 @@
-//! What a render asks of motion: views, poses, boxes and velocities.
+//! Views, poses, boxes and velocities of a scene in motion.
 
 pub(crate) mod extent;
 pub(crate) mod lens;
