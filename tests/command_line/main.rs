@@ -1,11 +1,9 @@
 //! The program as its user sees it: output, files and exit codes.
 
 mod arguments;
-mod baseline;
 #[path = "../../crates/bench/tests/program/mod.rs"]
 mod bench;
 mod changes;
-mod check;
 mod child;
 #[cfg(unix)]
 mod command_filter;
@@ -23,6 +21,8 @@ mod fidelity;
 mod finished_sequence;
 mod frame_rates;
 mod further_velocities;
+#[path = "../../crates/gate/tests/program/mod.rs"]
+mod gate;
 #[cfg(unix)]
 mod growth;
 mod guides;
