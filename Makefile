@@ -79,7 +79,7 @@ fuzz: software_vulkan
 mutants: software_vulkan
 	$(SOFTWARE) cargo run --locked -p cli --example mutants
 
-# Joins, judges and reports a run of 10,000 cases, copies of a small one: docs/many-machines.md.
+# Joins, judges and reports a run of 10,000 cases, copies of a small one: crates/merge/guides/many-machines.md.
 GROWTH = $(TARGET_DIR)/tmp/growth
 PROGRAM = $(TARGET_DIR)/debug/shuttertruth
 

@@ -41,7 +41,7 @@ fn read_table(page: &str, first: &str) -> BTreeMap<String, String> {
 
 #[test]
 fn the_page_on_ci_lists_the_inputs_and_outputs_of_the_action_and_the_defaults() {
-    let page = read("docs/ci.md");
+    let page = read("crates/gate/guides/ci.md");
     for (section, first) in [("inputs", "| input |"), ("outputs", "| output |")] {
         let (said, declared) = (read_table(&page, first), read_section(section));
         assert!(declared.len() > 3);
