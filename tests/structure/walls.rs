@@ -38,10 +38,8 @@ fn crates_import_what_the_page_of_the_architecture_says() {
 fn a_capability_is_imported_by_the_program_alone() {
     for (name, imports) in read_manifests() {
         for capability in CAPABILITIES {
-            // The page of a run shows the times of its filters.
-            let is_known = name == "cli" || (&*name, capability) == ("run", "bench");
             assert!(
-                is_known || !imports.contains(capability),
+                name == "cli" || !imports.contains(capability),
                 "{name} imports {capability}"
             );
         }

@@ -170,8 +170,8 @@ pub fn execute(program: &Cli) -> Result<Ending, Error> {
             .map_err(|error| Error::Refused(format!("cannot start the threads: {error}")))?;
     }
     let done = match &program.command {
-        Command::Run(args) => run::execute(args),
-        Command::Check(args) => return gate::execute_check(args),
+        Command::Run(args) => run::execute(args, &report::ADDITIONS),
+        Command::Check(args) => return gate::execute_check(args, &report::ADDITIONS),
         Command::Score(args) if args.frames > 1 => score_sequence::execute(args),
         Command::Score(args) => score::execute(args),
         Command::Report(args) => report::execute(args),

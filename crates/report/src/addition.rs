@@ -4,7 +4,10 @@ use std::collections::HashMap;
 use std::path::Path;
 
 use maud::Markup;
-use measure::{Error, FilterId};
+use measure::{Error, FilterId, Run};
+
+/// Makes contents of the page of a run, whose files are in a folder.
+pub type AddToPage = fn(&Run, &Path) -> Result<Addition, Error>;
 
 /// Contents that another crate adds to the page of a run.
 pub struct Addition {

@@ -25,7 +25,7 @@ pub mod table;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-pub use addition::{Addition, FilterColumn, FilterNumber, FolderPage};
+pub use addition::{AddToPage, Addition, FilterColumn, FilterNumber, FolderPage};
 use case::case_view::CaseView;
 use case::{CaseTables, case_section};
 pub use case_table::CaseTable;

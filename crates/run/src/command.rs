@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use clap::Args;
 use judge::{Level, judge};
 use measure::{Error, Part, Run, open_gpu, printable_path, refuse_failures};
+use report::AddToPage;
 
 use crate::measured::{MeasuredRun, measure};
 use crate::pages::{WrittenFile, page_lines, refuse_folder, write_judgement, write_run};
@@ -42,7 +43,8 @@ pub struct RunArgs {
 }
 
 /// Runs every case, writes `run.json` and the page, and prints the ranking or the table.
-pub fn execute(args: &RunArgs) -> Result<(), Error> {
+/// `additions` make what other crates add to the page.
+pub fn execute(args: &RunArgs, additions: &[AddToPage]) -> Result<(), Error> {
     let began = Instant::now();
     refuse_folder("--html", args.html.as_ref())?;
     let (mut plan, mut bounds) = make_plan(&args.measure, args.measure.scenes.out.clone())?;
@@ -65,7 +67,14 @@ pub fn execute(args: &RunArgs) -> Result<(), Error> {
         // Bounds are for `check`: broken ones fail nothing here.
         let mut findings = judge(&whole, &bounds);
         (findings.iter_mut()).for_each(|finding| finding.level = Level::Report);
-        let pages = write_judgement(&whole, &findings, None, &plan.out, args.html.as_ref())?;
+        let pages = write_judgement(
+            &whole,
+            &findings,
+            None,
+            &plan.out,
+            args.html.as_ref(),
+            additions,
+        )?;
         (scores_text(&run, args.table), pages)
     } else {
         (Text::default(), Vec::new())

@@ -5,13 +5,7 @@ use terminal::refuse;
 
 use judge::{Finding, Judgement, Verdict};
 use measure::{Error, Run, printable_path};
-use report::{Addition, LARGEST_PAGE, RunReport, SEQUENCES_PAGE, sequences_page, write_report};
-
-/// Makes contents of the page of a run in a folder.
-type Add = fn(&Run, &Path) -> Result<Addition, Error>;
-
-/// Contents that other crates add to the page of a run, in their order.
-const ADDITIONS: [Add; 1] = [bench::add_costs];
+use report::{AddToPage, LARGEST_PAGE, RunReport, SEQUENCES_PAGE, sequences_page, write_report};
 
 /// A file that a command wrote.
 #[derive(serde::Serialize)]
@@ -60,20 +54,22 @@ pub fn page_path(html: Option<&PathBuf>, folder: &Path) -> PathBuf {
 }
 
 /// Writes the page of a run with pictures below `folder`, and the page's files next to it.
+/// `additions` make what other crates add.
 pub fn write_run_page(
     run: &Run,
     findings: &[Finding],
     verdict: Option<&Verdict>,
     folder: &Path,
     html: &Path,
+    additions: &[AddToPage],
 ) -> Result<Vec<WrittenFile>, Error> {
-    let additions = ADDITIONS.map(|add| add(run, folder));
+    let additions = additions.iter().map(|add| add(run, folder));
     let report = RunReport {
         run,
         folder,
         findings,
         verdict,
-        additions: &additions.into_iter().collect::<Result<Vec<_>, _>>()?,
+        additions: &additions.collect::<Result<Vec<_>, _>>()?,
         largest: LARGEST_PAGE,
     };
     let mut files = write_report(&report, html)?;
@@ -100,11 +96,19 @@ pub fn write_judgement(
     verdict: Option<Verdict>,
     out: &Path,
     html: Option<&PathBuf>,
+    additions: &[AddToPage],
 ) -> Result<Vec<WrittenFile>, Error> {
     let judgement = Judgement::new(out, findings.to_vec(), verdict)?;
     judgement.write(out)?;
     let verdict = judgement.verdict.as_ref();
-    write_run_page(run, findings, verdict, out, &page_path(html, out))
+    write_run_page(
+        run,
+        findings,
+        verdict,
+        out,
+        &page_path(html, out),
+        additions,
+    )
 }
 
 /// Writes a page.

@@ -6,10 +6,13 @@ use terminal::refuse;
 use clap::Args;
 use judge::Judgement;
 use measure::{Error, StoredRun, printable_path, write_layers};
-use report::{FolderPage, write_gallery};
+use report::{AddToPage, FolderPage, write_gallery};
 
 use run::{WrittenFile, page_lines, page_path, write_page, write_run_page};
 use terminal::output::{make_monitor, print, print_json};
+
+/// Contents that other crates add to the page of a run, in their order.
+pub const ADDITIONS: [AddToPage; 1] = [bench::add_costs];
 
 /// Kinds of folders without a run that have a page.
 const FOLDER_PAGES: [FolderPage; 1] = [tune::TUNING_PAGE];
@@ -75,7 +78,7 @@ fn write_run_report(args: &ReportArgs) -> Result<(Vec<WrittenFile>, Vec<WrittenF
                 None => (Vec::new(), None),
                 Some(judgement) => (judgement.findings, judgement.verdict),
             };
-            write_run_page(run, &findings, verdict.as_ref(), folder, &html)?
+            write_run_page(run, &findings, verdict.as_ref(), folder, &html, &ADDITIONS)?
         }
     };
     if let Some(out) = &args.gallery {

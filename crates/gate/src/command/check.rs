@@ -16,6 +16,7 @@ use judge::{
 };
 use measure::{Case, Error, Run, StoredRun, open_gpu, printable_path, refuse_tracked};
 use metrics::Metric;
+use report::AddToPage;
 
 use crate::tables::{annotations, check_text, junit, page_verdict, summary, verdict_text};
 use run::{Margins, add_bounds, make_plan, read_margins};
@@ -75,8 +76,9 @@ pub struct CheckArgs {
 }
 
 /// Judges a run, made now or finished before, and reports in every requested form. Refuses wrong
-/// arguments, bounds and baselines before anything is rendered.
-pub fn execute(args: &CheckArgs) -> Result<Ending, Error> {
+/// arguments, bounds and baselines before anything is rendered. `additions` make what other crates
+/// add to the page.
+pub fn execute(args: &CheckArgs, additions: &[AddToPage]) -> Result<Ending, Error> {
     refuse_folder("--html", args.html.as_ref())?;
     refuse_folder("--junit", args.junit.as_ref())?;
     let root = &args.measure.scenes.root.scenes_dir;
@@ -87,6 +89,7 @@ pub fn execute(args: &CheckArgs) -> Result<Ending, Error> {
     let judging = Judging {
         compared,
         margins: read_margins(root)?,
+        additions,
     };
     let summary_file = args.github.then(find_summary_file).transpose()?;
     let judged = match &args.run {
@@ -153,11 +156,12 @@ fn report(
     Ok(())
 }
 
-/// What a run is judged by, other than bounds.
+/// What a run is judged by, other than bounds, and what its page shows of other crates.
 struct Judging<'a> {
     /// Baseline, and its file.
     compared: Option<(Baseline, &'a Path)>,
     margins: Margins,
+    additions: &'a [AddToPage],
 }
 
 impl Judging<'_> {
@@ -219,7 +223,9 @@ fn run_and_judge(args: &CheckArgs, judging: &Judging) -> Result<Judged, Error> {
     asked_for.retain(|finding| run.cases.iter().any(|case| finding.is_of(case)));
     let checked = judging.check(&run, asked_for)?;
     let verdict = Some(page_verdict(&checked));
-    let pages = write_judgement(&whole, &findings, verdict, &plan.out, args.html.as_ref())?;
+    let html = args.html.as_ref();
+    let additions = judging.additions;
+    let pages = write_judgement(&whole, &findings, verdict, &plan.out, html, additions)?;
     Ok(Judged {
         run,
         checked,
@@ -261,7 +267,10 @@ fn judge_finished(args: &CheckArgs, path: &Path, judging: &Judging) -> Result<Ju
         written => written?,
     }
     let pages = match &args.html {
-        Some(html) => write_run_page(&run, findings, Some(&verdict), &folder, html)?,
+        Some(html) => {
+            let additions = judging.additions;
+            write_run_page(&run, findings, Some(&verdict), &folder, html, additions)?
+        }
         None => Vec::new(),
     };
     Ok(Judged {
