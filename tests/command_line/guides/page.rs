@@ -55,7 +55,7 @@ fn read_paragraph<'a>(first: &str, lines: &mut impl Iterator<Item = &'a str>) ->
 /// Returns whether a text is at most the name of a command: `shuttertruth run`, `shuttertruth tune
 /// search`.
 fn is_name(text: &str) -> bool {
-    const GROUPS: [&str; 5] = ["tune", "engine", "truths", "limits", "people"];
+    const GROUPS: [&str; 4] = ["tune", "engine", "truths", "limits"];
     let words: Vec<&str> = text.split_whitespace().collect();
     let is_in_group = words.get(1).is_some_and(|word| GROUPS.contains(word));
     words.len() <= if is_in_group { 3 } else { 2 }
