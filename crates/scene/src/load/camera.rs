@@ -10,7 +10,7 @@ use super::error::SceneError;
 use super::keyed_motion::{Pose, build_motion, read_interpolation};
 use super::rotation::Rotation;
 use super::schema::{CameraKeyTable, CameraTable};
-use crate::limits::{NARROWEST_VIEW, NEAREST_FOCUS, WIDEST_LENS};
+use crate::limits::{NEAREST_FOCUS, WIDEST_LENS};
 use crate::{Camera, Lens};
 
 /// Reads the camera, still or moving.
@@ -26,7 +26,7 @@ pub(super) fn read_camera(
     let mut poses = Vec::new();
     let mut fields_of_view = Vec::new();
     if let (Some(degrees), Some(_)) = (&table.vertical_fov, &table.keys) {
-        fields_of_view.push((0.0, read_field_of_view(document, degrees)?));
+        fields_of_view.push((0.0, degrees.get_ref().0));
     }
     let is_still = !fields_of_view.is_empty();
     for key in keys.get_ref() {
@@ -44,7 +44,7 @@ pub(super) fn read_camera(
                     "vertical_fov is given both for the camera and in a key; leave out one of them";
                 return Err(document.error(degrees.span(), reason));
             }
-            fields_of_view.push((time, read_field_of_view(document, degrees)?));
+            fields_of_view.push((time, degrees.get_ref().0));
         }
     }
     let motion = build_motion(document, "the camera", keys.span(), &poses, interpolation)?;
@@ -84,16 +84,6 @@ fn read_keys(
             Err(document.error(place, reason))
         }
     }
-}
-
-fn read_field_of_view(document: &Document, degrees: &Spanned<f64>) -> Result<f64, SceneError> {
-    let angle = *degrees.get_ref();
-    if (NARROWEST_VIEW..180.0).contains(&angle) {
-        return Ok(angle.to_radians());
-    }
-    let reason =
-        format!("vertical_fov is {angle:?} degrees; allowed: {NARROWEST_VIEW} to below 180");
-    Err(document.error(degrees.span(), reason))
 }
 
 fn read_view_rotation(document: &Document, key: &CameraKeyTable) -> Result<Rotation, SceneError> {

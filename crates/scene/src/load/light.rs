@@ -1,17 +1,16 @@
-//! The background, sun and display of a scene.toml.
+//! The background and the sun of a scene.toml.
 
 use std::path::Path;
 
-use glam::{DVec3, Vec3};
 use toml::Spanned;
 
 use super::document::Document;
 use super::environment;
 use super::error::SceneError;
 use super::files::Files;
-use super::schema::{BackgroundTable, DisplayTable, FlipTable, SunTable};
+use super::schema::{BackgroundTable, SunTable};
 use crate::limits::{BRIGHTEST, SMALLEST_SUN};
-use crate::{Background, Display, EnvironmentMap, FlipExposures, Sun};
+use crate::{Background, EnvironmentMap, Sun};
 
 /// Reads the background with its image, if it has one.
 pub(super) fn read_background(
@@ -32,14 +31,11 @@ pub(super) fn read_background(
         return Err(document.error(table.span(), reason));
     }
     match (constant, gradient, image) {
-        (Some(constant), None, None) => {
-            let constant = read_radiance(document, "constant", constant)?;
-            Ok(Background::Constant(constant))
-        }
+        (Some(constant), None, None) => Ok(Background::Constant(constant.0)),
         (None, Some(gradient), None) => Ok(Background::Gradient {
-            ground: read_radiance(document, "ground", &gradient.ground)?,
-            horizon: read_radiance(document, "horizon", &gradient.horizon)?,
-            zenith: read_radiance(document, "zenith", &gradient.zenith)?,
+            ground: gradient.ground.0,
+            horizon: gradient.horizon.0,
+            zenith: gradient.zenith.0,
         }),
         (None, None, Some(image)) => {
             let map = environment::read_map(files, &folder.join(image.get_ref()))
@@ -65,13 +61,6 @@ pub(super) fn read_background(
 
 /// Reads the sun.
 pub(super) fn read_sun(document: &Document, table: &SunTable) -> Result<Sun, SceneError> {
-    let direction = DVec3::from(*table.direction.get_ref())
-        .try_normalize()
-        .ok_or_else(|| {
-            let reason = "the sun's direction is [0, 0, 0]; give a direction towards the sun";
-            document.error(table.direction.span(), reason)
-        })?;
-    let irradiance = read_radiance(document, "irradiance", &table.irradiance)?;
     let degrees = table.angular_radius.as_ref().map_or(0.0, |r| *r.get_ref());
     if let Some(radius) = &table.angular_radius
         && degrees != 0.0
@@ -83,8 +72,8 @@ pub(super) fn read_sun(document: &Document, table: &SunTable) -> Result<Sun, Sce
         return Err(document.error(radius.span(), reason));
     }
     let sun = Sun {
-        direction,
-        irradiance,
+        direction: table.direction.0,
+        irradiance: table.irradiance.get_ref().0,
         angular_radius: degrees.to_radians(),
     };
     let brightest = sun.radiance().max_element();
@@ -118,58 +107,18 @@ fn check_strength(
     Err(document.error(strength.span(), reason))
 }
 
-/// Reads how pictures of the scene are shown.
-pub(super) fn read_display(
-    document: &Document,
-    table: &DisplayTable,
-) -> Result<Display, SceneError> {
-    let mut display = Display::default();
-    if let Some(stops) = &table.stops {
-        display.stops = *stops.get_ref();
-        (display.check_stops()).map_err(|reason| document.error(stops.span(), reason))?;
-    }
-    if let Some(flip) = &table.flip {
-        let FlipTable { start, stop, count } = *flip.get_ref();
-        display.flip = FlipExposures { start, stop, count };
-        (display.flip.check()).map_err(|reason| document.error(flip.span(), reason))?;
-    }
-    Ok(display)
-}
-
-/// Reads an amount of light, which is never negative.
-pub(super) fn read_radiance(
-    document: &Document,
-    what: &str,
-    value: &Spanned<[f32; 3]>,
-) -> Result<Vec3, SceneError> {
-    check_radiance(*value.get_ref())
-        .map(|()| Vec3::from(*value.get_ref()))
-        .map_err(|reason| document.error(value.span(), format!("{what} {reason}")))
-}
-
-/// Reads an albedo.
-pub(super) fn read_albedo(
-    document: &Document,
-    what: &str,
-    value: &Spanned<[f32; 3]>,
-) -> Result<Vec3, SceneError> {
-    check_albedo(*value.get_ref())
-        .map(|()| Vec3::from(*value.get_ref()))
-        .map_err(|reason| document.error(value.span(), format!("{what} {reason}")))
-}
-
-/// Checks an amount of light. The error follows its name.
+/// Checks an amount of light. The error is the value and what is allowed.
 pub(super) fn check_radiance(value: [f32; 3]) -> Result<(), String> {
     if value.iter().all(|part| (0.0..=BRIGHTEST).contains(part)) {
         return Ok(());
     }
-    Err(format!("is {value:?}; allowed: 0 to {BRIGHTEST:e}"))
+    Err(format!("{value:?}; allowed: 0 to {BRIGHTEST:e}"))
 }
 
-/// Checks an albedo: a surface reflects no more light than falls on it. The error follows its name.
+/// Checks an albedo: a surface reflects no more light than falls on it. The error is the value and what is allowed.
 pub(super) fn check_albedo(value: [f32; 3]) -> Result<(), String> {
     if value.iter().all(|part| (0.0..=1.0).contains(part)) {
         return Ok(());
     }
-    Err(format!("is {value:?}; allowed: 0 to 1"))
+    Err(format!("{value:?}; allowed: 0 to 1"))
 }

@@ -75,7 +75,7 @@ pub fn list_scene(folder: impl Into<Location>) -> Result<SceneListing, SceneErro
     Ok(SceneListing {
         name: folder_name(&folder.path)?,
         family: table.family,
-        exposes: table.exposes.into_inner(),
+        exposes: table.exposes.0,
         variants: parsed.variant_names().to_vec(),
         folder,
     })

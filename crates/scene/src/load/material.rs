@@ -8,7 +8,6 @@ use super::document::Document;
 use super::error::SceneError;
 use super::files::Files;
 use super::finish::FinishValues;
-use super::light::{read_albedo, read_radiance};
 use super::schema::MaterialTable;
 use super::texture::{Textures, Use};
 use super::translucency::change_translucency;
@@ -57,17 +56,13 @@ pub(super) fn change_material(
     material: &mut Material,
 ) -> Result<(), SceneError> {
     if let Some(diffuse) = &table.diffuse {
-        material.diffuse = read_albedo(document, "diffuse", diffuse)?;
+        material.diffuse = diffuse.0;
     }
     if let Some(emission) = &table.emission {
-        material.emission = read_radiance(document, "emission", emission)?;
+        material.emission = emission.0;
     }
     if let Some(opacity) = &table.opacity {
-        material.opacity = *opacity.get_ref();
-        if !(0.0..=1.0).contains(&material.opacity) {
-            let reason = format!("opacity is {}; allowed: 0 to 1", material.opacity);
-            return Err(document.error(opacity.span(), reason));
-        }
+        material.opacity = opacity.0;
     }
     material.finish = change_finish(document, table, material.finish)?;
     change_translucency(document, table, is_blended, material)?;

@@ -4,6 +4,7 @@
 //! `scenes/README.md` documents the format, with a complete example.
 
 mod camera;
+mod display;
 mod document;
 mod environment;
 mod error;
@@ -39,11 +40,13 @@ mod texture;
 mod transform_range;
 mod translucency;
 mod triangulation;
+mod values;
 mod variants;
 
 use std::path::PathBuf;
 
-use document::Document;
+use frame::Size;
+
 pub use error::SceneError;
 use files::{Files, folder_name, read_document};
 pub use listing::{SceneListing, list_scene, list_scenes};
@@ -52,8 +55,7 @@ use objects::ObjectLoader;
 use schema::SceneTable;
 use variants::ParsedScene;
 
-use crate::picture_size::check_size;
-use crate::{FrameRate, Location, Scene, SceneId, Seal};
+use crate::{Display, FrameRate, Location, Scene, SceneId, Seal};
 
 /// Variant that every scene has without naming it: its surfaces send out their own colours.
 const UNLIT: &str = "unlit";
@@ -87,16 +89,18 @@ pub fn load_scene_and_files(
     let is_unlit = from_file == Some(UNLIT) && !has_variant(UNLIT);
     let table = parsed.read(from_file.filter(|_| !is_unlit))?;
     parsed.check_variants()?;
-    check_picture(&document, &table)?;
-
-    let shutter_profile = shutter::read_shutter(&document, &table.shutter)?;
+    if table.object.is_empty() {
+        let reason = "no objects; a scene needs at least one [object.name] with a mesh";
+        return Err(SceneError::in_file(&document.path, reason));
+    }
+    let shutter_profile = table.shutter.as_ref().map(|shutter| shutter.0.clone());
+    let shutter_profile = shutter_profile.unwrap_or_default();
     let camera = camera::read_camera(&document, &table.camera)?;
     let background = light::read_background(&document, &mut files, folder, &table.background)?;
     let sun = table
         .sun
         .as_ref()
         .map(|sun| light::read_sun(&document, sun));
-    let display = light::read_display(&document, &table.display)?;
     let interval = rendered_interval(&table, shutter_profile.rolling, id.seal.is_some(), rate);
     let meshes = MeshLoader::new(&document, folder, files, interval);
     let mut loader = ObjectLoader::new(&document, meshes, interval);
@@ -109,17 +113,17 @@ pub fn load_scene_and_files(
     let mut notes: Vec<String> = meshes.notes.into_iter().collect();
     notes.extend(faces::remove_redundant_faces(&mut meshes.meshes, &objects)?);
 
-    let [width, height] = *table.size.get_ref();
+    let Size { width, height } = table.size.0;
     let paths = meshes.files.paths();
     let scene = Scene {
-        exposes: table.exposes.into_inner(),
+        exposes: table.exposes.0,
         family: table.family,
-        exposure: *table.exposure.get_ref(),
-        written_exposure: *table.exposure.get_ref(),
+        exposure: table.exposure.0,
+        written_exposure: table.exposure.0,
         shutter_profile,
         width,
         height,
-        display,
+        display: Display::from(&table.display),
         camera,
         background,
         sun: sun.transpose()?,
@@ -148,30 +152,11 @@ fn rendered_interval(
     rate: FrameRate,
 ) -> [f64; 2] {
     let frames = rate.frames_per_written_frame();
-    let longest = (1.0 + rate.exposure(*table.exposure.get_ref())) / frames + rolling.abs();
+    let longest = (1.0 + rate.exposure(table.exposure.0)) / frames + rolling.abs();
     let longest = if is_sealed {
         Seal::farthest(longest)
     } else {
         longest
     };
     [-longest, longest]
-}
-
-/// Checks the picture as a whole.
-fn check_picture(document: &Document, table: &SceneTable) -> Result<(), SceneError> {
-    if table.exposes.get_ref().trim().is_empty() {
-        let reason = "exposes is empty; say in one sentence what the scene exposes";
-        return Err(document.error(table.exposes.span(), reason));
-    }
-    frame::Alignment::Trailing
-        .shutter(*table.exposure.get_ref())
-        .map_err(|error| document.error(table.exposure.span(), error.to_string()))?;
-    let [width, height] = *table.size.get_ref();
-    check_size(width, height)
-        .map_err(|error| document.error(table.size.span(), error.to_string()))?;
-    if table.object.is_empty() {
-        let reason = "no objects; a scene needs at least one [object.name] with a mesh";
-        return Err(SceneError::in_file(&document.path, reason));
-    }
-    Ok(())
 }

@@ -251,13 +251,13 @@ fn read_numbers(material: &tobj::Material, statement: &Statement) -> Result<Vec<
         ("Kd" | "Tf", &[r, g, b]) => check_albedo([r, g, b]),
         ("Ke", &[r, g, b]) => check_radiance([r, g, b]),
         ("d", [opacity]) if !(0.0..=1.0).contains(opacity) => {
-            Err(format!("is {opacity}; allowed: 0 to 1"))
+            Err(format!("{opacity}; allowed: 0 to 1"))
         }
         ("Pm", [metallic]) if ![0.0, 1.0].contains(metallic) => Err(format!(
-            "is {metallic}; allowed: 0 (paint, wood, plastic) or 1 (bare metal), nothing between"
+            "{metallic}; allowed: 0 (paint, wood, plastic) or 1 (bare metal), nothing between"
         )),
         _ => Ok(()),
     };
-    checked.map_err(|reason| format!("{keyword} {reason}"))?;
+    checked.map_err(|reason| format!("{keyword} is {reason}"))?;
     Ok(numbers)
 }

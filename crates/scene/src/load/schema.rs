@@ -6,18 +6,23 @@ use serde::Deserialize;
 use serde::de::IgnoredAny;
 use toml::Spanned;
 
+use super::display::{Flip, Stops};
 use super::rotation::Rotation;
 use super::scale::Scale;
+use super::shutter::Shutter;
+use super::values::{
+    Albedo, Exposes, Exposure, FieldOfView, Opacity, PictureSize, Radiance, SunDirection,
+};
 use crate::{Family, Interpolation};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SceneTable {
-    pub(super) exposes: Spanned<String>,
+    pub(super) exposes: Exposes,
     pub(super) family: Family,
-    pub(super) exposure: Spanned<f64>,
-    pub(super) size: Spanned<[u32; 2]>,
-    pub(super) shutter: Option<Spanned<ShutterTable>>,
+    pub(super) exposure: Exposure,
+    pub(super) size: PictureSize,
+    pub(super) shutter: Option<Shutter>,
     #[serde(default)]
     pub(super) display: DisplayTable,
     pub(super) camera: Spanned<CameraTable>,
@@ -37,34 +42,17 @@ pub(super) struct SceneTable {
 pub(super) struct VariantTable {
     background: Option<BackgroundTable>,
     camera: Option<CameraTable>,
-    exposure: Option<f64>,
+    exposure: Option<Exposure>,
     object: Option<BTreeMap<String, ObjectTable>>,
-    shutter: Option<ShutterTable>,
+    shutter: Option<Shutter>,
     sun: Option<SunTable>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct ShutterTable {
-    pub(super) rise: Option<f64>,
-    pub(super) fall: Option<f64>,
-    pub(super) efficiency: Option<Vec<f64>>,
-    pub(super) rolling: Option<f64>,
 }
 
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct DisplayTable {
-    pub(super) stops: Option<Spanned<f32>>,
-    pub(super) flip: Option<Spanned<FlipTable>>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct FlipTable {
-    pub(super) start: f32,
-    pub(super) stop: f32,
-    pub(super) count: u32,
+    pub(super) stops: Option<Stops>,
+    pub(super) flip: Option<Flip>,
 }
 
 #[derive(Deserialize)]
@@ -74,7 +62,7 @@ pub(super) struct CameraTable {
     pub(super) look_at: Option<Spanned<[f64; 3]>>,
     pub(super) up: Option<Spanned<[f64; 3]>>,
     pub(super) rotation: Option<Rotation>,
-    pub(super) vertical_fov: Option<Spanned<f64>>,
+    pub(super) vertical_fov: Option<Spanned<FieldOfView>>,
     pub(super) aperture: Option<Spanned<f64>>,
     pub(super) focus: Option<Spanned<f64>>,
     pub(super) keys: Option<Spanned<Vec<CameraKeyTable>>>,
@@ -89,13 +77,13 @@ pub(super) struct CameraKeyTable {
     pub(super) look_at: Option<Spanned<[f64; 3]>>,
     pub(super) up: Option<Spanned<[f64; 3]>>,
     pub(super) rotation: Option<Rotation>,
-    pub(super) vertical_fov: Option<Spanned<f64>>,
+    pub(super) vertical_fov: Option<Spanned<FieldOfView>>,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct BackgroundTable {
-    pub(super) constant: Option<Spanned<[f32; 3]>>,
+    pub(super) constant: Option<Radiance>,
     pub(super) gradient: Option<GradientTable>,
     pub(super) image: Option<Spanned<String>>,
     pub(super) strength: Option<Spanned<f32>>,
@@ -105,16 +93,16 @@ pub(super) struct BackgroundTable {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct GradientTable {
-    pub(super) ground: Spanned<[f32; 3]>,
-    pub(super) horizon: Spanned<[f32; 3]>,
-    pub(super) zenith: Spanned<[f32; 3]>,
+    pub(super) ground: Radiance,
+    pub(super) horizon: Radiance,
+    pub(super) zenith: Radiance,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SunTable {
-    pub(super) direction: Spanned<[f64; 3]>,
-    pub(super) irradiance: Spanned<[f32; 3]>,
+    pub(super) direction: SunDirection,
+    pub(super) irradiance: Spanned<Radiance>,
     pub(super) angular_radius: Option<Spanned<f64>>,
 }
 
@@ -158,13 +146,13 @@ pub(super) struct KeyTable {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct MaterialTable {
-    pub(super) diffuse: Option<Spanned<[f32; 3]>>,
-    pub(super) emission: Option<Spanned<[f32; 3]>>,
-    pub(super) opacity: Option<Spanned<f32>>,
+    pub(super) diffuse: Option<Albedo>,
+    pub(super) emission: Option<Radiance>,
+    pub(super) opacity: Option<Opacity>,
     pub(super) roughness: Option<Spanned<f32>>,
     pub(super) metallic: Option<Spanned<bool>>,
     pub(super) index_of_refraction: Option<Spanned<f32>>,
-    pub(super) filter: Option<Spanned<[f32; 3]>>,
+    pub(super) filter: Option<Spanned<Albedo>>,
     pub(super) thin_glass: Option<Spanned<bool>>,
     pub(super) diffuse_texture: Option<Spanned<String>>,
     pub(super) emission_texture: Option<Spanned<String>>,

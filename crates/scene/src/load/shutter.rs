@@ -1,48 +1,50 @@
 //! The shutter of a scene.toml.
 
 use frame::{Efficiency, LONGEST_EXPOSURE, ShutterProfile};
-use toml::Spanned;
+use serde::Deserialize;
 
-use super::document::Document;
-use super::error::SceneError;
-use super::schema::ShutterTable;
+/// The shutter's efficiency and rolling.
+#[derive(Deserialize)]
+#[serde(try_from = "ShutterTable")]
+pub(super) struct Shutter(pub(super) ShutterProfile);
 
-/// Reads the shutter's efficiency and rolling.
-pub(super) fn read_shutter(
-    document: &Document,
-    table: &Option<Spanned<ShutterTable>>,
-) -> Result<ShutterProfile, SceneError> {
-    let Some(table) = table else {
-        return Ok(ShutterProfile::default());
-    };
-    let place = table.span();
-    let table = table.get_ref();
-    let efficiency = match (&table.efficiency, table.rise, table.fall) {
-        (None, None, None) => Efficiency::Box,
-        (None, rise, fall) => Efficiency::Trapezoid {
-            rise: rise.unwrap_or(0.0),
-            fall: fall.unwrap_or(0.0),
-        },
-        (Some(values), None, None) => Efficiency::Table(values.clone()),
-        (Some(_), ..) => {
-            let reason =
-                "the shutter has both an efficiency and a rise or fall; give one or the other";
-            return Err(document.error(place, reason));
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ShutterTable {
+    rise: Option<f64>,
+    fall: Option<f64>,
+    efficiency: Option<Vec<f64>>,
+    rolling: Option<f64>,
+}
+
+impl TryFrom<ShutterTable> for Shutter {
+    type Error = String;
+
+    fn try_from(table: ShutterTable) -> Result<Self, Self::Error> {
+        let efficiency = match (table.efficiency, table.rise, table.fall) {
+            (None, None, None) => Efficiency::Box,
+            (None, rise, fall) => Efficiency::Trapezoid {
+                rise: rise.unwrap_or(0.0),
+                fall: fall.unwrap_or(0.0),
+            },
+            (Some(values), None, None) => Efficiency::Table(values),
+            (Some(_), ..) => {
+                let reason =
+                    "the shutter has both an efficiency and a rise or fall; give one or the other";
+                return Err(reason.to_owned());
+            }
+        };
+        let profile = ShutterProfile {
+            efficiency,
+            rolling: table.rolling.unwrap_or(0.0),
+        };
+        if profile.rolling.abs() > LONGEST_EXPOSURE {
+            return Err(format!(
+                "rolling is {} frames; allowed: -{LONGEST_EXPOSURE} to {LONGEST_EXPOSURE}",
+                profile.rolling
+            ));
         }
-    };
-    let profile = ShutterProfile {
-        efficiency,
-        rolling: table.rolling.unwrap_or(0.0),
-    };
-    if profile.rolling.abs() > LONGEST_EXPOSURE {
-        let reason = format!(
-            "rolling is {} frames; allowed: -{LONGEST_EXPOSURE} to {LONGEST_EXPOSURE}",
-            profile.rolling
-        );
-        return Err(document.error(place, reason));
-    }
-    match profile.check() {
-        Ok(()) => Ok(profile),
-        Err(error) => Err(document.error(place, error.to_string())),
+        profile.check().map_err(|error| error.to_string())?;
+        Ok(Self(profile))
     }
 }

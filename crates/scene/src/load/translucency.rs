@@ -7,7 +7,6 @@ use toml::Spanned;
 
 use super::document::Document;
 use super::error::SceneError;
-use super::light::read_albedo;
 use super::schema::{AlphaWord, BuffersWord, MaterialTable, ObjectTable};
 use crate::{Finish, Material, Translucency};
 
@@ -113,7 +112,7 @@ pub(super) fn change_translucency(
     }
     let mut asked = material.translucency.unwrap_or(Translucency::CLEAR);
     if let Some(filter) = &table.filter {
-        asked.filter = read_albedo(document, "filter", filter)?;
+        asked.filter = filter.get_ref().0;
     }
     if let Some(is_glass) = &table.thin_glass {
         asked.glass = is_glass.get_ref().then(|| asked.glass.unwrap_or(GLASS));
