@@ -104,8 +104,9 @@ fn read_manifests() -> Imports {
         .collect();
     let names: BTreeSet<String> = manifests.iter().map(|(name, _)| name.clone()).collect();
     let imports = manifests.into_iter().map(|(name, manifest)| {
-        let dependencies = manifest.get("dependencies").and_then(|all| all.as_table());
-        let listed = dependencies.into_iter().flat_map(Table::keys);
+        let tables = ["dependencies", "build-dependencies"].map(|key| manifest.get(key));
+        let tables = tables.iter().flatten().filter_map(|all| all.as_table());
+        let listed = tables.flat_map(Table::keys);
         let imports = listed.filter(|other| names.contains(*other)).cloned();
         (name, imports.collect())
     });
