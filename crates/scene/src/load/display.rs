@@ -2,13 +2,19 @@
 
 use serde::Deserialize;
 
-use super::schema::DisplayTable;
 use crate::{Display, FlipExposures};
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct DisplayTable {
+    stops: Option<Stops>,
+    flip: Option<Flip>,
+}
 
 /// Exposure of pictures in stops.
 #[derive(Clone, Copy, Deserialize)]
 #[serde(try_from = "f32")]
-pub(super) struct Stops(f32);
+struct Stops(f32);
 
 impl TryFrom<f32> for Stops {
     type Error = String;
@@ -26,7 +32,7 @@ impl TryFrom<f32> for Stops {
 /// Exposures of HDR-FLIP.
 #[derive(Clone, Copy, Deserialize)]
 #[serde(try_from = "FlipTable")]
-pub(super) struct Flip(FlipExposures);
+struct Flip(FlipExposures);
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -106,19 +106,3 @@ fn check_strength(
     };
     Err(document.error(strength.span(), reason))
 }
-
-/// Checks an amount of light. The error is the value and what is allowed.
-pub(super) fn check_radiance(value: [f32; 3]) -> Result<(), String> {
-    if value.iter().all(|part| (0.0..=BRIGHTEST).contains(part)) {
-        return Ok(());
-    }
-    Err(format!("{value:?}; allowed: 0 to {BRIGHTEST:e}"))
-}
-
-/// Checks an albedo: a surface reflects no more light than falls on it. The error is the value and what is allowed.
-pub(super) fn check_albedo(value: [f32; 3]) -> Result<(), String> {
-    if value.iter().all(|part| (0.0..=1.0).contains(part)) {
-        return Ok(());
-    }
-    Err(format!("{value:?}; allowed: 0 to 1"))
-}

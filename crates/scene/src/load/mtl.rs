@@ -9,11 +9,11 @@ use glam::Vec3;
 use super::error::SceneError;
 use super::files::Files;
 use super::finish::FinishValues;
-use super::light::{check_albedo, check_radiance};
 use super::map_options::{Mapping, read_map};
 use super::statements::Statement;
 use super::texture::{Textures, Use};
 use super::translucency::GLASS;
+use super::values::{check_albedo, check_radiance};
 use crate::limits::LARGEST_NUMBER;
 use crate::{Material, Translucency};
 

@@ -6,7 +6,7 @@ use serde::Deserialize;
 use serde::de::IgnoredAny;
 use toml::Spanned;
 
-use super::display::{Flip, Stops};
+use super::display::DisplayTable;
 use super::rotation::Rotation;
 use super::scale::Scale;
 use super::shutter::Shutter;
@@ -46,13 +46,6 @@ pub(super) struct VariantTable {
     object: Option<BTreeMap<String, ObjectTable>>,
     shutter: Option<Shutter>,
     sun: Option<SunTable>,
-}
-
-#[derive(Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct DisplayTable {
-    pub(super) stops: Option<Stops>,
-    pub(super) flip: Option<Flip>,
 }
 
 #[derive(Deserialize)]

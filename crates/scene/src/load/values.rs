@@ -4,8 +4,7 @@ use frame::{Alignment, Size};
 use glam::{DVec3, Vec3};
 use serde::Deserialize;
 
-use super::light::{check_albedo, check_radiance};
-use crate::limits::NARROWEST_VIEW;
+use crate::limits::{BRIGHTEST, NARROWEST_VIEW};
 use crate::picture_size::check_size;
 
 /// What a scene exposes, in one sentence.
@@ -131,4 +130,20 @@ impl TryFrom<f64> for FieldOfView {
             ))
         }
     }
+}
+
+/// Checks an amount of light. The error is the value and what is allowed.
+pub(super) fn check_radiance(value: [f32; 3]) -> Result<(), String> {
+    if value.iter().all(|part| (0.0..=BRIGHTEST).contains(part)) {
+        return Ok(());
+    }
+    Err(format!("{value:?}; allowed: 0 to {BRIGHTEST:e}"))
+}
+
+/// Checks an albedo: a surface reflects no more light than falls on it. The error is the value and what is allowed.
+pub(super) fn check_albedo(value: [f32; 3]) -> Result<(), String> {
+    if value.iter().all(|part| (0.0..=1.0).contains(part)) {
+        return Ok(());
+    }
+    Err(format!("{value:?}; allowed: 0 to 1"))
 }
