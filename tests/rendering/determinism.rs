@@ -227,8 +227,10 @@ fn progress_rises_to_the_whole_and_break_cancels() {
     assert!(calls.into_inner() < 20, "work went on after the break");
 }
 
+type Change = fn(&mut RenderSettings);
+
 /// Changes of settings, and the end of the message.
-const BAD_SETTINGS: [(fn(&mut RenderSettings), &str); 6] = [
+const BAD_SETTINGS: [(Change, &str); 6] = [
     (
         |settings| settings.samples_per_pixel = 100,
         "is 100 over 8 replicates; allowed: 8 times a power of two up to 65536, such as 128",

@@ -5,8 +5,7 @@ use std::ops::Range;
 use glam::{DMat3, DQuat, DVec3};
 use toml::Spanned;
 
-use super::document::Document;
-use super::error::SceneError;
+use super::error::Slip;
 use super::keyed_motion::{Pose, build_motion, read_interpolation};
 use super::rotation::Rotation;
 use super::schema::{CameraKeyTable, CameraTable};
@@ -14,15 +13,11 @@ use crate::limits::{NEAREST_FOCUS, WIDEST_LENS};
 use crate::{Camera, Lens};
 
 /// Reads the camera, still or moving.
-pub(super) fn read_camera(
-    document: &Document,
-    table: &Spanned<CameraTable>,
-) -> Result<Camera, SceneError> {
+pub(super) fn read_camera(table: &Spanned<CameraTable>) -> Result<Camera, Slip> {
     let place = table.span();
     let table = table.get_ref();
-    let interpolation =
-        read_interpolation(document, "the camera", &table.interpolation, &table.keys)?;
-    let keys = read_keys(document, table, place.clone())?;
+    let interpolation = read_interpolation("the camera", &table.interpolation, &table.keys)?;
+    let keys = read_keys(table, place.clone())?;
     let mut poses = Vec::new();
     let mut fields_of_view = Vec::new();
     if let (Some(degrees), Some(_)) = (&table.vertical_fov, &table.keys) {
@@ -34,7 +29,7 @@ pub(super) fn read_camera(
         poses.push(Pose {
             time,
             translation: DVec3::from(key.position),
-            rotation: read_view_rotation(document, key)?,
+            rotation: read_view_rotation(key)?,
             scale: DVec3::ONE,
             place: key.time.span(),
         });
@@ -42,29 +37,28 @@ pub(super) fn read_camera(
             if is_still {
                 let reason =
                     "vertical_fov is given both for the camera and in a key; leave out one of them";
-                return Err(document.error(degrees.span(), reason));
+                return Err(Slip::new(degrees.span(), reason));
             }
             fields_of_view.push((time, degrees.get_ref().0));
         }
     }
-    let motion = build_motion(document, "the camera", keys.span(), &poses, interpolation)?;
+    let motion = build_motion("the camera", keys.span(), &poses, interpolation)?;
     if fields_of_view.is_empty() {
         let reason = "the camera has no vertical_fov; give it in degrees, once or in the keys";
-        return Err(document.error(place, reason));
+        return Err(Slip::new(place, reason));
     }
     Ok(Camera {
         motion,
         vertical_fov: fields_of_view,
-        lens: read_lens(document, table)?,
+        lens: read_lens(table)?,
     })
 }
 
 /// Returns the keys of a camera; one at time 0 for a still one.
 fn read_keys(
-    document: &Document,
     table: &CameraTable,
     place: Range<usize>,
-) -> Result<Spanned<Vec<CameraKeyTable>>, SceneError> {
+) -> Result<Spanned<Vec<CameraKeyTable>>, Slip> {
     let is_turned = table.look_at.is_some() || table.up.is_some() || table.rotation.is_some();
     match (&table.keys, table.position) {
         (None, Some(position)) => {
@@ -81,28 +75,24 @@ fn read_keys(
         (Some(keys), None) if !is_turned => Ok(keys.clone()),
         _ => {
             let reason = "a camera needs either a position with look_at or rotation, or keys that hold these";
-            Err(document.error(place, reason))
+            Err(Slip::new(place, reason))
         }
     }
 }
 
-fn read_view_rotation(document: &Document, key: &CameraKeyTable) -> Result<Rotation, SceneError> {
+fn read_view_rotation(key: &CameraKeyTable) -> Result<Rotation, Slip> {
     match (&key.look_at, key.rotation) {
         (None, Some(rotation)) if key.up.is_none() => Ok(rotation),
-        (Some(target), None) => read_look_at(document, key, target),
+        (Some(target), None) => read_look_at(key, target),
         _ => {
             let reason = "a camera needs either look_at, with up or without, or rotation";
-            Err(document.error(key.time.span(), reason))
+            Err(Slip::new(key.time.span(), reason))
         }
     }
 }
 
 /// Turns -Z towards the target and +Y as far up as that allows.
-fn read_look_at(
-    document: &Document,
-    key: &CameraKeyTable,
-    target: &Spanned<[f64; 3]>,
-) -> Result<Rotation, SceneError> {
+fn read_look_at(key: &CameraKeyTable, target: &Spanned<[f64; 3]>) -> Result<Rotation, Slip> {
     let Some(backward) =
         (DVec3::from(key.position) - DVec3::from(*target.get_ref())).try_normalize()
     else {
@@ -110,7 +100,7 @@ fn read_look_at(
             "the camera is at {:?} and looks at the same point; give another look_at",
             key.position
         );
-        return Err(document.error(target.span(), reason));
+        return Err(Slip::new(target.span(), reason));
     };
     let (up, place) = match &key.up {
         Some(up) => (*up.get_ref(), up.span()),
@@ -126,15 +116,15 @@ fn read_look_at(
         let reason = format!(
             "the camera's up {up:?} is zero or parallel to its view; give an up across the view"
         );
-        return Err(document.error(place, reason));
+        return Err(Slip::new(place, reason));
     };
     let axes = DMat3::from_cols(right, backward.cross(right), backward);
     Ok(Rotation::Quaternion(DQuat::from_mat3(&axes)))
 }
 
 /// Reads the lens; none for a pinhole.
-fn read_lens(document: &Document, camera: &CameraTable) -> Result<Option<Lens>, SceneError> {
-    let refuse = |number: &Spanned<f64>, reason: String| Err(document.error(number.span(), reason));
+fn read_lens(camera: &CameraTable) -> Result<Option<Lens>, Slip> {
+    let refuse = |number: &Spanned<f64>, reason: String| Err(Slip::new(number.span(), reason));
     match (&camera.aperture, &camera.focus) {
         (None, None) => Ok(None),
         (Some(aperture), None) => {

@@ -7,7 +7,7 @@ use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, ValueDeserializer};
 
-use super::error::{SceneError, allowed_numbers, check_visible};
+use super::error::{SceneError, Slip, allowed_numbers, check_visible};
 use crate::limits::LARGEST_NUMBER;
 
 /// Message for the TOML parser's own limit.
@@ -33,6 +33,11 @@ impl Document {
         let before = &self.text.as_bytes()[..place.start.min(self.text.len())];
         let line = 1 + before.iter().filter(|byte| **byte == b'\n').count();
         SceneError::at_line(&self.path, line, reason)
+    }
+
+    /// Finds the line of an error.
+    pub(super) fn locate(&self, slip: Slip) -> SceneError {
+        self.error(slip.place, slip.reason)
     }
 
     /// Parses the whole text and checks its numbers and strings.

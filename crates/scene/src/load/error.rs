@@ -1,5 +1,6 @@
 //! Errors in the files of a scene, and the rules for names and texts in them.
 
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use frame::is_hidden;
@@ -46,6 +47,26 @@ impl SceneError {
         let reason =
             format!("all {triangles} triangles have no area; a mesh needs at least one with area");
         Self::in_file(path, reason)
+    }
+}
+
+/// Error at a place of a scene.toml, before its line is known: [`Document::locate`] finds that.
+///
+/// [`Document::locate`]: super::document::Document::locate
+#[derive(Debug)]
+pub(super) struct Slip {
+    /// Bytes of the text.
+    pub(super) place: Range<usize>,
+    /// What was found, what is allowed, and the way out.
+    pub(super) reason: String,
+}
+
+impl Slip {
+    pub(super) fn new(place: Range<usize>, reason: impl Into<String>) -> Self {
+        Self {
+            place,
+            reason: reason.into(),
+        }
     }
 }
 

@@ -5,8 +5,7 @@ use std::ops::Range;
 use glam::DVec3;
 use toml::Spanned;
 
-use super::document::Document;
-use super::error::SceneError;
+use super::error::Slip;
 use super::rotation::{LARGEST_TURN, Rotation};
 use crate::limits::{CLOSEST_KEYS, MAX_KEYS};
 use crate::motion::keys::key_times;
@@ -24,16 +23,15 @@ pub(super) struct Pose {
 
 /// Reads the interpolation between keys; linear by default.
 pub(super) fn read_interpolation<K>(
-    document: &Document,
     what: &str,
     interpolation: &Option<Spanned<Interpolation>>,
     keys: &Option<Spanned<Vec<K>>>,
-) -> Result<Interpolation, SceneError> {
+) -> Result<Interpolation, Slip> {
     match interpolation {
         Some(given) if keys.is_none() => {
             let reason =
                 format!("{what} has an interpolation but no keys; give it keys, or leave it out");
-            Err(document.error(given.span(), reason))
+            Err(Slip::new(given.span(), reason))
         }
         given => Ok(given
             .as_ref()
@@ -44,20 +42,19 @@ pub(super) fn read_interpolation<K>(
 
 /// Builds the motion through poses at rising times.
 pub(super) fn build_motion(
-    document: &Document,
     what: &str,
     place: Range<usize>,
     poses: &[Pose],
     interpolation: Interpolation,
-) -> Result<Motion, SceneError> {
+) -> Result<Motion, Slip> {
     if !(1..=MAX_KEYS).contains(&poses.len()) {
         let reason = format!("{what} has {} keys; allowed: 1 to {MAX_KEYS}", poses.len());
-        return Err(document.error(place, reason));
+        return Err(Slip::new(place, reason));
     }
     let mut keys = Vec::new();
     for (index, pose) in poses.iter().enumerate() {
         let turn = match poses.get(index + 1) {
-            Some(next) => turn_between(document, what, pose, next)?,
+            Some(next) => turn_between(what, pose, next)?,
             None => Turn::NONE,
         };
         keys.push(Key {
@@ -72,19 +69,18 @@ pub(super) fn build_motion(
         keys,
         interpolation,
     };
-    check_scales(document, what, poses, &motion)?;
+    check_scales(what, poses, &motion)?;
     Ok(motion)
 }
 
 /// Refuses times that do not rise, or so close that the speed between them has no meaning. `noun`
 /// is a key or a shape.
 pub(super) fn check_times(
-    document: &Document,
     what: &str,
     noun: &str,
     [from, to]: [f64; 2],
     place: Range<usize>,
-) -> Result<(), SceneError> {
+) -> Result<(), Slip> {
     let reason = if to <= from {
         format!("{what} has a {noun} at time {to} after one at {from}; times must rise")
     } else if to - from < CLOSEST_KEYS {
@@ -94,34 +90,24 @@ pub(super) fn check_times(
     } else {
         return Ok(());
     };
-    Err(document.error(place, reason))
+    Err(Slip::new(place, reason))
 }
 
-fn turn_between(
-    document: &Document,
-    what: &str,
-    pose: &Pose,
-    next: &Pose,
-) -> Result<Turn, SceneError> {
+fn turn_between(what: &str, pose: &Pose, next: &Pose) -> Result<Turn, Slip> {
     let times = [pose.time, next.time];
-    check_times(document, what, "key", times, next.place.clone())?;
+    check_times(what, "key", times, next.place.clone())?;
     pose.rotation.turn_to(next.rotation).ok_or_else(|| {
         let reason = format!(
             "{what} turns by half a turn or more between two keys, so that its direction is ambiguous; allowed: below \
              {LARGEST_TURN} degrees, or any number of degrees if both keys have {{ axis, degrees }} with the same axis"
         );
-        document.error(next.place.clone(), reason)
+        Slip::new(next.place.clone(), reason)
     })
 }
 
 /// Refuses scales that pass through 0, from a frame before the instant to a frame after it, and
 /// between all keys.
-fn check_scales(
-    document: &Document,
-    what: &str,
-    poses: &[Pose],
-    motion: &Motion,
-) -> Result<(), SceneError> {
+fn check_scales(what: &str, poses: &[Pose], motion: &Motion) -> Result<(), Slip> {
     let earliest = poses[0].time.min(-1.0);
     let latest = poses[poses.len() - 1].time.max(1.0);
     let times = key_times([motion], earliest, latest);
@@ -141,7 +127,7 @@ fn check_scales(
                      sign, between the keys and beyond them",
                     pose.scale, pose.time
                 );
-                return Err(document.error(next.place.clone(), reason));
+                return Err(Slip::new(next.place.clone(), reason));
             }
         }
     }

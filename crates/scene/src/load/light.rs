@@ -6,7 +6,7 @@ use toml::Spanned;
 
 use super::document::Document;
 use super::environment;
-use super::error::SceneError;
+use super::error::{SceneError, Slip};
 use super::files::Files;
 use super::schema::{BackgroundTable, SunTable};
 use crate::limits::{BRIGHTEST, SMALLEST_SUN};
@@ -41,7 +41,7 @@ pub(super) fn read_background(
             let map = environment::read_map(files, &folder.join(image.get_ref()))
                 .map_err(|reason| document.error(image.span(), reason))?;
             if let Some(strength) = strength {
-                check_strength(document, strength, &map)?;
+                check_strength(strength, &map).map_err(|slip| document.locate(slip))?;
             }
             Ok(Background::Map(EnvironmentMap {
                 strength: strength
@@ -60,7 +60,7 @@ pub(super) fn read_background(
 }
 
 /// Reads the sun.
-pub(super) fn read_sun(document: &Document, table: &SunTable) -> Result<Sun, SceneError> {
+pub(super) fn read_sun(table: &SunTable) -> Result<Sun, Slip> {
     let degrees = table.angular_radius.as_ref().map_or(0.0, |r| *r.get_ref());
     if let Some(radius) = &table.angular_radius
         && degrees != 0.0
@@ -69,7 +69,7 @@ pub(super) fn read_sun(document: &Document, table: &SunTable) -> Result<Sun, Sce
         let reason = format!(
             "the sun's angular_radius is {degrees:?} degrees; allowed: 0 (a point) and {SMALLEST_SUN} to below 90"
         );
-        return Err(document.error(radius.span(), reason));
+        return Err(Slip::new(radius.span(), reason));
     }
     let sun = Sun {
         direction: table.direction.0,
@@ -82,16 +82,12 @@ pub(super) fn read_sun(document: &Document, table: &SunTable) -> Result<Sun, Sce
             "irradiance gives the sun's disc of {degrees} degrees a radiance of {brightest:.2e}; allowed: {BRIGHTEST:e}; \
              lower it, or give a larger angular_radius"
         );
-        return Err(document.error(table.irradiance.span(), reason));
+        return Err(Slip::new(table.irradiance.span(), reason));
     }
     Ok(sun)
 }
 
-fn check_strength(
-    document: &Document,
-    strength: &Spanned<f32>,
-    map: &EnvironmentMap,
-) -> Result<(), SceneError> {
+fn check_strength(strength: &Spanned<f32>, map: &EnvironmentMap) -> Result<(), Slip> {
     let factor = *strength.get_ref();
     let brightest = map.texels.iter().flatten().copied().fold(0.0, f32::max);
     let reason = if factor <= 0.0 {
@@ -104,5 +100,5 @@ fn check_strength(
     } else {
         return Ok(());
     };
-    Err(document.error(strength.span(), reason))
+    Err(Slip::new(strength.span(), reason))
 }

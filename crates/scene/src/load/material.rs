@@ -5,7 +5,7 @@ use std::path::Path;
 use toml::Spanned;
 
 use super::document::Document;
-use super::error::SceneError;
+use super::error::{SceneError, Slip};
 use super::files::Files;
 use super::finish::FinishValues;
 use super::schema::MaterialTable;
@@ -14,11 +14,7 @@ use super::translucency::change_translucency;
 use crate::{Finish, Material};
 
 /// Changes the values of a finish that the table names.
-fn change_finish(
-    document: &Document,
-    table: &MaterialTable,
-    before: Finish,
-) -> Result<Finish, SceneError> {
+fn change_finish(table: &MaterialTable, before: Finish) -> Result<Finish, Slip> {
     let before = FinishValues::from(before);
     let MaterialTable {
         roughness,
@@ -41,7 +37,7 @@ fn change_finish(
         ];
         let place = places[wrong].clone();
         let place = place.expect("the material's own values were allowed");
-        document.error(place, reason)
+        Slip::new(place, reason)
     })
 }
 
@@ -64,8 +60,9 @@ pub(super) fn change_material(
     if let Some(opacity) = &table.opacity {
         material.opacity = opacity.0;
     }
-    material.finish = change_finish(document, table, material.finish)?;
-    change_translucency(document, table, is_blended, material)?;
+    let locate = |slip| document.locate(slip);
+    material.finish = change_finish(table, material.finish).map_err(locate)?;
+    change_translucency(table, is_blended, material).map_err(locate)?;
     for (name, usage, index) in [
         (
             &table.diffuse_texture,

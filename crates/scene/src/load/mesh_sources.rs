@@ -5,8 +5,7 @@ use std::path::{Path, PathBuf};
 
 use toml::Spanned;
 
-use super::document::Document;
-use super::error::SceneError;
+use super::error::Slip;
 use super::keyed_motion::check_times;
 use super::schema::ObjectTable;
 use crate::limits::MAX_KEYS;
@@ -31,11 +30,10 @@ pub(super) fn mesh_key(sources: &[MeshSource], group: Option<&str>) -> MeshKey {
 
 /// Reads the sources of an object's mesh: one file, or one for each key shape, at rising times.
 pub(super) fn read_mesh_sources(
-    document: &Document,
     folder: &Path,
     name: &Spanned<String>,
     table: &ObjectTable,
-) -> Result<Vec<MeshSource>, SceneError> {
+) -> Result<Vec<MeshSource>, Slip> {
     let what = format!("object \"{}\"", name.get_ref());
     let source = |time: f64, mesh: &Spanned<String>| MeshSource {
         path: folder.join(mesh.get_ref()),
@@ -47,11 +45,11 @@ pub(super) fn read_mesh_sources(
         (None, Some(shapes)) => shapes,
         (None, None) => {
             let reason = format!("{what} has no mesh; give it a mesh, or shapes if it deforms");
-            return Err(document.error(name.span(), reason));
+            return Err(Slip::new(name.span(), reason));
         }
         (Some(_), Some(shapes)) => {
             let reason = format!("{what} has both a mesh and shapes; give one or the other");
-            return Err(document.error(shapes.span(), reason));
+            return Err(Slip::new(shapes.span(), reason));
         }
     };
     let count = shapes.get_ref().len();
@@ -59,11 +57,11 @@ pub(super) fn read_mesh_sources(
         let reason = format!(
             "{what} has {count} shapes; allowed: 2 to {MAX_KEYS}, or a mesh in their place"
         );
-        return Err(document.error(shapes.span(), reason));
+        return Err(Slip::new(shapes.span(), reason));
     }
     for pair in shapes.get_ref().windows(2) {
         let times = [0, 1].map(|index| *pair[index].time.get_ref());
-        check_times(document, &what, "shape", times, pair[1].time.span())?;
+        check_times(&what, "shape", times, pair[1].time.span())?;
     }
     let shapes = shapes.get_ref().iter();
     Ok(shapes

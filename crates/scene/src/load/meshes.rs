@@ -79,7 +79,8 @@ impl<'a> MeshLoader<'a> {
         name: &Spanned<String>,
         table: &ObjectTable,
     ) -> Result<(Rc<LoadedMesh>, Vec<usize>), SceneError> {
-        let sources = read_mesh_sources(self.document, self.folder, name, table)?;
+        let sources = read_mesh_sources(self.folder, name, table)
+            .map_err(|slip| self.document.locate(slip))?;
         for source in &sources {
             self.read_obj(source)?;
             self.check_group(table, &source.path)?;
@@ -93,7 +94,7 @@ impl<'a> MeshLoader<'a> {
                 self.loaded.entry(key).or_insert(mesh).clone()
             }
         };
-        let alpha = Alpha::read(self.document, table)?;
+        let alpha = Alpha::read(table).map_err(|slip| self.document.locate(slip))?;
         let materials = self.load_materials(&mesh, &sources[0], table, alpha)?;
         Ok((mesh, materials))
     }

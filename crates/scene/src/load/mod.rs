@@ -95,12 +95,10 @@ pub fn load_scene_and_files(
     }
     let shutter_profile = table.shutter.as_ref().map(|shutter| shutter.0.clone());
     let shutter_profile = shutter_profile.unwrap_or_default();
-    let camera = camera::read_camera(&document, &table.camera)?;
+    let camera = camera::read_camera(&table.camera).map_err(|slip| document.locate(slip))?;
     let background = light::read_background(&document, &mut files, folder, &table.background)?;
-    let sun = table
-        .sun
-        .as_ref()
-        .map(|sun| light::read_sun(&document, sun));
+    let sun = table.sun.as_ref().map(light::read_sun).transpose();
+    let sun = sun.map_err(|slip| document.locate(slip))?;
     let interval = rendered_interval(&table, shutter_profile.rolling, id.seal.is_some(), rate);
     let meshes = MeshLoader::new(&document, folder, files, interval);
     let mut loader = ObjectLoader::new(&document, meshes, interval);
@@ -126,7 +124,7 @@ pub fn load_scene_and_files(
         display: Display::from(&table.display),
         camera,
         background,
-        sun: sun.transpose()?,
+        sun,
         meshes: meshes.meshes,
         textures: meshes.textures.decoded,
         materials: meshes.materials.list,

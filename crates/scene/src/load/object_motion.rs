@@ -3,21 +3,16 @@
 use glam::DVec3;
 use toml::Spanned;
 
-use super::document::Document;
-use super::error::SceneError;
+use super::error::Slip;
 use super::keyed_motion::{Pose, build_motion, read_interpolation};
 use super::scale::Scale;
 use super::schema::ObjectTable;
 use crate::{Key, Motion};
 
 /// Reads a still pose, or the motion through keys.
-pub(super) fn read_object_motion(
-    document: &Document,
-    name: &str,
-    object: &ObjectTable,
-) -> Result<Motion, SceneError> {
+pub(super) fn read_object_motion(name: &str, object: &ObjectTable) -> Result<Motion, Slip> {
     let what = format!("object \"{name}\"");
-    let interpolation = read_interpolation(document, &what, &object.interpolation, &object.keys)?;
+    let interpolation = read_interpolation(&what, &object.interpolation, &object.keys)?;
     let translation = object.translation.as_ref();
     let rotation = object.rotation.as_ref();
     let scale = object.scale.as_ref();
@@ -37,7 +32,7 @@ pub(super) fn read_object_motion(
         let reason = format!(
             "{what} has both keys and a still pose; write translation, rotation and scale into the keys"
         );
-        return Err(document.error(place, reason));
+        return Err(Slip::new(place, reason));
     }
     let poses = keys.get_ref().iter().map(|key| Pose {
         time: *key.time.get_ref(),
@@ -47,5 +42,5 @@ pub(super) fn read_object_motion(
         place: key.time.span(),
     });
     let poses: Vec<Pose> = poses.collect();
-    build_motion(document, &what, keys.span(), &poses, interpolation)
+    build_motion(&what, keys.span(), &poses, interpolation)
 }

@@ -64,8 +64,9 @@ impl<'a> ObjectLoader<'a> {
         let ordered = OrderedObjects::new(tables);
         for (index, (name, table)) in ordered.tables.iter().enumerate() {
             self.check_object_name(name)?;
-            let parent = ordered.read_parent(self.document, index)?;
-            let motion = read_object_motion(self.document, name.get_ref(), table)?;
+            let locate = |slip| self.document.locate(slip);
+            let parent = ordered.read_parent(index).map_err(locate)?;
+            let motion = read_object_motion(name.get_ref(), table).map_err(locate)?;
             let placement = self.place_object(name, &motion, parent, camera_range)?;
             let (mesh, materials) = self.meshes.load_object(name, table)?;
             self.check_object(name, &placement, &mesh, &materials)?;

@@ -4,8 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use toml::Spanned;
 
-use super::document::Document;
-use super::error::{SceneError, join_names};
+use super::error::{Slip, join_names};
 use super::schema::ObjectTable;
 use crate::Parent;
 
@@ -31,11 +30,7 @@ impl<'a> OrderedObjects<'a> {
     }
 
     /// Reads the parent of the object at `index`.
-    pub(super) fn read_parent(
-        &self,
-        document: &Document,
-        index: usize,
-    ) -> Result<Parent, SceneError> {
+    pub(super) fn read_parent(&self, index: usize) -> Result<Parent, Slip> {
         let (name, table) = self.tables[index];
         let name = name.get_ref().as_str();
         let Some(parent) = &table.parent else {
@@ -65,7 +60,7 @@ impl<'a> OrderedObjects<'a> {
                 ),
             },
         };
-        Err(document.error(parent.span(), reason))
+        Err(Slip::new(parent.span(), reason))
     }
 
     /// Follows the parents of an object; returns the path if it meets an object twice: `a -> b ->

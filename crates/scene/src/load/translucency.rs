@@ -5,8 +5,7 @@ use std::path::Path;
 
 use toml::Spanned;
 
-use super::document::Document;
-use super::error::SceneError;
+use super::error::Slip;
 use super::schema::{AlphaWord, BuffersWord, MaterialTable, ObjectTable};
 use crate::{Finish, Material, Translucency};
 
@@ -26,11 +25,11 @@ pub(super) struct Alpha {
 
 impl Alpha {
     /// Reads `alpha` and `buffers` of an object.
-    pub(super) fn read(document: &Document, table: &ObjectTable) -> Result<Self, SceneError> {
+    pub(super) fn read(table: &ObjectTable) -> Result<Self, Slip> {
         let is_blended = table.alpha == Some(AlphaWord::Blended);
         if let (Some(buffers), false) = (&table.buffers, is_blended) {
             let reason = "buffers says which velocity and depth a translucent object has; give it alpha = \"blended\"";
-            return Err(document.error(buffers.span(), reason));
+            return Err(Slip::new(buffers.span(), reason));
         }
         let buffers = table.buffers.as_ref().map(|buffers| *buffers.get_ref());
         Ok(Self {
@@ -94,11 +93,10 @@ impl Alpha {
 
 /// Changes a material's translucency by the keys of a scene.toml.
 pub(super) fn change_translucency(
-    document: &Document,
     table: &MaterialTable,
     is_blended: bool,
     material: &mut Material,
-) -> Result<(), SceneError> {
+) -> Result<(), Slip> {
     let places = [
         (table.filter.as_ref().map(Spanned::span), "filter"),
         (table.thin_glass.as_ref().map(Spanned::span), "thin_glass"),
@@ -107,7 +105,7 @@ pub(super) fn change_translucency(
         if let (Some(place), false) = (place, is_blended) {
             let reason =
                 format!("{key} is about light that passes; give the object alpha = \"blended\"");
-            return Err(document.error(place, reason));
+            return Err(Slip::new(place, reason));
         }
     }
     let mut asked = material.translucency.unwrap_or(Translucency::CLEAR);

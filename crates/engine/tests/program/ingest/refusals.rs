@@ -161,36 +161,46 @@ const BAD_PIXELS: [(&str, &str, f32, &[&str]); 4] = [
     ),
 ];
 
-/// A file, the letters that name its channels, its size, the value of all pixels, and parts of the
-/// message.
-const BAD_SHAPES: [(&str, &str, [u32; 2], f32, &[&str]); 3] = [
-    (
-        "velocity.exr",
-        "XY",
-        [64, 32],
-        0.0,
-        &[
+/// A file of a wrong shape.
+struct BadShape {
+    name: &'static str,
+    /// Letters that name its channels.
+    channels: &'static str,
+    size: [u32; 2],
+    /// Value of all pixels.
+    value: f32,
+    /// Parts of the message.
+    says: &'static [&'static str],
+}
+
+const BAD_SHAPES: [BadShape; 3] = [
+    BadShape {
+        name: "velocity.exr",
+        channels: "XY",
+        size: [64, 32],
+        value: 0.0,
+        says: &[
             "velocity.exr: has 64x32 pixels, the colour 96x54",
             "without scaling",
         ],
-    ),
-    (
-        "velocity.exr",
-        "BQ",
-        [96, 54],
-        0.0,
-        &["velocity.exr: has the channels B, Q; needed: velocity.X and velocity.Y"],
-    ),
-    (
-        "object.exr",
-        "R",
-        [96, 54],
-        0.5,
-        &[
+    },
+    BadShape {
+        name: "velocity.exr",
+        channels: "BQ",
+        size: [96, 54],
+        value: 0.0,
+        says: &["velocity.exr: has the channels B, Q; needed: velocity.X and velocity.Y"],
+    },
+    BadShape {
+        name: "object.exr",
+        channels: "R",
+        size: [96, 54],
+        value: 0.5,
+        says: &[
             r#"object.exr: channel "R" holds 0.5 at pixel (0, 0)"#,
             "without blending",
         ],
-    ),
+    },
 ];
 
 #[test]
@@ -210,8 +220,15 @@ fn pictures_that_cannot_be_right_are_refused() {
         let change = || change_pixel(name, channel, value);
         refuse(bench, name, parts, change);
     }
-    for (name, channels, [width, height], value, parts) in BAD_SHAPES {
-        refuse(bench, name, parts, || {
+    for BadShape {
+        name,
+        channels,
+        size: [width, height],
+        value,
+        says,
+    } in BAD_SHAPES
+    {
+        refuse(bench, name, says, || {
             let plane = Plane::filled(width, height, value);
             let mut file = ExrFile::new(width, height);
             for channel in channels.chars() {
