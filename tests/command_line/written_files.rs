@@ -87,6 +87,8 @@ fn a_truth_with_a_nan_or_without_a_channel_is_rendered_again() {
         }
         write_exr(&path, &file).unwrap();
         assert!(fs::read(&path).unwrap() != whole);
+        // Its record would show that the file was altered; here the file itself has to.
+        fs::remove_file(path.with_extension("json")).unwrap();
         sandbox.measure(RUN);
         assert!(fs::read(&path).unwrap() == whole, "NaN: {with_nan}");
     }
