@@ -77,7 +77,7 @@ fuzz: software_vulkan
 
 # Changes shipped kernels in small ways and counts the changes that the limits notice: results/studies/mutation.md.
 mutants: software_vulkan
-	$(SOFTWARE) cargo run --locked -p cli --example mutants
+	$(SOFTWARE) cargo run --locked -p shuttertruth --example mutants
 
 # Joins, judges and reports a run of 10,000 cases, copies of a small one: crates/merge/guides/many-machines.md.
 GROWTH = $(TARGET_DIR)/tmp/growth

@@ -1,4 +1,4 @@
-//! Prints, as Markdown, how the ranking of filters changes with the picture size: `cargo run -p cli
+//! Prints, as Markdown, how the ranking of filters changes with the picture size: `cargo run -p shuttertruth
 //! --example compare_sizes -- out/160x90/run.json out/320x180/run.json
 //! results/1280x720_llvmpipe.json`.
 

@@ -1,5 +1,5 @@
 //! Counts how many intervals contain the score that infinitely many samples would give, over many
-//! seeds, and prints the table of `results/studies/intervals.md`. `cargo run -p cli --example
+//! seeds, and prints the table of `results/studies/intervals.md`. `cargo run -p shuttertruth --example
 //! intervals -- 48 64 4096 railing,flag,fan,two_spheres`
 
 use std::collections::BTreeMap;

@@ -1,6 +1,6 @@
 //! Helps to choose the region of the headline score: prints FLIP of slight errors, of spills and of
 //! doing nothing, over *moving* and *support*, on all shipped scenes or the named ones, as
-//! Markdown. `cargo run -p cli --example regions -- 160x90 64`
+//! Markdown. `cargo run -p shuttertruth --example regions -- 160x90 64`
 
 use std::ops::ControlFlow;
 use std::process::ExitCode;

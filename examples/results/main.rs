@@ -1,5 +1,5 @@
 //! Keeps results: puts the scores of runs of different scenes into their file below `results/`, and
-//! writes its page from all files there: `cargo run -p cli --example results -- out/run.json`. A
+//! writes its page from all files there: `cargo run -p shuttertruth --example results -- out/run.json`. A
 //! file named `bench` and more, as pages save it, goes into its card's file below `results/bench/`.
 //! Without a file it only writes the page. With `--lengths` it prints the lengths of engines'
 //! smears. With `--site FOLDER` it keeps nothing, and writes the source of the site with live cases

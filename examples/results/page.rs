@@ -366,8 +366,8 @@ These commands make the scores, the pictures and this page. Each run announces t
     shuttertruth run --size {SIZE} --samples-per-pixel {SAMPLES} --jitter-frames 0 --out out/results_{SIZE}
     shuttertruth bench --size {TIMED_SIZE} --out out
     shuttertruth run --seal 1 --size {SIZE} --samples-per-pixel {SAMPLES} --jitter-frames 0 --out out/sealed_{SIZE}
-    cargo run -p cli --example results -- out/results_{SIZE}/run.json
-    cargo run -p cli --example results -- out/sealed_{SIZE}/run.json
+    cargo run -p shuttertruth --example results -- out/results_{SIZE}/run.json
+    cargo run -p shuttertruth --example results -- out/sealed_{SIZE}/run.json
 
 Flax's licence forbids a port, so that it has no row: [its finding](findings/flax.md). To add a filter, put its folder into `shaders/` and run them with `--filter` and its name. The JSON files next to this page hold every
 score, and [one in bench](bench/1920x1080_nvidia_h100_80gb_hbm3.json) the times; [engines.toml](engines.toml) holds the sentences about engines. [What the scores mean](../crates/metrics/README.md).

@@ -54,7 +54,7 @@ fn the_page_of_results_is_made_from_the_files_beside_it() {
     let page = fs::read_to_string(folder().join("README.md")).unwrap();
     assert!(
         page == results_page(&results, &cards).unwrap(),
-        "results/README.md is not what its files say; write it: cargo run -p cli --example results"
+        "results/README.md is not what its files say; write it: cargo run -p shuttertruth --example results"
     );
     // A reader's card, as a browser would have timed it.
     let sent = Some("fan".to_owned());

@@ -1,4 +1,4 @@
-//! Opening time of a report: `cargo run --package cli --example report_opening -- out/report.html`.
+//! Opening time of a report: `cargo run --package shuttertruth --example report_opening -- out/report.html`.
 
 #[expect(dead_code, reason = "the tests of pages need more of it")]
 mod browser;

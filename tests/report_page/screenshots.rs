@@ -1,5 +1,5 @@
 //! Pictures of pages as users see them, on three widths, in light and dark, and in print: `cargo
-//! run --package cli --example report_screenshots -- FOLDER out/report.html
+//! run --package shuttertruth --example report_screenshots -- FOLDER out/report.html
 //! 'out/report.html#fan/bevy:high'`.
 
 #[expect(dead_code, reason = "the tests of pages need more of it")]
