@@ -8,7 +8,7 @@
 # shaders in GLSL. `make prove` needs Blender and mdBook, too.
 # On macOS and Windows plain cargo commands work.
 
-.PHONY: run site pictures test prove breadth guides fuzz mutants growth archive action image publish vulkan software_vulkan python chromium node glslang blender mdbook
+.PHONY: run site pictures test prove breadth guides fuzz mutants growth archive action release image publish vulkan software_vulkan python chromium node glslang blender mdbook
 
 # Mesa complains on every start where a login session has not set it, as in containers; nothing is written there.
 export XDG_RUNTIME_DIR ?= /tmp
@@ -99,6 +99,9 @@ ARCHIVE = $(shell ls -t target/archive/shuttertruth-*-$(shell rustc -vV | sed -n
 action: archive python
 	"$(PYTHON)" -c 'import yaml' 2>/dev/null || "$(PYTHON)" -m pip install -q pyyaml==6.0.3
 	"$(PYTHON)" release/try_action.py "$(ARCHIVE)" $(if $(ROOT),--root "$(ROOT)")
+
+# As root: everything that a release consists of, each tried as its user would.
+release: archive action publish
 
 # As root: BASE=IMAGE names another base than Debian's image of Docker Hub.
 image: archive

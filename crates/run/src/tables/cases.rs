@@ -4,7 +4,7 @@ use judge::lag_text;
 use measure::{Case, Failure, Run, printable_lines};
 use metrics::{Metric, Scores};
 
-use super::{Column, Missing, Table, bracket_name, legend_text, list_once, means_table};
+use super::{Column, Missing, Ranks, Table, bracket_name, legend_text, list_once, means_table};
 use terminal::output::{Text, bad, heading, wrap_lines};
 
 const CASE_COLUMNS: [Column; 9] = [
@@ -27,9 +27,11 @@ const COMMON_FLIP: &str = "FLIP*";
 pub fn run_table(run: &Run) -> Text {
     let mut table = case_table("scene / filter", &["noise", COMMON_FLIP]);
     let mut missing = Missing::default();
-    for scene in list_once(run.cases.iter().map(|case| &case.scene)) {
+    let ranks = Ranks::of(run);
+    let scenes = list_once(run.cases.iter().map(|case| &case.scene));
+    for scene in &scenes {
         let name = scene.to_string();
-        let of_scene = || run.cases.iter().filter(|case| case.scene == *scene);
+        let of_scene = || run.cases.iter().filter(|case| case.scene == **scene);
         for alignment in list_once(of_scene().map(|case| case.alignment)) {
             table.push_text(heading(&format!("{scene}, {alignment} shutter")));
             for case in of_scene().filter(|case| case.alignment == alignment) {
@@ -39,6 +41,12 @@ pub fn run_table(run: &Run) -> Text {
                 for (title, metric) in columns.chain([(COMMON_FLIP, Metric::CommonFlip)]) {
                     missing.note(title, &case.measured(metric), [&name, &row]);
                 }
+                // Ranks are over all scenes.
+                let row = if scenes.len() == 1 {
+                    ranks.name(&case.filter_id(), case.scene.rate)
+                } else {
+                    row
+                };
                 table.push_row(case.is_reference, row, case_cells(&case.scores).chain(more));
             }
         }
@@ -48,7 +56,7 @@ pub fn run_table(run: &Run) -> Text {
         run.common_alignment
     );
     let lag = lag_text(&run.cases).map_or(Text::default(), |lag| legend_text(&lag));
-    table.text() + legend_text(&legend) + lag + missing.text() + means_table(&run.overall)
+    table.text() + legend_text(&legend) + lag + missing.text() + means_table(&run.overall, &ranks)
 }
 
 /// Meaning of titles and marks.
