@@ -73,7 +73,7 @@ fn a_run_after_a_check_shows_no_bounds() {
         "FAIL",
         "Why it failed",
         "BROKEN",
-        "target",
+        "targets met",
     ] {
         assert!(!page.contains(words), "{words}");
     }

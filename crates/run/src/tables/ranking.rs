@@ -46,9 +46,8 @@ pub fn ranking_text(run: &Run) -> Text {
     text += "\n";
     text += legend_text(&notes(&groups));
     let scenes = list_once(list_summarized(cases).into_iter().map(|case| &case.scene));
-    if let Some(few) = few_scenes_text(scenes.len()) {
-        text += legend_text(&few);
-    }
+    let few = few_scenes_text(scenes.len()).filter(|_| rows > 1);
+    text += few.map_or(Text::default(), |few| legend_text(&few));
     text += hidden_text(presets, rows, hidden);
     text += twins_text(cases, &groups);
     text + input_forms_text(cases) + frame_rates_text(cases)

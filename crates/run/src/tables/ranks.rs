@@ -15,7 +15,7 @@ impl Ranks {
         Self(rank_presets(&run.cases).concat())
     }
 
-    /// Formats a filter or reference after its rank; one without a rank is indented as far.
+    /// Formats a filter after its rank, and a picture without a rank alone.
     pub fn name(&self, filter: &FilterId, rate: Option<FrameRate>) -> String {
         let is_of = |ranked: &&RankedFilter| {
             ranked.name == filter.name
@@ -27,10 +27,10 @@ impl Ranks {
             .iter()
             .filter(|ranked| ranked.is_ranked())
             .find(is_of);
-        let rank = ranked.map(RankedFilter::rank_text).unwrap_or_default();
-        format!(
-            "{rank:>4} {}",
-            bracket_name(&filter.name, filter.is_reference)
-        )
+        let name = bracket_name(&filter.name, filter.is_reference);
+        match ranked {
+            Some(ranked) => format!("{} {name}", ranked.rank_text()),
+            None => name,
+        }
     }
 }
