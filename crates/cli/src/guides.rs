@@ -122,7 +122,10 @@ fn commands_page(written: &str) -> String {
             groups.map(move |(group, ids)| (command, group, ids))
         });
         let (command, _, ids) = shared.find(|(_, group, _)| *group == title).expect(title);
-        text += &format!("\n## {title}\n\n{}", help(command, "{options}", &ids));
+        text += &format!(
+            "\n## {title}\n\n{}",
+            help(command, "{positionals}\n{options}", &ids)
+        );
     }
     text
 }

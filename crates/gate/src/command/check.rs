@@ -42,7 +42,7 @@ fn list_measuring() -> Vec<Id> {
 pub struct CheckArgs {
     /// Finished run to judge: its run.json, or its folder. Renders nothing and opens no adapter
     /// [default: measure now].
-    #[arg(value_name = "RUN", conflicts_with_all = list_measuring())]
+    #[arg(help_heading = "Judging", long, value_name = "RUN", conflicts_with_all = list_measuring())]
     pub run: Option<PathBuf>,
     /// For every broken bound of RUN, find the worst place and the known failure that the picture
     /// resembles most. A check that measures always does.
@@ -242,7 +242,7 @@ fn judge_finished(args: &CheckArgs, path: &Path, judging: &Judging) -> Result<Ju
         folder => folder.to_owned(),
     };
     let run = side.run;
-    refuse_tracked(&folder, "measure it now: shuttertruth check, without a RUN")?;
+    refuse_tracked(&folder, "measure it now: shuttertruth check, without --run")?;
     let root = &args.measure.scenes.root.scenes_dir;
     let bounds = read_run_bounds(&run, root)?;
     let mut findings = judge(&run, &bounds);
@@ -290,7 +290,7 @@ fn read_run_bounds(run: &Run, root: &Location) -> Result<RunBounds, Error> {
         None => Ok(bounds),
         Some(case) if case.drawn.is_some() => refuse!(
             "{}: an engine drew it, and its bounds lie beside what was ingested, which is not in {root}; name the folder \
-             above that with --scenes-dir, such as out/engine, or measure it now: shuttertruth check --scenes",
+             above that with --scenes-dir, such as out/engine, or measure it now: shuttertruth check FOLDER",
             case.scene
         ),
         Some(case) => refuse!(
