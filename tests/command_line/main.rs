@@ -34,6 +34,7 @@ mod interrupts;
 mod kept;
 mod kept_cases;
 mod links;
+mod new;
 mod own_filter;
 mod pictures;
 mod quotes;

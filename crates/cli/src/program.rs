@@ -31,6 +31,8 @@ pub struct Cli {
 /// The commands.
 #[derive(Debug, Subcommand)]
 pub enum Command {
+    /// Begin a filter of your own: write an engine's example, and try it
+    New(new::NewArgs),
     /// Render scenes, run filters, measure and rank them
     ///
     /// Prints a ranking; writes report.html, run.json, EXR and PNG.
@@ -41,7 +43,7 @@ pub enum Command {
     Score(score::ScoreArgs),
     /// Write a finished run or tuning as one HTML page
     Report(report::ReportArgs),
-    /// Compare two finished runs: which scores changed by more than noise
+    /// Compare two runs: which scores changed by more than noise
     Compare(compare::CompareArgs),
     /// List scenes, filters, parameters, presets, inputs and adapters
     List(list::ListArgs),
@@ -62,10 +64,8 @@ pub enum Command {
     #[command(subcommand, disable_help_subcommand = true)]
     Limits(LimitsCommand),
     /// Print completions for a shell
-    #[command(hide = true)]
     Completions(description::CompletionsArgs),
     /// Write the pages of the manual
-    #[command(hide = true)]
     Man(description::ManArgs),
 }
 
@@ -110,14 +110,13 @@ impl Cli {
     pub fn command_line() -> clap::Command {
         let mut program = Self::command();
         program.build();
-        // The commands have headings.
+        // The commands have headings, and say more about colours; a screen has 24 lines.
         (program.mut_subcommand("help", |help| help.hide(true)))
-            .mut_args(|argument| argument.help_heading(None::<&str>))
-    }
-
-    /// Makes the command line with all commands, for completions and the manual.
-    fn all_visible() -> clap::Command {
-        Self::command().mut_subcommands(|command| command.hide(false))
+            .mut_args(|argument| {
+                let is_color = argument.get_id() == "color";
+                argument.help_heading(None::<&str>).hide(is_color)
+            })
+            .help_template("{about-with-newline}{usage-heading} {usage}\n\n{all-args}")
     }
 
     /// Parses the words of a command line.
@@ -170,6 +169,7 @@ pub fn execute(program: &Cli) -> Result<Ending, Error> {
             .map_err(|error| Error::Refused(format!("cannot start the threads: {error}")))?;
     }
     let done = match &program.command {
+        Command::New(args) => new::execute(args),
         Command::Run(args) => run::execute(args, &report::ADDITIONS),
         Command::Check(args) => return gate::execute_check(args, &report::ADDITIONS),
         Command::Score(args) if args.frames > 1 => score_sequence::execute(args),
@@ -188,8 +188,8 @@ pub fn execute(program: &Cli) -> Result<Ending, Error> {
         Command::Truths(TruthsCommand::Merge(args)) => merge::execute(args),
         Command::Limits(LimitsCommand::Accept(args)) => gate::execute_accept(args),
         Command::Limits(LimitsCommand::Calibrate(args)) => gate::execute_calibrate(args),
-        Command::Completions(args) => description::print_completions(args, Cli::all_visible()),
-        Command::Man(args) => description::write_manual(args, Cli::all_visible()),
+        Command::Completions(args) => description::print_completions(args, Cli::command()),
+        Command::Man(args) => description::write_manual(args, Cli::command()),
     };
     done.map(|()| Ending::Done)
 }

@@ -1,6 +1,6 @@
 //! The command `list`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use terminal::refuse;
 
 use clap::Args;
@@ -84,6 +84,13 @@ pub fn execute(args: &ListArgs) -> Result<(), Error> {
     print(text + "details: shuttertruth list NAME\n")
 }
 
+/// Tries out the filter in a folder, and prints its details.
+pub fn list_filter(folder: &Path) -> Result<(), Error> {
+    let filter = Filter::load(folder)?;
+    try_filters(&[&filter], None)?;
+    print(details_text(&[], &[filter]))
+}
+
 /// Writes what is worth knowing about a scene and its variants: what the loader left out, and
 /// surfaces in one place.
 fn print_notes(listing: &SceneListing) -> Result<(), Error> {
@@ -157,8 +164,8 @@ fn find_named(args: &ListArgs) -> Result<(Vec<SceneListing>, Vec<Filter>), Error
     for name in &args.filters {
         filters.extend(load_filters(name)?);
     }
-    let is_own = |filter: &&Filter| !builtin.contains(&filter.name);
-    let user_filters: Vec<&Filter> = filters.iter().filter(is_own).collect();
+    let is_users = |filter: &&Filter| !builtin.contains(&filter.name);
+    let user_filters: Vec<&Filter> = filters.iter().filter(is_users).collect();
     try_filters(&user_filters, args.adapter.adapter.as_deref())?;
     Ok((scenes, filters))
 }
