@@ -120,7 +120,7 @@ fn report(
         folder,
     } = judged;
     if let Some(path) = &args.junit {
-        frame::write_atomically(path, junit(checked).as_bytes())?;
+        frame::write_atomically(path, junit(checked, folder, &run.seconds).as_bytes())?;
     }
     let measured = args.run.as_ref().map(|path| {
         format!(

@@ -212,7 +212,7 @@ fn a_finished_run_is_judged_without_an_adapter() {
     let sandbox = make_bounded(0.2, "required");
     let broken = ["BROKEN flip_moving"];
     let made = check(&sandbox, "", 1, &broken);
-    let judge = |line: &str| sandbox.without_adapter(&split(&format!("check {line}")));
+    let judge = |line: &str| sandbox.without_adapter(&split(&format!("check --run {line}")));
     // The run wrote the page and its files already.
     let lines = made.split_inclusive('\n');
     let made: String = (lines.filter(|line| !line.starts_with("report: "))).collect();
