@@ -37,6 +37,7 @@ mod links;
 mod new;
 mod own_filter;
 mod pictures;
+mod previous;
 mod quotes;
 mod reference_width;
 mod refusals;
@@ -47,6 +48,7 @@ mod scene_notes;
 mod score;
 mod sequences;
 mod set_up;
+mod settings;
 mod shared_runs;
 mod shipped_files;
 #[cfg(target_os = "linux")]

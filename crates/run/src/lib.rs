@@ -7,6 +7,7 @@ mod kept_truths;
 mod measured;
 mod pages;
 mod plan;
+mod previous;
 mod tables;
 
 pub use self::command::{RunArgs, execute};
@@ -16,4 +17,5 @@ pub use self::pages::{
     write_run_page,
 };
 pub use self::plan::{Margins, add_bounds, lock_out, make_plan, read_margins};
+pub use self::previous::PREVIOUS;
 pub use self::tables::{failures_text, ranking_text, run_table, score_sequence_table, score_table};

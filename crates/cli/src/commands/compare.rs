@@ -1,6 +1,6 @@
 //! The command `compare`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use judge::compare_runs;
@@ -8,19 +8,21 @@ use measure::{Error, StoredRun};
 use report::compare_page;
 
 use crate::tables::compare_table;
-use run::read_margins;
 use run::write_page;
+use run::{PREVIOUS, read_margins};
 use terminal::arguments::RootArgs;
 use terminal::output::{make_monitor, print, print_json};
+use terminal::refuse;
 
 #[derive(Debug, Args)]
 pub struct CompareArgs {
-    /// run.json of the first run, or its folder.
-    #[arg(value_name = "RUN_A")]
+    /// Folder of a run, or its run.json; alone, what changed since the run before it in the same
+    /// folder.
+    #[arg(value_name = "RUN", default_value = "out")]
     pub first: PathBuf,
-    /// run.json of the second run, or its folder.
-    #[arg(value_name = "RUN_B")]
-    pub second: PathBuf,
+    /// The second run; changes are from the first to this one.
+    #[arg(value_name = "OTHER")]
+    pub second: Option<PathBuf>,
     /// Write the comparison as an HTML page with the pictures that changed.
     #[arg(long, value_name = "FILE")]
     pub html: Option<PathBuf>,
@@ -31,12 +33,25 @@ pub struct CompareArgs {
     pub json: bool,
 }
 
+/// Reads a run, and the one before it in the same folder.
+fn read_previous(path: &Path) -> Result<(StoredRun, StoredRun), Error> {
+    let last = StoredRun::read(path)?;
+    let previous = last.folder().join(PREVIOUS);
+    if !previous.exists() {
+        refuse!(
+            "{}: there was one run only, and no other to compare with; run it again after a change, or name two runs",
+            last.folder().display()
+        );
+    }
+    Ok((StoredRun::read(&previous)?, last))
+}
+
 /// Reads two finished runs, prints what changed, and writes the page.
 pub fn execute(args: &CompareArgs) -> Result<(), Error> {
-    let (first, second) = (
-        StoredRun::read(&args.first)?,
-        StoredRun::read(&args.second)?,
-    );
+    let (first, second) = match &args.second {
+        Some(second) => (StoredRun::read(&args.first)?, StoredRun::read(second)?),
+        None => read_previous(&args.first)?,
+    };
     let margins = read_margins(&args.root.scenes_dir)?;
     let compared = make_monitor().watch("cases that changed", |watch| {
         compare_runs(&first, &second, &margins, watch)

@@ -42,11 +42,11 @@ fn list_measuring() -> Vec<Id> {
 pub struct CheckArgs {
     /// Finished run to judge: its run.json, or its folder. Renders nothing and opens no adapter
     /// [default: measure now].
-    #[arg(help_heading = "Judging", long, value_name = "RUN", conflicts_with_all = list_measuring())]
-    pub run: Option<PathBuf>,
+    #[arg(help_heading = "Judging", long = "run", value_name = "RUN", conflicts_with_all = list_measuring())]
+    pub finished: Option<PathBuf>,
     /// For every broken bound of RUN, find the worst place and the known failure that the picture
     /// resembles most. A check that measures always does.
-    #[arg(help_heading = "Judging", long, requires = "run")]
+    #[arg(help_heading = "Judging", long, requires = "finished")]
     pub evidence: bool,
     /// What to measure.
     #[command(flatten)]
@@ -92,7 +92,7 @@ pub fn execute(args: &CheckArgs, additions: &[AddToPage]) -> Result<Ending, Erro
         additions,
     };
     let summary_file = args.github.then(find_summary_file).transpose()?;
-    let judged = match &args.run {
+    let judged = match &args.finished {
         Some(path) => judge_finished(args, path, &judging)?,
         None => run_and_judge(args, &judging)?,
     };
@@ -122,7 +122,7 @@ fn report(
     if let Some(path) = &args.junit {
         frame::write_atomically(path, junit(checked, folder, &run.seconds).as_bytes())?;
     }
-    let measured = args.run.as_ref().map(|path| {
+    let measured = args.finished.as_ref().map(|path| {
         format!(
             "nothing was measured or verified now: the scores are those that {} has",
             printable_path(path)
