@@ -16,6 +16,7 @@ mod empty_folder;
 #[path = "../../crates/engine/tests/program/mod.rs"]
 mod engine;
 mod exclusion;
+mod exported_tables;
 mod failures;
 mod fidelity;
 mod finished_sequence;
@@ -34,6 +35,8 @@ mod interrupts;
 mod kept;
 mod kept_cases;
 mod links;
+#[cfg(target_os = "linux")]
+mod look;
 mod new;
 mod own_filter;
 mod pictures;

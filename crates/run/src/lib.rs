@@ -9,6 +9,7 @@ mod pages;
 mod plan;
 mod previous;
 mod tables;
+mod watch;
 
 pub use self::command::{RunArgs, execute};
 pub use self::measured::{MeasuredRun, measure};

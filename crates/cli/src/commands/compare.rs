@@ -7,12 +7,13 @@ use judge::compare_runs;
 use measure::{Error, StoredRun};
 use report::compare_page;
 
-use crate::tables::compare_table;
+use crate::tables::{compare_csv, compare_markdown, compare_table};
 use run::write_page;
 use run::{PREVIOUS, read_margins};
 use terminal::arguments::RootArgs;
-use terminal::output::{make_monitor, print, print_json};
+use terminal::output::{make_monitor, open_page, print, print_json};
 use terminal::refuse;
+use terminal::table::TableArgs;
 
 #[derive(Debug, Args)]
 pub struct CompareArgs {
@@ -26,11 +27,16 @@ pub struct CompareArgs {
     /// Write the comparison as an HTML page with the pictures that changed.
     #[arg(long, value_name = "FILE")]
     pub html: Option<PathBuf>,
+    /// Open the page in the browser [default page: compare.html next to the second run.json].
+    #[arg(long)]
+    pub open: bool,
     #[command(flatten)]
     pub root: RootArgs,
     /// Print all changes as JSON instead of the table.
     #[arg(help_heading = "Output", long)]
     pub json: bool,
+    #[command(flatten)]
+    pub tables: TableArgs,
 }
 
 /// Reads a run, and the one before it in the same folder.
@@ -56,10 +62,22 @@ pub fn execute(args: &CompareArgs) -> Result<(), Error> {
     let compared = make_monitor().watch("cases that changed", |watch| {
         compare_runs(&first, &second, &margins, watch)
     })?;
-    let written = match &args.html {
-        Some(html) => write_page(&compare_page(&compared, &first, &second)?, html)?.line("written"),
+    let opened = args.open.then(|| second.folder().join("compare.html"));
+    let written = match args.html.clone().or(opened) {
+        Some(html) => {
+            let page = compare_page(&compared, &first, &second)?;
+            let written = write_page(&page, &html)?.line("written");
+            if args.open {
+                open_page(&html);
+            }
+            written
+        }
         None => String::new(),
     };
+    let markdown = || compare_markdown(&compared);
+    if args.tables.write(|| compare_csv(&compared), markdown)? {
+        return Ok(());
+    }
     if args.json {
         return print_json(&compared);
     }
