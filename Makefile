@@ -19,12 +19,12 @@ TARGET_DIR := $(or $(CARGO_TARGET_DIR),target)
 SCENES ?= sliding_panel,panel_over_texture,two_spheres,railing,fan
 
 run: vulkan
-	cargo run --locked --bin shuttertruth -- run $(if $(SCENES),--scenes $(SCENES)) --samples-per-pixel 64 --out out
+	cargo run --locked --bin shuttertruth -- run $(SCENES) --samples-per-pixel 64 --out out
 
 # A static site in target/site: results, a page per engine, the gallery, live cases of $(SCENES), and the guides.
 site: vulkan mdbook
 	cargo build --workspace --locked --bin shuttertruth --example results
-	"$(PROGRAM)" run --scenes $(SCENES) --size 320x180 --samples-per-pixel 64 --out "$(TARGET_DIR)/site_run" \
+	"$(PROGRAM)" run $(SCENES) --size 320x180 --samples-per-pixel 64 --out "$(TARGET_DIR)/site_run" \
 	    --filter "identity$$(sed -n 's/^shape = "\(.*\)"/,\1/p' results/engines.toml | tr -d '\n')"
 	rm -rf "$(TARGET_DIR)/site_source"
 	"$(dir $(PROGRAM))examples/results" --site "$(TARGET_DIR)/site_source" "$(TARGET_DIR)/site_run/run.json"
@@ -86,7 +86,7 @@ PROGRAM = $(TARGET_DIR)/debug/shuttertruth
 growth: software_vulkan python
 	rm -rf "$(GROWTH)"
 	$(TEST) --no-run
-	"$(PROGRAM)" check --scenes sliding_panel --filter mcguire:paper --size 160x90 --samples-per-pixel 64 --out "$(GROWTH)/small"
+	"$(PROGRAM)" check sliding_panel --filter mcguire:paper --size 160x90 --samples-per-pixel 64 --out "$(GROWTH)/small"
 	"$(PYTHON)" examples/growth.py "$(GROWTH)/small" --scenes 100 --filters 94 --out "$(GROWTH)/large" --program "$(PROGRAM)"
 
 archive:

@@ -100,6 +100,7 @@ fn make_run() -> Run {
         common_alignment: Alignment::Centred,
         overall: overall(&cases),
         read_back: 0,
+        seconds: Default::default(),
         failures: Vec::new(),
         cases,
     }

@@ -16,6 +16,7 @@ use terminal::output::{
     INTERRUPTED_TEXT, catch_interrupts, interrupted_code, print_error, print_failure, set_output,
 };
 use terminal::result::Ending;
+use terminal::settings::Settings;
 use tracer::TraceError;
 
 pub use gate::{annotations, check_text, junit, summary};
@@ -27,8 +28,15 @@ pub use terminal::table::{list_once, markdown_table, range_text};
 /// Runs the command of the command line and returns its exit code.
 pub fn run_program() -> ExitCode {
     catch_interrupts();
-    let arguments =
-        Cli::parse_words(std::env::args_os()).unwrap_or_else(|error| refuse_arguments(&error));
+    let settings = match Settings::read() {
+        Ok(settings) => settings,
+        Err(error) => {
+            print_failure(&error);
+            return ExitCode::from(exit_code(&error));
+        }
+    };
+    let arguments = Cli::parse_words(std::env::args_os(), &settings)
+        .unwrap_or_else(|error| refuse_arguments(&error, &settings));
     set_output(arguments.output);
     match execute(&arguments) {
         Ok(Ending::Done) => ExitCode::SUCCESS,
@@ -71,13 +79,13 @@ fn way_out(error: &Error) -> Option<&'static str> {
 }
 
 /// Prints an error of the command line, or the requested help.
-fn refuse_arguments(error: &clap::Error) -> ! {
+fn refuse_arguments(error: &clap::Error, settings: &Settings) -> ! {
     if let Some(place) = find_new_place(error) {
         print_failure(&Error::Refused(place));
         std::process::exit(error.exit_code())
     }
     // Words may be file names with control codes, which the message must show as escapes.
     let words = std::env::args_os().map(|word| printable(&word.to_string_lossy()).into_owned());
-    let shown = Cli::parse_words(words).err();
+    let shown = Cli::parse_words(words, settings).err();
     shown.as_ref().unwrap_or(error).exit()
 }

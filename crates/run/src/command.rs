@@ -10,9 +10,15 @@ use report::AddToPage;
 use crate::measured::{MeasuredRun, measure};
 use crate::pages::{WrittenFile, page_lines, refuse_folder, write_judgement, write_run};
 use crate::plan::{apply_options, make_plan};
-use crate::tables::{failures_text, legend_text, ranking_text, run_table, sequences_text};
+use crate::tables::{
+    TableArgs, cases_csv, cases_markdown, failures_text, legend_text, ranking_markdown,
+    ranking_text, run_table, sequences_text,
+};
+use crate::watch::repeat_on_change;
 use terminal::arguments::{AdapterArgs, MeasureArgs, RunOptions, parse_named};
-use terminal::output::{Text, adapter_text, clock_text, print};
+use terminal::output::{Text, adapter_text, clock_text, open_page, print};
+use terminal::refuse;
+use terminal::selection::filter_folders;
 
 /// Arguments of `run`.
 #[derive(Debug, Args)]
@@ -33,17 +39,43 @@ pub struct RunArgs {
     /// HTML page to write [default: report.html in --out].
     #[arg(help_heading = "Output", long, value_name = "FILE")]
     pub html: Option<PathBuf>,
+    /// Open the page in the browser.
+    #[arg(help_heading = "Output", long, conflicts_with = "part")]
+    pub open: bool,
+    /// Run again whenever a file in a filter's folder changes; Ctrl-C ends.
+    #[arg(help_heading = "Output", long, conflicts_with = "part")]
+    pub watch: bool,
     /// Print every case and all means, instead of the ranking.
     #[arg(help_heading = "Output", long, conflicts_with = "json")]
     pub table: bool,
     /// Print run.json to standard output instead of the ranking.
     #[arg(help_heading = "Output", long)]
     pub json: bool,
+    /// Other forms of the ranking or the table.
+    #[command(flatten)]
+    pub tables: TableArgs,
 }
 
-/// Runs every case, writes `run.json` and the page, and prints the ranking or the table.
-/// `additions` make what other crates add to the page.
+/// Runs every case, writes `run.json` and the page, and prints the ranking or the table; with
+/// --watch, again after each change. `additions` make what other crates add to the page.
 pub fn execute(args: &RunArgs, additions: &[AddToPage]) -> Result<(), Error> {
+    if !args.watch {
+        return run_once(args, additions, args.open);
+    }
+    let folders = filter_folders(&args.measure.filters);
+    if folders.is_empty() {
+        refuse!(
+            "--watch: no filter of the run is a folder; name one with --filter, such as ./my_blur"
+        );
+    }
+    let mut open = args.open;
+    repeat_on_change(&folders, || {
+        // Later pages replace the open one.
+        run_once(args, additions, std::mem::take(&mut open))
+    })
+}
+
+fn run_once(args: &RunArgs, additions: &[AddToPage], open: bool) -> Result<(), Error> {
     let began = Instant::now();
     refuse_folder("--html", args.html.as_ref())?;
     let (mut plan, _) = make_plan(&args.measure, args.measure.scenes.out.clone())?;
@@ -56,6 +88,14 @@ pub fn execute(args: &RunArgs, additions: &[AddToPage]) -> Result<(), Error> {
         lock: _lock,
     } = measure(&mut plan, gpu.as_ref())?;
     write_run(&whole, &plan.out)?;
+    let markdown = || {
+        if args.table {
+            cases_markdown(&run)
+        } else {
+            ranking_markdown(&run.cases)
+        }
+    };
+    let is_printed = args.tables.write(|| cases_csv(&run), markdown)?;
     let (scores, pages) = if plan.part == Part::Whole {
         // Bounds are for `check`. A judgement without findings replaces that of an earlier check.
         let html = args.html.as_ref();
@@ -64,8 +104,13 @@ pub fn execute(args: &RunArgs, additions: &[AddToPage]) -> Result<(), Error> {
     } else {
         (Text::default(), Vec::new())
     };
+    if let Some(page) = pages.first().filter(|_| open) {
+        open_page(&page.path);
+    }
     print(if args.json {
         Text::from(whole.text()) + "\n"
+    } else if is_printed {
+        Text::default()
     } else {
         scores
             + failures_text(&run.failures)

@@ -67,6 +67,15 @@ fn ranked(groups: &[Vec<RankedFilter>]) -> impl Iterator<Item = &RankedFilter> {
     groups.iter().flatten().filter(|ranked| ranked.is_ranked())
 }
 
+/// Makes the ranking as Markdown.
+pub fn ranking_markdown(cases: &[Case]) -> String {
+    let groups = rank_for_summary(cases);
+    if groups.is_empty() {
+        return String::new();
+    }
+    ranking_table(cases, &groups).markdown()
+}
+
 /// Says that filters are shown by their best of all presets, and that some of these rows are
 /// hidden; empty if neither is so.
 fn hidden_text(presets: usize, rows: usize, hidden: usize) -> Text {
