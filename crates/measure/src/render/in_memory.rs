@@ -1,0 +1,168 @@
+//! Renders that stay in memory: a frame with its truth, for callers that want no files.
+
+use frame::{Alignment, Image, Ladder, Picture, Replicate, TracedFrame, Truth};
+use scene::Scene;
+use tracer::{LadderTracer, PixelGrid, RenderSettings, TruthTracer, trace_frame_part};
+
+use super::exclusion::{FilterFrame, draw_exclusion};
+use super::memory::check_memory;
+use super::truths::{deciding_floor, predict_replicates};
+use super::velocities::add_further_velocities;
+use crate::{Error, LADDER, MAX_REPLICATES, Monitor, SHARP};
+
+/// A scene, and what to render of it.
+#[derive(Clone, Copy)]
+pub struct MemoryRender<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Settings of the frame, the truth and the sub-frames.
+    pub settings: RenderSettings,
+    /// Shutter of the truth.
+    pub alignment: Alignment,
+    /// Upper limit on the noise of truth and frame, a root mean square of radiance; more replicates
+    /// are rendered until both reach it. None renders those of the settings.
+    pub noise: Option<f64>,
+    /// Sharp pictures to render over the shutter; each takes as long as the frame.
+    pub subframes: u32,
+    /// Shows progress, and ends the work.
+    pub monitor: Monitor,
+}
+
+/// A frame with its truth, and all that a picture of it is scored with.
+pub struct RenderedScene {
+    /// The frame, with everything that a filter may read.
+    pub frame: FilterFrame,
+    /// Noise of the frame's colour, a root mean square of radiance over the picture.
+    pub frame_noise: f64,
+    /// The truth.
+    pub truth: Truth,
+    /// The sharp picture of the shutter's middle, the zero of skill, as a ladder of one rung; none
+    /// if the frame shows it.
+    pub sharp: Option<Ladder>,
+    /// Sharp pictures at the middles of equal parts of the shutter, the earliest first.
+    pub subframes: Vec<Image>,
+}
+
+impl MemoryRender<'_> {
+    /// Renders everything.
+    ///
+    /// # Errors
+    /// The settings do not fit the scene, memory does not suffice, the noise cannot be reached, or
+    /// the monitor interrupted.
+    pub fn render(&self) -> Result<RenderedScene, Error> {
+        let (truth, traced) = self.trace()?;
+        let rendered = MemoryRender {
+            settings: self.settings.with_replicates(truth.provenance.replicates),
+            ..*self
+        };
+        let frame_noise = estimate_frame_noise(&traced.replicates);
+        let grid = PixelGrid::of_picture(self.settings.width, self.settings.height);
+        let frame = add_further_velocities(traced.frame, self.scene, &rendered.settings, &grid)?;
+        Ok(RenderedScene {
+            frame: FilterFrame {
+                exclusion: Some(draw_exclusion(&frame, self.scene)),
+                frame,
+            },
+            frame_noise,
+            sharp: rendered.trace_sharp(&truth)?,
+            subframes: rendered.trace_subframes(&truth)?,
+            truth,
+        })
+    }
+
+    /// Traces truth and frame, with more replicates until both reach the noise.
+    fn trace(&self) -> Result<(Truth, TracedFrame), Error> {
+        let target = self.noise.unwrap_or(f64::INFINITY);
+        let label = format!("{} {}", self.scene.id, self.alignment);
+        let tracer = TruthTracer::new(self.scene, &self.settings, &[self.alignment])?;
+        let mut replicates: Vec<Replicate> = Vec::new();
+        let mut count = self.settings.replicates;
+        loop {
+            check_memory(self.scene, &self.settings, count)?;
+            while (replicates.len() as u32) < count {
+                let index = replicates.len() as u32;
+                let traced = (self.monitor).watch(&label, |watch| tracer.trace(index, watch))?;
+                replicates.extend(traced);
+            }
+            let truth = Truth::of(&replicates)?;
+            let (_, floor) = deciding_floor(&truth);
+            let traced = self.trace_frame(self.scene, count)?;
+            let worst = floor.max(estimate_frame_noise(&traced.replicates));
+            if worst <= target {
+                return Ok((truth, traced));
+            }
+            let next = predict_replicates(count, worst / target).max(count + 2);
+            if next > MAX_REPLICATES {
+                return Err(Error::TooNoisy(format!(
+                    "{label}: the noise is {worst:.2e} with {count} replicates, above the {target:e} asked for, and \
+                     {MAX_REPLICATES} do not suffice; raise the samples per pixel"
+                )));
+            }
+            count = next;
+        }
+    }
+
+    fn trace_frame(&self, scene: &Scene, replicates: u32) -> Result<TracedFrame, Error> {
+        let settings = self.settings.with_replicates(replicates);
+        let grid = PixelGrid::of_picture(settings.width, settings.height);
+        let label = format!("{} frame", scene.id);
+        Ok((self.monitor).watch(&label, |watch| {
+            trace_frame_part(scene, &settings, &grid, None, watch)
+        })?)
+    }
+
+    /// Traces the sharp picture of the shutter's middle as a run does, so that scores are the same.
+    fn trace_sharp(&self, truth: &Truth) -> Result<Option<Ladder>, Error> {
+        if self.alignment == Alignment::Centred {
+            return Ok(None);
+        }
+        let tracer = LadderTracer::new(self.scene, &self.settings, truth, &LADDER)?;
+        let label = format!("{} shutter's middle", self.scene.id);
+        let rung = (self.monitor).watch(&label, |watch| tracer.trace(SHARP, watch))?;
+        Ok(Some(rung))
+    }
+
+    fn trace_subframes(&self, truth: &Truth) -> Result<Vec<Image>, Error> {
+        let middles = (0..self.subframes).map(|part| {
+            truth
+                .shutter
+                .at((f64::from(part) + 0.5) / f64::from(self.subframes))
+        });
+        let trace = |time: f64| {
+            let scene = self.scene.clone().later_by(time);
+            let traced = self.trace_frame(&scene, self.settings.replicates)?;
+            Ok(traced.frame.color)
+        };
+        middles.map(trace).collect()
+    }
+}
+
+/// Estimates the root mean square error of the mean of a frame's replicates, from the difference of
+/// their halves: its expectation is twice the error.
+fn estimate_frame_noise(replicates: &[Picture]) -> f64 {
+    let half = |first: usize| Picture::mean(replicates.iter().skip(first).step_by(2)).color;
+    let (a, b) = (half(0), half(1));
+    let squares = a.pixels.iter().zip(&b.pixels).map(|(a, b)| {
+        let square = |c: usize| (f64::from(a[c]) - f64::from(b[c])).powi(2);
+        (square(0) + square(1) + square(2)) / 3.0
+    });
+    (squares.sum::<f64>() / a.pixels.len() as f64).sqrt() / 2.0
+}
+
+#[cfg(test)]
+mod tests {
+    use frame::Raster;
+
+    use super::*;
+
+    #[test]
+    fn the_noise_of_a_frame_is_half_of_what_its_halves_differ_by() {
+        let picture = |value: f32| Picture {
+            color: Raster::filled(3, 2, [value; 3]),
+            coverage: Vec::new(),
+        };
+        let noise =
+            estimate_frame_noise(&[picture(0.25), picture(0.5), picture(0.25), picture(0.5)]);
+        assert_eq!(noise, 0.125);
+    }
+}

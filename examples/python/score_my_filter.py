@@ -1,0 +1,48 @@
+"""Scores a filter of your own, written in numpy, against path-traced truth and against a built-in filter.
+
+    python examples/python/score_my_filter.py
+    python examples/python/score_my_filter.py fan railing --size 320x180
+
+A filter in torch is no different: `torch.from_numpy(made.frame.copy())` goes in, `result.numpy()` comes out. Each `# %%` begins a
+cell for editors that show scripts as notebooks.
+"""
+
+# %% Scenes and sizes
+import argparse
+
+import numpy as np
+
+import shuttertruth as st
+
+parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+parser.add_argument("scenes", nargs="*", default=["sliding_panel", "two_spheres"])
+parser.add_argument("--size", default="320x180")
+parser.add_argument("--samples", type=int, default=64)
+parser.add_argument("--against", default="mcguire:paper", help="a built-in filter; needs a Vulkan driver")
+arguments = parser.parse_args()
+width, height = map(int, arguments.size.split("x"))
+
+
+# %% The filter
+def my_blur(made: st.Render, taps: int = 16) -> np.ndarray:
+    """Averages the frame along each pixel's own velocity: the simplest gather, which bleeds and has no smear outside of objects."""
+    y, x = np.mgrid[:height, :width]
+    opens, closes = made.shutter
+    total = np.zeros_like(made.frame)
+    for tap in range(taps):
+        time = opens + (tap + 0.5) / taps * (closes - opens)
+        # What a pixel sees at a time is now as far away as it has moved since.
+        column = np.clip(np.rint(x - time * made.velocity[..., 0]).astype(int), 0, width - 1)
+        row = np.clip(np.rint(y - time * made.velocity[..., 1]).astype(int), 0, height - 1)
+        total += made.frame[row, column]
+    return total / taps
+
+
+# %% The ranking: FLIP where anything moves, 0 is best; skill is 0 for no blur and 1 for the best that one frame allows
+for scene in arguments.scenes:
+    made = st.render(scene, size=(width, height), samples=arguments.samples)
+    pictures = {"no blur": made.frame, "mine": my_blur(made), arguments.against: st.blur(made, arguments.against)}
+    scores = {name: st.score(picture, made) for name, picture in pictures.items()}
+    print(f"{scene}, noise of the truth {made.noise:.4f}")
+    for name, of in sorted(scores.items(), key=lambda row: row[1]["flip_moving"]):
+        print(f"  {name:16} FLIP {of['flip_moving']:.3f}  skill {of['skill_flip']:6.2f}  PSNR {of['psnr_moving']:.1f} dB")
