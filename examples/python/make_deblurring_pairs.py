@@ -55,7 +55,7 @@ began = time.monotonic()
 pairs = [(scene, frame) for scene in arguments.scenes for frame in range(arguments.frames)]
 for scene, frame in pairs:
     made = st.render(
-        scene, size, arguments.exposure, samples=64, noise=arguments.noise, alignment="centred", velocity="previous_frame", at_frame=frame
+        scene, size, arguments.exposure, samples=64, noise=arguments.noise, velocity="previous_frame", at_frame=frame
     )
     folder = arguments.out / f"{made.scene.replace('/', '_')}"
     folder.mkdir(parents=True, exist_ok=True)

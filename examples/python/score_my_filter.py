@@ -38,11 +38,12 @@ def my_blur(made: st.Render, taps: int = 16) -> np.ndarray:
     return total / taps
 
 
-# %% The ranking: FLIP where anything moves, 0 is best; skill is 0 for no blur and 1 for the best that one frame allows
+# %% The ranking: FLIP where anything moves, 0 is best; skill is 0 for no blur and about 1 for the best that one frame allows
 for scene in arguments.scenes:
     made = st.render(scene, size=(width, height), samples=arguments.samples)
     pictures = {"no blur": made.frame, "mine": my_blur(made), arguments.against: st.blur(made, arguments.against)}
     scores = {name: st.score(picture, made) for name, picture in pictures.items()}
     print(f"{scene}, noise of the truth {made.noise:.4f}")
     for name, of in sorted(scores.items(), key=lambda row: row[1]["flip_moving"]):
-        print(f"  {name:16} FLIP {of['flip_moving']:.3f}  skill {of['skill_flip']:6.2f}  PSNR {of['psnr_moving']:.1f} dB")
+        skill = of.get("skill_flip", float("nan"))
+        print(f"  {name:16} FLIP {of['flip_moving']:.3f}  skill {skill:5.2f}  PSNR {of['psnr_moving']:.1f} dB")

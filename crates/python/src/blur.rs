@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use filters::{Filter, Input};
-use measure::{FilterChoice, Runner, filter_input, open_gpu};
+use frame::Alignment;
+use measure::{Error, FilterChoice, Runner, filter_input, open_gpu};
 use numpy::PyReadonlyArray3;
 use pyo3::prelude::*;
 use terminal::selection::{Programs, select_filters};
@@ -46,9 +47,10 @@ pub fn blur<'py>(
     options: BlurOptions,
 ) -> PyResult<Array3<'py>> {
     let color = color.map(|color| take_image(&color)).transpose()?;
-    let frame = &render.scene.frame;
+    let (frame, alignment) = (&render.scene.frame, render.scene.truth.alignment);
     let blurred = work(py, || {
         let choice = choose(filter, &options)?;
+        check_alignment(&choice, alignment)?;
         let size = frame.size();
         let choice = (choice.as_written(options.as_written)).scaled_to(size.width);
         let gpu = open_gpu(
@@ -67,8 +69,20 @@ pub fn blur<'py>(
     Ok(give_image(py, blurred))
 }
 
+/// Refuses a filter that blurs for another shutter: its picture would be compared with a wrong truth.
+fn check_alignment(choice: &FilterChoice, rendered: Alignment) -> Result<(), Error> {
+    let alignment = choice.filter.alignment;
+    if alignment == rendered {
+        return Ok(());
+    }
+    Err(Error::Refused(format!(
+        "{} blurs for a {alignment} shutter, and the render has a {rendered} one; render with alignment=\"{alignment}\"",
+        choice.name()
+    )))
+}
+
 /// Loads a filter, in its first preset if none is named.
-fn choose(filter: String, options: &BlurOptions) -> Result<FilterChoice, measure::Error> {
+fn choose(filter: String, options: &BlurOptions) -> Result<FilterChoice, Error> {
     let programs = if options.allow_commands {
         Programs::Allowed
     } else {

@@ -20,7 +20,10 @@ struct RunLine {
 
 /// Measures as the command `run` with these arguments does, and returns a row per case.
 #[pyfunction]
-pub fn measure_filters<'py>(py: Python<'py>, words: Vec<String>) -> PyResult<Vec<Bound<'py, PyDict>>> {
+pub fn measure_filters<'py>(
+    py: Python<'py>,
+    words: Vec<String>,
+) -> PyResult<Vec<Bound<'py, PyDict>>> {
     let cases = work(py, || measure_cases(&words))?;
     cases.iter().map(|case| make_row(py, case)).collect()
 }

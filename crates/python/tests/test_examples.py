@@ -63,7 +63,7 @@ class Examples(unittest.TestCase):
 
     def check_pair(self, folder):
         made = st.render(
-            "sliding_panel", (64, 36), samples=64, noise=0.002, alignment="centred", velocity="previous_frame"
+            "sliding_panel", (64, 36), samples=64, noise=0.002, velocity="previous_frame"
         )
         self.assertLessEqual(max(made.noise, made.frame_noise), 0.002)
         for name, array in [("blurred", made.blurred), ("sharp", made.frame), ("depth", made.depth)]:

@@ -66,7 +66,7 @@ def render(
     seed: int = 0,
     subframes: int = 0,
     *,
-    alignment: str = "trailing",
+    alignment: str = "centred",
     velocity: str = "instantaneous",
     at_frame: int = 0,
     noise: Optional[float] = None,
@@ -80,13 +80,13 @@ def render(
     samples: mean samples per pixel, 8 times a power of two. Time grows with them; noise falls with about their square root.
     seed: seed of all random numbers. The same arguments render the same bytes.
     subframes: sharp pictures to render over the shutter. Each takes as long as the frame.
-    alignment: "trailing" (the shutter closes at the frame's instant), "centred" or "leading".
+    alignment: "centred" (the frame shows the middle of the shutter), "trailing" (it shows the end) or "leading".
     velocity: "instantaneous" (the derivative, in pixels per frame), "previous_frame" (the motion since the frame before, as
         engines have it) or "camera_only".
     at_frame: renders the scene as many frames later. Scenes end with their keys; beyond them is an error.
     noise: renders more until the noise of truth and frame (a root mean square of radiance) is at most this.
 
-    Uses all cores and no other thread's time; Ctrl-C ends it.
+    Uses all cores; other threads of Python go on meanwhile, and Ctrl-C ends it.
     """
     options = {
         "size": _size(size),
@@ -116,7 +116,8 @@ def blur(
 ) -> NDArray[np.float32]:
     """Runs a filter on a frame, and returns its picture: float32 of shape (height, width, 3).
 
-    filter: a name of `filters()`, without preset its first one, or the path of a filter's folder.
+    filter: a name of `filters()`, without preset its first one, or the path of a filter's folder. It blurs for one alignment of the
+        shutter, which the frame's render must have.
     color: a picture to blur in the frame's place, with the frame's velocity and depth.
     set: values in place of the preset's, by parameter: {"samples": 16}.
     as_written: keeps lengths in pixels as the preset has them, instead of scaling them to the picture's width.
