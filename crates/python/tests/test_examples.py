@@ -48,7 +48,7 @@ def read_kitti(path):
 
 class Examples(unittest.TestCase):
     def test_my_filter_beats_no_blur(self):
-        said = run("score_my_filter.py", "sliding_panel", "--size", "96x54")
+        said = run("score_my_filter.py", "two_spheres", "--size", "96x54")
         ranked = [line.split("FLIP")[0].strip() for line in said.splitlines()[1:]]
         self.assertEqual(len(ranked), 3)
         self.assertLess(ranked.index("mine"), ranked.index("no blur"))

@@ -89,7 +89,7 @@ class Render(unittest.TestCase):
         np.testing.assert_allclose(moving, ahead, atol=1e-3)
         self.assertGreater(np.abs(moving[:, 0]).min(), 1.0)
 
-    def test_more_replicates_reach_the_requested_noise(self):
+    def test_more_samples_reach_the_requested_noise(self):
         coarse = render("two_spheres", samples=16)
         fine = render("two_spheres", samples=16, noise=0.7 * coarse.noise)
         self.assertLessEqual(fine.noise, 0.7 * coarse.noise)

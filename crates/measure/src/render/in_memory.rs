@@ -1,14 +1,14 @@
 //! Renders that stay in memory: a frame with its truth, for callers that want no files.
 
-use frame::{Alignment, Image, Ladder, Picture, Replicate, TracedFrame, Truth};
+use frame::{Alignment, Image, Ladder, Picture, TracedFrame, Truth};
 use scene::Scene;
-use tracer::{LadderTracer, PixelGrid, RenderSettings, TruthTracer, trace_frame_part};
+use tracer::{LadderTracer, MAX_SAMPLES, PixelGrid, RenderSettings, trace_frame_part, trace_truth};
 
 use super::exclusion::{FilterFrame, draw_exclusion};
 use super::memory::check_memory;
-use super::truths::{deciding_floor, predict_replicates};
+use super::truths::deciding_floor;
 use super::velocities::add_further_velocities;
-use crate::{Error, LADDER, MAX_REPLICATES, Monitor, SHARP};
+use crate::{Error, LADDER, Monitor, SHARP};
 
 /// A scene, and what to render of it.
 #[derive(Clone, Copy)]
@@ -19,8 +19,8 @@ pub struct MemoryRender<'a> {
     pub settings: RenderSettings,
     /// Shutter of the truth.
     pub alignment: Alignment,
-    /// Upper limit on the noise of truth and frame, a root mean square of radiance; more replicates
-    /// are rendered until both reach it. None renders those of the settings.
+    /// Upper limit on the noise of truth and frame, a root mean square of radiance; they are rendered
+    /// with more samples until both reach it. None means the samples of the settings.
     pub noise: Option<f64>,
     /// Sharp pictures to render over the shutter; each takes as long as the frame.
     pub subframes: u32,
@@ -50,14 +50,10 @@ impl MemoryRender<'_> {
     /// The settings do not fit the scene, memory does not suffice, the noise cannot be reached, or
     /// the monitor interrupted.
     pub fn render(&self) -> Result<RenderedScene, Error> {
-        let (truth, traced) = self.trace()?;
-        let rendered = MemoryRender {
-            settings: self.settings.with_replicates(truth.provenance.replicates),
-            ..*self
-        };
+        let (rendered, truth, traced) = self.trace_until_clean()?;
         let frame_noise = estimate_frame_noise(&traced.replicates);
         let grid = PixelGrid::of_picture(self.settings.width, self.settings.height);
-        let frame = add_further_velocities(traced.frame, self.scene, &rendered.settings, &grid)?;
+        let frame = add_further_velocities(traced.frame, self.scene, &self.settings, &grid)?;
         Ok(RenderedScene {
             frame: FilterFrame {
                 exclusion: Some(draw_exclusion(&frame, self.scene)),
@@ -70,40 +66,51 @@ impl MemoryRender<'_> {
         })
     }
 
-    /// Traces truth and frame, with more replicates until both reach the noise.
-    fn trace(&self) -> Result<(Truth, TracedFrame), Error> {
-        let target = self.noise.unwrap_or(f64::INFINITY);
-        let label = format!("{} {}", self.scene.id, self.alignment);
-        let tracer = TruthTracer::new(self.scene, &self.settings, &[self.alignment])?;
-        let mut replicates: Vec<Replicate> = Vec::new();
-        let mut count = self.settings.replicates;
-        loop {
-            check_memory(self.scene, &self.settings, count)?;
-            while (replicates.len() as u32) < count {
-                let index = replicates.len() as u32;
-                let traced = (self.monitor).watch(&label, |watch| tracer.trace(index, watch))?;
-                replicates.extend(traced);
-            }
-            let truth = Truth::of(&replicates)?;
-            let (_, floor) = deciding_floor(&truth);
-            let traced = self.trace_frame(self.scene, count)?;
-            let worst = floor.max(estimate_frame_noise(&traced.replicates));
-            if worst <= target {
-                return Ok((truth, traced));
-            }
-            let next = predict_replicates(count, worst / target).max(count + 2);
-            if next > MAX_REPLICATES {
-                return Err(Error::TooNoisy(format!(
-                    "{label}: the noise is {worst:.2e} with {count} replicates, above the {target:e} asked for, and \
-                     {MAX_REPLICATES} do not suffice; raise the samples per pixel"
-                )));
-            }
-            count = next;
+    /// Traces truth and frame, with more samples until both reach the noise; returns what rendered
+    /// them, too.
+    ///
+    /// More samples lower the noise of a replicate faster than more replicates would, and take no
+    /// more memory.
+    fn trace_until_clean(self) -> Result<(Self, Truth, TracedFrame), Error> {
+        let truth = self.trace_truth()?;
+        let traced = self.trace_frame(self.scene)?;
+        let (_, floor) = deciding_floor(&truth);
+        let worst = floor.max(estimate_frame_noise(&traced.replicates));
+        let excess = worst / self.noise.unwrap_or(f64::INFINITY);
+        if excess <= 1.0 {
+            return Ok((self, truth, traced));
         }
+        // Noise falls with the root of the samples, or faster.
+        let doublings = (2.0 * excess.log2()).floor().clamp(1.0, 31.0);
+        let samples = (f64::from(self.settings.samples_per_pixel) * doublings.exp2()) as u32;
+        if samples / self.settings.replicates > MAX_SAMPLES {
+            return Err(Error::TooNoisy(format!(
+                "{} {}: the noise is {worst:.2e} with {} samples per pixel, and about {samples} would be needed for less; \
+                 allowed: {}; allow more noise",
+                self.scene.id,
+                self.alignment,
+                self.settings.samples_per_pixel,
+                MAX_SAMPLES * self.settings.replicates
+            )));
+        }
+        let settings = RenderSettings {
+            samples_per_pixel: samples,
+            ..self.settings
+        };
+        Self { settings, ..self }.trace_until_clean()
     }
 
-    fn trace_frame(&self, scene: &Scene, replicates: u32) -> Result<TracedFrame, Error> {
-        let settings = self.settings.with_replicates(replicates);
+    fn trace_truth(&self) -> Result<Truth, Error> {
+        let label = format!("{} {}", self.scene.id, self.alignment);
+        self.settings.check_truth(self.scene, self.alignment)?;
+        check_memory(self.scene, &self.settings, self.settings.replicates)?;
+        Ok((self.monitor).watch(&label, |watch| {
+            trace_truth(self.scene, &self.settings, self.alignment, watch)
+        })?)
+    }
+
+    fn trace_frame(&self, scene: &Scene) -> Result<TracedFrame, Error> {
+        let settings = self.settings;
         let grid = PixelGrid::of_picture(settings.width, settings.height);
         let label = format!("{} frame", scene.id);
         Ok((self.monitor).watch(&label, |watch| {
@@ -130,7 +137,7 @@ impl MemoryRender<'_> {
         });
         let trace = |time: f64| {
             let scene = self.scene.clone().later_by(time);
-            let traced = self.trace_frame(&scene, self.settings.replicates)?;
+            let traced = self.trace_frame(&scene)?;
             Ok(traced.frame.color)
         };
         middles.map(trace).collect()

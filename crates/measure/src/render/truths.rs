@@ -72,7 +72,7 @@ impl<'a> Rendering<'a> {
 
 /// Predicts the even number of replicates that lowers the noise by `factor`: noise falls with the
 /// root of their number.
-pub(super) fn predict_replicates(replicates: u32, factor: f64) -> u32 {
+fn predict_replicates(replicates: u32, factor: f64) -> u32 {
     let pairs = 0.5 * f64::from(replicates) * factor.powi(2);
     // No more than are ever allowed.
     2 * pairs.ceil().min(f64::from(MAX_REPLICATES / 2)) as u32
