@@ -105,6 +105,8 @@ class Render(unittest.TestCase):
             ("allowed: trailing, centred, leading", {"alignment": "ahead"}),
             ("16", {"size": (0, 36)}),
             ("exposure", {"exposure": -1.0}),
+            ("noise is 0; allowed: numbers above 0", {"noise": 0.0}),
+            ("allow more noise", {"noise": 1e-9}),
         ]:
             with self.assertRaises(st.Error) as caught:
                 st.render(**{"scene": "sliding_panel", **SETTINGS, **arguments})
