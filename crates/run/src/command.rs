@@ -4,13 +4,12 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use clap::Args;
-use judge::{Level, judge};
 use measure::{Error, Part, Run, open_gpu, printable_path, refuse_failures};
 use report::AddToPage;
 
 use crate::measured::{MeasuredRun, measure};
 use crate::pages::{WrittenFile, page_lines, refuse_folder, write_judgement, write_run};
-use crate::plan::{add_bounds, apply_options, make_plan};
+use crate::plan::{apply_options, make_plan};
 use crate::tables::{
     TableArgs, cases_csv, cases_markdown, failures_text, legend_text, ranking_markdown,
     ranking_text, run_table, sequences_text,
@@ -79,7 +78,7 @@ pub fn execute(args: &RunArgs, additions: &[AddToPage]) -> Result<(), Error> {
 fn run_once(args: &RunArgs, additions: &[AddToPage], open: bool) -> Result<(), Error> {
     let began = Instant::now();
     refuse_folder("--html", args.html.as_ref())?;
-    let (mut plan, mut bounds) = make_plan(&args.measure, args.measure.scenes.out.clone())?;
+    let (mut plan, _) = make_plan(&args.measure, args.measure.scenes.out.clone())?;
     apply_options(&mut plan, &args.options)?;
     plan.part = args.part.unwrap_or_default();
     let gpu = open_gpu(&plan.filters, args.adapter.adapter.as_deref(), plan.monitor)?;
@@ -98,23 +97,9 @@ fn run_once(args: &RunArgs, additions: &[AddToPage], open: bool) -> Result<(), E
     };
     let is_printed = args.tables.write(|| cases_csv(&run), markdown)?;
     let (scores, pages) = if plan.part == Part::Whole {
-        // Cases of an earlier run keep their targets.
-        add_bounds(&mut bounds, &whole, &args.measure.scenes.root.scenes_dir)?;
-        let size = plan.render.size();
-        for bounds in bounds.values_mut() {
-            *bounds = std::mem::take(bounds).at(size).over(plan.frames);
-        }
-        // Bounds are for `check`: broken ones fail nothing here.
-        let mut findings = judge(&whole, &bounds);
-        (findings.iter_mut()).for_each(|finding| finding.level = Level::Report);
-        let pages = write_judgement(
-            &whole,
-            &findings,
-            None,
-            &plan.out,
-            args.html.as_ref(),
-            additions,
-        )?;
+        // Bounds are for `check`. A judgement without findings replaces that of an earlier check.
+        let html = args.html.as_ref();
+        let pages = write_judgement(&whole, &[], None, &plan.out, html, additions)?;
         (scores_text(&run, args.table), pages)
     } else {
         (Text::default(), Vec::new())
@@ -139,7 +124,7 @@ fn scores_text(run: &Run, as_table: bool) -> Text {
     let scores = if as_table {
         run_table(run)
     } else {
-        ranking_text(&run.cases)
+        ranking_text(run)
     };
     let scaling = run.scaling_note();
     let scaling = scaling.map_or(Text::default(), |note| legend_text(&note));

@@ -5,7 +5,7 @@ use measure::{Case, Failure, Run, printable_lines};
 use metrics::{Metric, Scores};
 
 use super::{
-    Column, Missing, Table, bracket_name, csv_number, csv_table, legend_text, list_once,
+    Column, Missing, Ranks, Table, bracket_name, csv_number, csv_table, legend_text, list_once,
     means_table,
 };
 use terminal::output::{Text, bad, heading, wrap_lines};
@@ -28,18 +28,19 @@ const COMMON_FLIP: &str = "FLIP*";
 /// Makes the table of a run: cases, and means over the scenes. A score that does not apply is
 /// `n/a`, with a note that says why.
 pub fn run_table(run: &Run) -> Text {
-    let (table, missing) = make_case_table(run);
+    let ranks = Ranks::of(run);
+    let (table, missing) = make_case_table(run, &ranks);
     let legend = format!(
         "FLIP* is against the {} shutter. {KEY}",
         run.common_alignment
     );
     let lag = lag_text(&run.cases).map_or(Text::default(), |lag| legend_text(&lag));
-    table.text() + legend_text(&legend) + lag + missing.text() + means_table(&run.overall)
+    table.text() + legend_text(&legend) + lag + missing.text() + means_table(&run.overall, &ranks)
 }
 
 /// Makes the table of cases as Markdown.
 pub fn cases_markdown(run: &Run) -> String {
-    make_case_table(run).0.markdown()
+    make_case_table(run, &Ranks::of(run)).0.markdown()
 }
 
 /// Makes all scores as CSV: a row per case, a column per metric, empty where it does not apply.
@@ -64,12 +65,13 @@ pub fn cases_csv(run: &Run) -> String {
 }
 
 /// Makes the table of cases, and the reasons of missing scores.
-fn make_case_table(run: &Run) -> (Table, Missing) {
+fn make_case_table(run: &Run, ranks: &Ranks) -> (Table, Missing) {
     let mut table = case_table("scene / filter", &["noise", COMMON_FLIP]);
     let mut missing = Missing::default();
-    for scene in list_once(run.cases.iter().map(|case| &case.scene)) {
+    let scenes = list_once(run.cases.iter().map(|case| &case.scene));
+    for scene in &scenes {
         let name = scene.to_string();
-        let of_scene = || run.cases.iter().filter(|case| case.scene == *scene);
+        let of_scene = || run.cases.iter().filter(|case| case.scene == **scene);
         for alignment in list_once(of_scene().map(|case| case.alignment)) {
             table.push_text(heading(&format!("{scene}, {alignment} shutter")));
             for case in of_scene().filter(|case| case.alignment == alignment) {
@@ -79,6 +81,12 @@ fn make_case_table(run: &Run) -> (Table, Missing) {
                 for (title, metric) in columns.chain([(COMMON_FLIP, Metric::CommonFlip)]) {
                     missing.note(title, &case.measured(metric), [&name, &row]);
                 }
+                // Ranks are over all scenes.
+                let row = if scenes.len() == 1 {
+                    ranks.name(&case.filter_id(), case.scene.rate)
+                } else {
+                    row
+                };
                 table.push_row(case.is_reference, row, case_cells(&case.scores).chain(more));
             }
         }

@@ -95,7 +95,7 @@ fn a_limit_inside_the_interval_gives_exit_code_4_and_the_samples_to_decide() {
     let parts = [
         "UNDECIDED flip_moving",
         "1024 samples per pixel would settle it",
-        "raise the samples per pixel",
+        "what settles it is said above",
     ];
     check(&sandbox, "", 4, &parts);
     let value = finding["value"].as_f64().unwrap();
