@@ -3,7 +3,8 @@
 # `make image` try it in a bare Debian and in two images: docs/release.md.
 #
 # All look for a Vulkan driver first and, on Debian and Ubuntu, install the software one where there is none. The tests need Python:
-# Optuna drives the tuning service, Snakemake runs the jobs of a plan, and numpy and OpenEXR compare presets with their originals.
+# Optuna drives the tuning service, Snakemake runs the jobs of a plan, numpy and OpenEXR compare presets with their originals, and
+# flip-evaluator computes FLIP as its authors do.
 # They need Chromium to open reports and to draw scenes with three.js, node to install three.js and to drive it, and glslang to compile
 # shaders in GLSL. `make prove` needs Blender and mdBook, too.
 # On macOS and Windows plain cargo commands work.
@@ -158,14 +159,14 @@ software_vulkan: vulkan
 	found || { echo "still no lvp_icd*.json in /usr/share/vulkan/icd.d after the installation; $(VULKAN_WAY_OUT)" >&2; exit 1; }
 
 python:
-	@"$(PYTHON)" -c 'import optuna, snakemake, numpy, OpenEXR' 2>/dev/null && exit 0; \
+	@"$(PYTHON)" -c 'import optuna, snakemake, numpy, OpenEXR, flip_evaluator' 2>/dev/null && exit 0; \
 	[ "$(PYTHON)" = "$(VENV)/bin/python3" ] || \
-	{ echo "$(PYTHON) lacks one of optuna, snakemake, numpy and OpenEXR: pip install them, or leave PYTHON unset to have them installed" >&2; exit 1; }; \
+	{ echo "$(PYTHON) lacks one of optuna, snakemake, numpy, OpenEXR and flip-evaluator: pip install them, or leave PYTHON unset to have them installed" >&2; exit 1; }; \
 	python3 -c 'import ensurepip' 2>/dev/null || \
 	{ $(call INSTALL,Python that can make environments,python3-venv,install Python 3 with venv and pip); }; \
-	echo "installing Optuna, Snakemake, numpy and OpenEXR to $(VENV)" >&2; \
+	echo "installing Optuna, Snakemake, numpy, OpenEXR and flip-evaluator to $(VENV)" >&2; \
 	python3 -m venv "$(VENV)" && "$(VENV)/bin/python3" -m pip install -q optuna==5.0.0 snakemake==9.27.1 numpy==2.4.6 \
-	    OpenEXR==3.5.3 >&2
+	    OpenEXR==3.5.3 flip-evaluator==1.7 >&2
 
 CHROMIUM_WAY_OUT := install it, for example: apt-get install chromium (Debian), dnf install chromium (Fedora), pacman -S chromium (Arch), or name a Chromium or Chrome in CHROMIUM
 

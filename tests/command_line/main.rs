@@ -48,6 +48,7 @@ mod sequences;
 mod set_up;
 mod shared_runs;
 mod shipped_files;
+mod smears;
 #[cfg(target_os = "linux")]
 mod snakemake;
 mod snapshots;
@@ -56,6 +57,7 @@ mod summary;
 mod terminal;
 #[path = "../../crates/tune/tests/program/mod.rs"]
 mod tune;
+mod two_pictures;
 mod variants;
 mod written_files;
 

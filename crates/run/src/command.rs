@@ -11,7 +11,9 @@ use report::AddToPage;
 use crate::measured::{MeasuredRun, measure};
 use crate::pages::{WrittenFile, page_lines, refuse_folder, write_judgement, write_run};
 use crate::plan::{add_bounds, apply_options, make_plan};
-use crate::tables::{failures_text, legend_text, ranking_text, run_table, sequences_text};
+use crate::tables::{
+    failures_text, legend_text, ranking_text, run_table, sequences_text, smears_text,
+};
 use terminal::arguments::{AdapterArgs, MeasureArgs, RunOptions, parse_named};
 use terminal::output::{Text, adapter_text, clock_text, print};
 
@@ -75,7 +77,12 @@ pub fn execute(args: &RunArgs, additions: &[AddToPage]) -> Result<(), Error> {
             args.html.as_ref(),
             additions,
         )?;
-        (scores_text(&run, args.table), pages)
+        let mut scores = scores_text(&run, args.table);
+        // Nobody asked about the lengths of all built-in filters.
+        if !args.measure.filters.is_empty() {
+            scores += smears_text(&run.cases);
+        }
+        (scores, pages)
     } else {
         (Text::default(), Vec::new())
     };

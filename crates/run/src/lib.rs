@@ -16,4 +16,6 @@ pub use self::pages::{
     write_run_page,
 };
 pub use self::plan::{Margins, add_bounds, lock_out, make_plan, read_margins};
-pub use self::tables::{failures_text, ranking_text, run_table, score_sequence_table, score_table};
+pub use self::tables::{
+    failures_text, ranking_text, run_table, score_sequence_table, score_table, shows_smears,
+};

@@ -9,5 +9,6 @@ pub mod list;
 pub mod render;
 pub mod report;
 pub mod score;
+pub mod score_pair;
 pub mod score_sequence;
 mod show_texture;

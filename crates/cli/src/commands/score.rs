@@ -3,43 +3,79 @@
 use std::path::{Path, PathBuf};
 use terminal::refuse;
 
-use clap::Args;
-use frame::{Frame, Ladder, Provenance, Truth};
+use clap::{ArgGroup, Args};
+use frame::{Frame, Image, Ladder, MAX_STOPS, Provenance, Truth};
 use measure::{
-    Error, Frames, Scored, engine_name, missing_scores, printable, read_finished_picture, score,
+    Error, Frames, IngestedScene, NO_VELOCITY, Scored, engine_name, missing_scores, printable,
+    read_finished_picture, score,
 };
-use metrics::Metric;
+use metrics::{Metric, Smear};
 
 use super::convention::read_convention;
-use run::score_table;
+use super::score_pair;
+use report::{NamedPicture, PicturePage, picture_page};
+use run::{page_lines, refuse_folder, score_table, shows_smears, write_page};
 use terminal::arguments::{RootArgs, above_zero, frame_count};
 use terminal::output::{Text, print, print_json};
 
 #[derive(Debug, Args)]
+#[command(group = ArgGroup::new("against").required(true).args(["truth", "reference"]))]
 pub struct ScoreArgs {
-    /// The truth: truth_<alignment>.exr of `truths render` or `run`; for a sequence, the first
-    /// frame's.
-    #[arg(long, value_name = "FILE")]
-    pub truth: PathBuf,
-    /// The frame that the picture was made from: frame.exr of the same scene; for a sequence, the
-    /// first one.
-    #[arg(long, value_name = "FILE")]
-    pub frame: PathBuf,
-    /// The picture: OpenEXR with scene-linear R G B and optional coverage.<object>; or a PNG for
-    /// display. With --frames a folder of such pictures, 0000.exr, 0001.exr and so on.
+    /// The picture: OpenEXR or HDR with scene-linear R G B and optional coverage.<object>, or a PNG
+    /// or JPEG for display. With --frames a folder of such pictures, 0000.exr, 0001.exr and so on.
     #[arg(long, value_name = "FILE|DIR")]
     pub image: PathBuf,
-    /// TOML file with a table [convention] that says which colour the picture has [default:
-    /// scene-linear].
+    /// The truth: truth_<alignment>.exr of `truths render` or `run`; for a sequence, the first
+    /// frame's.
+    #[arg(long, value_name = "FILE", requires = "frame")]
+    pub truth: Option<PathBuf>,
+    /// Any picture of the same size instead of a truth: OpenEXR, HDR, PNG or JPEG. Scores that need
+    /// more than two pictures are left out.
+    #[arg(long, value_name = "FILE")]
+    pub reference: Option<PathBuf>,
+    /// The frame that the picture was made from. With --truth, frame.exr of the same scene; for a
+    /// sequence, the first one. With --reference, any sharp picture: it adds scores of no blur.
+    #[arg(long, value_name = "FILE")]
+    pub frame: Option<PathBuf>,
+    /// OpenEXR with screen motion, velocity.X velocity.Y: it adds scores of what moves, which is
+    /// all that crosses a pixel within half a frame.
+    #[arg(
+        help_heading = "With --reference",
+        long,
+        value_name = "FILE",
+        conflicts_with = "truth"
+    )]
+    pub velocity: Option<PathBuf>,
+    /// Two OpenEXR files with coverage.<object>, the reference's and the picture's: they add scores
+    /// of labels.
+    #[arg(
+        help_heading = "With --reference",
+        long,
+        value_name = "FILE",
+        num_args = 2,
+        conflicts_with = "truth"
+    )]
+    pub mattes: Vec<PathBuf>,
+    /// Display exposure of scene-linear pictures, in stops.
+    #[arg(
+        help_heading = "With --reference",
+        long,
+        value_name = "STOPS",
+        allow_negative_numbers = true,
+        default_value_t = 0.0, value_parser = parse_stops, conflicts_with = "truth"
+    )]
+    pub stops: f32,
+    /// TOML file with a table [convention] that says which colour and velocity the files have
+    /// [default: scene-linear; pixels per frame].
     #[arg(long, value_name = "FILE")]
     pub convention: Option<PathBuf>,
     /// The folder ladder_<alignment> of `run` [default: no equivalent sub-frames, and no skill
     /// unless the shutter is centred].
-    #[arg(long, value_name = "FOLDER")]
+    #[arg(long, value_name = "FOLDER", conflicts_with = "reference")]
     pub ladder: Option<PathBuf>,
     /// Score a sequence of N consecutive frames, with files as `run` and `truths render` write
     /// them.
-    #[arg(help_heading = "Sequences", long, value_name = "N", default_value_t = 1, value_parser = frame_count(), conflicts_with = "ladder")]
+    #[arg(help_heading = "Sequences", long, value_name = "N", default_value_t = 1, value_parser = frame_count(), conflicts_with_all = ["ladder", "reference", "html"])]
     pub frames: u32,
     /// Frames per second at which the sequence is shown. It changes only the score JOD. A scene at
     /// a frame rate is shown at that rate.
@@ -47,31 +83,117 @@ pub struct ScoreArgs {
     pub fps: f64,
     #[command(flatten, next_help_heading = "Sequences")]
     pub root: RootArgs,
+    /// HTML page to write: both pictures and the error map, under a slider or blinking.
+    #[arg(help_heading = "Output", long, value_name = "FILE")]
+    pub html: Option<PathBuf>,
     /// Print all scores as JSON instead of the table.
     #[arg(help_heading = "Output", long)]
     pub json: bool,
 }
 
+/// Largest display exposure of two pictures, in stops: HDR-FLIP looks two stops further.
+const MOST_STOPS: f32 = MAX_STOPS - 2.0;
+
+fn parse_stops(text: &str) -> Result<f32, String> {
+    let stops: f32 = text.parse().map_err(|_| "a number is needed".to_owned())?;
+    if stops.abs() <= MOST_STOPS {
+        Ok(stops)
+    } else {
+        Err(format!("allowed: from -{MOST_STOPS} to {MOST_STOPS}"))
+    }
+}
+
+impl ScoreArgs {
+    /// Returns the files of truth and frame.
+    pub fn truth_files(&self) -> [&Path; 2] {
+        let named = [&self.truth, &self.frame];
+        named.map(|file| {
+            file.as_deref()
+                .expect("the command line requires it without --reference")
+        })
+    }
+}
+
 /// Scores one finished picture; prints the scores, and those that its file does not allow.
 pub fn execute(args: &ScoreArgs) -> Result<(), Error> {
-    let truth = Truth::read(&args.truth)?;
-    let frame = Frame::read(&args.frame)?;
+    refuse_folder("--html", args.html.as_ref())?;
+    if let Some(reference) = &args.reference {
+        return score_pair::execute(args, reference);
+    }
+    let [truth_path, frame_path] = args.truth_files();
+    let truth = Truth::read(truth_path)?;
+    let frame = Frame::read(frame_path)?;
     let ladder = args.ladder.as_deref().map(Ladder::read).transpose()?;
-    check_scene(&args.frame, &frame.provenance, &truth)?;
+    check_scene(frame_path, &frame.provenance, &truth)?;
     if let (Some(path), Some(ladder)) = (&args.ladder, &ladder) {
         check_scene(path, &ladder.provenance, &truth)?;
     }
     let convention = read_convention(args.convention.as_deref())?;
     let picture = read_finished_picture(&args.image, &convention, &frame, &truth)?;
-    let scored = score(&picture, &frame, &truth, ladder.as_ref())
+    let mut scored = score(&picture, &frame, &truth, ladder.as_ref())
         .map_err(|error| Error::Refused(format!("{}: {error}", args.image.display())))?;
+    if lacks_velocity(truth_path)? {
+        scored.scores.take_out_motion(NO_VELOCITY);
+        scored.smear = None;
+    }
+    let mut written = None;
+    if let Some(html) = &args.html {
+        let page = make_page(args, &picture.color, &frame, &truth, &scored);
+        written = Some(write_page(&page, html)?);
+    }
     if args.json {
         let mut json = scored_json(args, &truth, &scored.notes, &scored.scores);
+        json["smear"] = serde_json::json!(scored.smear);
         json["truth_hash"] = truth.provenance.content_hash.as_str().into();
         print_json(&json)
     } else {
-        print(scores_text(args, &truth, &scored))
+        print(scores_text(args, &truth, &scored) + page_lines("written", written.as_slice()))
     }
+}
+
+/// Returns whether an engine's capture, of which the truth was made, has no velocity.
+fn lacks_velocity(truth: &Path) -> Result<bool, Error> {
+    match truth.parent() {
+        Some(folder) if IngestedScene::is_in(folder) => {
+            Ok(IngestedScene::read(folder)?.lacks_velocity())
+        }
+        _ => Ok(false),
+    }
+}
+
+/// Makes the page of a picture and its truth.
+fn make_page(
+    args: &ScoreArgs,
+    image: &Image,
+    frame: &Frame,
+    truth: &Truth,
+    scored: &Scored,
+) -> String {
+    let [truth_path, frame_path] = args.truth_files();
+    let named = |path: &Path, color| NamedPicture {
+        name: name_file(path),
+        color,
+    };
+    let (mean, frame) = (truth.mean().color, frame.cropped());
+    let page = PicturePage {
+        image: named(&args.image, image),
+        reference: named(truth_path, &mean),
+        frame: Some(named(frame_path, &frame.color)),
+        maps: &scored.maps,
+        regions: &scored.regions,
+        scores: &scored.scores,
+        headline: Metric::FLIP,
+        missing: &missing_scores(&scored.scores),
+        stops: frame.display.stops,
+        notes: &scored.notes,
+    };
+    picture_page(&page)
+}
+
+/// Names a file without its folder, as it can be printed.
+pub fn name_file(path: &Path) -> String {
+    let name = path.file_name().unwrap_or(path.as_os_str());
+    printable(&name.to_string_lossy()).into_owned()
 }
 
 /// Refuses a file of a different scene than the truth's.
@@ -87,12 +209,33 @@ pub fn check_scene(path: &Path, provenance: &Provenance, truth: &Truth) -> Resul
     }
 }
 
-fn scores_text(args: &ScoreArgs, truth: &Truth, Scored { scores, notes }: &Scored) -> Text {
-    let name = args.image.file_name().unwrap_or(args.image.as_os_str());
-    let name = name.to_string_lossy();
-    let name = printable(&name);
+/// Says how long the smear is on the scene that calibrates lengths; empty on others.
+fn smear_text(smear: &Smear, truth: &Truth) -> String {
+    if !shows_smears(&truth.provenance.scene) {
+        return String::new();
+    }
+    format!(
+        "smear: {:.2} of the exposure, from {:.2} to {:.2}; {}\n",
+        smear.length(),
+        smear.open,
+        smear.close,
+        smear.verdict(truth.alignment)
+    )
+}
+
+fn scores_text(args: &ScoreArgs, truth: &Truth, scored: &Scored) -> Text {
+    let Scored {
+        scores,
+        notes,
+        smear,
+        ..
+    } = scored;
+    let name = name_file(&args.image);
     let mut text = score_table(&truth.provenance.scene, &name, scores);
     text += truth_text(truth);
+    if let Some(smear) = smear {
+        text += smear_text(smear, truth);
+    }
     for note in notes {
         text += format!("{name}: {note}\n");
     }
@@ -107,6 +250,7 @@ fn scores_text(args: &ScoreArgs, truth: &Truth, Scored { scores, notes }: &Score
         };
         text += format!("not available: {}: {reason}{way_out}\n", names.join(", "));
     }
+
     text
 }
 

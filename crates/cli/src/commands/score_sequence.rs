@@ -48,9 +48,8 @@ pub fn execute(args: &ScoreArgs) -> Result<(), Error> {
 
 /// Reads the frame and the truth of one frame of the sequence.
 fn read_truth(args: &ScoreArgs, frame: u32) -> Result<SequenceTruth, Error> {
-    let path = file_at_frame(&args.truth, frame);
+    let [path, frame_path] = args.truth_files().map(|first| file_at_frame(first, frame));
     let truth = Truth::read(&path)?;
-    let frame_path = file_at_frame(&args.frame, frame);
     let frame = Frame::read(&frame_path)?;
     check_scene(&frame_path, &frame.provenance, &truth)?;
     Ok(SequenceTruth { frame, truth, path })

@@ -6,6 +6,7 @@ mod missing;
 mod ranking;
 mod scene_means;
 mod sequence;
+mod smears;
 
 pub use terminal::table::*;
 
@@ -15,3 +16,4 @@ pub use self::missing::*;
 pub use self::ranking::*;
 pub use self::scene_means::*;
 pub use self::sequence::*;
+pub use self::smears::*;
