@@ -4,12 +4,12 @@
 #
 # All look for a Vulkan driver first and, on Debian and Ubuntu, install the software one where there is none. The tests need Python:
 # Optuna drives the tuning service, Snakemake runs the jobs of a plan, numpy and OpenEXR compare presets with their originals, and
-# flip-evaluator computes FLIP as its authors do.
+# flip-evaluator computes FLIP as its authors do. maturin builds the Python module.
 # They need Chromium to open reports and to draw scenes with three.js, node to install three.js and to drive it, and glslang to compile
 # shaders in GLSL. `make prove` needs Blender and mdBook, too.
 # On macOS and Windows plain cargo commands work.
 
-.PHONY: run site pictures test prove breadth guides fuzz mutants growth archive action image publish vulkan software_vulkan python chromium node glslang blender mdbook
+.PHONY: run site pictures test module wheel try_wheel prove breadth guides fuzz mutants growth archive action release image publish vulkan software_vulkan python chromium node glslang blender mdbook
 
 # Mesa complains on every start where a login session has not set it, as in containers; nothing is written there.
 export XDG_RUNTIME_DIR ?= /tmp
@@ -20,12 +20,12 @@ TARGET_DIR := $(or $(CARGO_TARGET_DIR),target)
 SCENES ?= sliding_panel,panel_over_texture,two_spheres,railing,fan
 
 run: vulkan
-	cargo run --locked --bin shuttertruth -- run $(if $(SCENES),--scenes $(SCENES)) --samples-per-pixel 64 --out out
+	cargo run --locked --bin shuttertruth -- run $(SCENES) --samples-per-pixel 64 --out out
 
 # A static site in target/site: results, a page per engine, the gallery, live cases of $(SCENES), and the guides.
 site: vulkan mdbook
-	cargo build --workspace --locked --bin shuttertruth --example results
-	"$(PROGRAM)" run --scenes $(SCENES) --size 320x180 --samples-per-pixel 64 --out "$(TARGET_DIR)/site_run" \
+	cargo build --locked --bin shuttertruth --example results
+	"$(PROGRAM)" run $(SCENES) --size 320x180 --samples-per-pixel 64 --out "$(TARGET_DIR)/site_run" \
 	    --filter "identity$$(sed -n 's/^shape = "\(.*\)"/,\1/p' results/engines.toml | tr -d '\n')"
 	rm -rf "$(TARGET_DIR)/site_source"
 	"$(dir $(PROGRAM))examples/results" --site "$(TARGET_DIR)/site_source" "$(TARGET_DIR)/site_run/run.json"
@@ -34,15 +34,39 @@ site: vulkan mdbook
 # Makes the pictures of the pages, or with CHECK=1 compares them with what the program makes now; `make pictures RUNS=fan,report`
 # takes two of the runs of examples/pictures/pictures.toml.
 pictures: software_vulkan chromium
-	cargo build --workspace --locked --bin shuttertruth --example results --example pictures
+	cargo build --locked --bin shuttertruth --example results --example pictures
 	$(SOFTWARE) "$(dir $(PROGRAM))examples/pictures" $(if $(CHECK),--check) $(RUNS)
 
 # Tests compare numbers, which graphics cards round in their own ways. They run on Mesa's software driver, or on VK_DRIVER_FILES.
 SOFTWARE = VK_DRIVER_FILES="$${VK_DRIVER_FILES:-$$(ls /usr/share/vulkan/icd.d/lvp_icd*.json 2>/dev/null | head -n 1)}"
-TEST = $(SOFTWARE) cargo test --workspace --locked
+TEST = $(SOFTWARE) cargo test --locked
 
 test: software_vulkan python chromium node glslang
 	$(TEST)
+	$(MAKE) --no-print-directory module
+
+# The Python module, built as the tests are, and tested in a fresh environment; numpy is fetched once. Cargo's default packages leave
+# it out.
+WHEELS = $(TARGET_DIR)/wheels
+MODULE = $(TARGET_DIR)/module
+MATURIN = "$(PYTHON)" -m maturin build -q --locked --manifest-path crates/python/Cargo.toml --out
+
+module: software_vulkan python
+	rm -rf "$(MODULE)" "$(WHEELS)"/shuttertruth-*
+	$(MATURIN) "$(WHEELS)"
+	ls "$(WHEELS)"/numpy-* >/dev/null 2>&1 || "$(PYTHON)" -m pip download -q --no-deps --dest "$(WHEELS)" numpy==2.4.6
+	"$(PYTHON)" -m venv --without-pip "$(MODULE)"
+	"$(PYTHON)" -m pip --python "$(MODULE)/bin/python3" install -q --no-index --find-links "$(WHEELS)" shuttertruth
+	cd crates/python/tests && $(SOFTWARE) "$(abspath $(MODULE))/bin/python3" -m unittest $(NAMES)
+
+# The wheel for this kind of machine: module and program. `make try_wheel` installs it in a fresh environment, and times the first
+# ranking.
+wheel: python
+	rm -rf "$(TARGET_DIR)/wheel"
+	$(MATURIN) "$(TARGET_DIR)/wheel" --release
+
+try_wheel: software_vulkan wheel
+	$(SOFTWARE) "$(PYTHON)" release/try_wheel.py "$(TARGET_DIR)/wheel"/shuttertruth-*.whl
 
 # Runs every part, even after one that fails. Prints at the end how long each took: `make prove PARTS=guides`.
 PARTS ?= breadth guides pictures fuzz mutants growth
@@ -87,7 +111,7 @@ PROGRAM = $(TARGET_DIR)/debug/shuttertruth
 growth: software_vulkan python
 	rm -rf "$(GROWTH)"
 	$(TEST) --no-run
-	"$(PROGRAM)" check --scenes sliding_panel --filter mcguire:paper --size 160x90 --samples-per-pixel 64 --out "$(GROWTH)/small"
+	"$(PROGRAM)" check sliding_panel --filter mcguire:paper --size 160x90 --samples-per-pixel 64 --out "$(GROWTH)/small"
 	"$(PYTHON)" examples/growth.py "$(GROWTH)/small" --scenes 100 --filters 94 --out "$(GROWTH)/large" --program "$(PROGRAM)"
 
 archive:
@@ -100,6 +124,9 @@ ARCHIVE = $(shell ls -t target/archive/shuttertruth-*-$(shell rustc -vV | sed -n
 action: archive python
 	"$(PYTHON)" -c 'import yaml' 2>/dev/null || "$(PYTHON)" -m pip install -q pyyaml==6.0.3
 	"$(PYTHON)" release/try_action.py "$(ARCHIVE)" $(if $(ROOT),--root "$(ROOT)")
+
+# As root: everything that a release consists of, each tried as its user would.
+release: archive try_wheel action publish
 
 # As root: BASE=IMAGE names another base than Debian's image of Docker Hub.
 image: archive
@@ -159,14 +186,14 @@ software_vulkan: vulkan
 	found || { echo "still no lvp_icd*.json in /usr/share/vulkan/icd.d after the installation; $(VULKAN_WAY_OUT)" >&2; exit 1; }
 
 python:
-	@"$(PYTHON)" -c 'import optuna, snakemake, numpy, OpenEXR, flip_evaluator' 2>/dev/null && exit 0; \
+	@"$(PYTHON)" -c 'import optuna, snakemake, numpy, OpenEXR, maturin, flip_evaluator' 2>/dev/null && exit 0; \
 	[ "$(PYTHON)" = "$(VENV)/bin/python3" ] || \
-	{ echo "$(PYTHON) lacks one of optuna, snakemake, numpy, OpenEXR and flip-evaluator: pip install them, or leave PYTHON unset to have them installed" >&2; exit 1; }; \
+	{ echo "$(PYTHON) lacks one of optuna, snakemake, numpy, OpenEXR, maturin and flip-evaluator: pip install them, or leave PYTHON unset to have them installed" >&2; exit 1; }; \
 	python3 -c 'import ensurepip' 2>/dev/null || \
 	{ $(call INSTALL,Python that can make environments,python3-venv,install Python 3 with venv and pip); }; \
-	echo "installing Optuna, Snakemake, numpy, OpenEXR and flip-evaluator to $(VENV)" >&2; \
+	echo "installing Optuna, Snakemake, numpy, OpenEXR, maturin and flip-evaluator to $(VENV)" >&2; \
 	python3 -m venv "$(VENV)" && "$(VENV)/bin/python3" -m pip install -q optuna==5.0.0 snakemake==9.27.1 numpy==2.4.6 \
-	    OpenEXR==3.5.3 flip-evaluator==1.7 >&2
+	    OpenEXR==3.5.3 maturin==1.16.0 flip-evaluator==1.7 >&2
 
 CHROMIUM_WAY_OUT := install it, for example: apt-get install chromium (Debian), dnf install chromium (Fedora), pacman -S chromium (Arch), or name a Chromium or Chrome in CHROMIUM
 

@@ -1,7 +1,8 @@
-//! The structure of the sources: no circle of modules in any crate, no long function, and the
-//! packages of the design.
+//! The structure of the sources: no circle of modules in any crate, no long function, the
+//! packages of the design, and one set of their features.
 
 mod circles;
+mod features;
 mod functions;
 mod modules;
 mod packages;

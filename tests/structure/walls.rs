@@ -77,11 +77,9 @@ fn read_page() -> Imports {
     let names: Vec<String> = rows.iter().flat_map(|row| quoted(row[1])).collect();
     let imports = rows.iter().map(|row| {
         let [name] = quoted(row[1]).try_into().expect("one crate a row");
-        let imports = if row[2].contains("all of these") {
-            (names.iter())
-                .filter(|other| **other != name)
-                .cloned()
-                .collect()
+        let imports = if row[2].contains("all above") {
+            let above = names.iter().take_while(|other| **other != name);
+            above.cloned().collect()
         } else {
             quoted(row[2]).into_iter().collect()
         };

@@ -6,7 +6,7 @@ mod guides;
 mod program;
 mod tables;
 
-use std::process::ExitCode;
+use std::ffi::OsString;
 
 use filters::FilterError;
 use frame::TruthError;
@@ -16,6 +16,7 @@ use terminal::output::{
     INTERRUPTED_TEXT, catch_interrupts, interrupted_code, print_error, print_failure, set_output,
 };
 use terminal::result::Ending;
+use terminal::settings::Settings;
 use tracer::TraceError;
 
 pub use gate::{annotations, check_text, junit, summary};
@@ -24,15 +25,23 @@ pub use tables::compare_table;
 pub use terminal::selection::{Programs, SceneChoice, select_filters, select_scenes};
 pub use terminal::table::{list_once, markdown_table, range_text};
 
-/// Runs the command of the command line and returns its exit code.
-pub fn run_program() -> ExitCode {
+/// Runs the command of a command line, which begins with the program's name, and returns its exit
+/// code.
+pub fn run_program(words: &[OsString]) -> u8 {
     catch_interrupts();
-    let arguments =
-        Cli::parse_words(std::env::args_os()).unwrap_or_else(|error| refuse_arguments(&error));
+    let settings = match Settings::read() {
+        Ok(settings) => settings,
+        Err(error) => {
+            print_failure(&error);
+            return exit_code(&error);
+        }
+    };
+    let arguments = Cli::parse_words(words, &settings)
+        .unwrap_or_else(|error| refuse_arguments(words, &error, &settings));
     set_output(arguments.output);
     match execute(&arguments) {
-        Ok(Ending::Done) => ExitCode::SUCCESS,
-        Ok(Ending::Failed(error)) => ExitCode::from(exit_code(&error)),
+        Ok(Ending::Done) => 0,
+        Ok(Ending::Failed(error)) => exit_code(&error),
         Err(error) => {
             if error.is_interruption() {
                 print_error(INTERRUPTED_TEXT)
@@ -42,7 +51,7 @@ pub fn run_program() -> ExitCode {
                     None => print_failure(&error),
                 }
             }
-            ExitCode::from(exit_code(&error))
+            exit_code(&error)
         }
     }
 }
@@ -71,13 +80,13 @@ fn way_out(error: &Error) -> Option<&'static str> {
 }
 
 /// Prints an error of the command line, or the requested help.
-fn refuse_arguments(error: &clap::Error) -> ! {
+fn refuse_arguments(words: &[OsString], error: &clap::Error, settings: &Settings) -> ! {
     if let Some(place) = find_new_place(error) {
         print_failure(&Error::Refused(place));
         std::process::exit(error.exit_code())
     }
     // Words may be file names with control codes, which the message must show as escapes.
-    let words = std::env::args_os().map(|word| printable(&word.to_string_lossy()).into_owned());
-    let shown = Cli::parse_words(words).err();
+    let words = (words.iter()).map(|word| printable(&word.to_string_lossy()).into_owned());
+    let shown = Cli::parse_words(words, settings).err();
     shown.as_ref().unwrap_or(error).exit()
 }

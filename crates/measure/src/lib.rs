@@ -28,7 +28,7 @@ pub use files::json::{MAX_JSON_BYTES, MAX_RUN_BYTES, read_text, read_text_within
 pub use files::json_lines::to_lines;
 pub use files::place::{MAX_TAKEN_BYTES, is_one_file, place_file};
 pub use files::record::{
-    CASE_RECORD, hash_inputs, hash_program, look_up, look_up_alone, put, read_record,
+    CASE_RECORD, hash_inputs, hash_program, look_up, look_up_alone, name_program, put, read_record,
     remove_altered_files,
 };
 pub use files::render_file::{
@@ -61,6 +61,7 @@ pub use measuring::sequence::{CHANGE_PICTURE, SEQUENCE_PICTURE};
 pub use monitor::{Monitor, Step};
 pub use random::Random;
 pub use render::exclusion::{EXCLUSION_FILE, FilterFrame, read_exclusion};
+pub use render::in_memory::{MemoryRender, RenderedScene};
 pub use render::ingested_scene::{
     BLURRED, Drawn, INGESTED_FORMAT, IngestedScene, NO_VELOCITY, engine_name, name_in_one_word,
 };

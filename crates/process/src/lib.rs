@@ -10,4 +10,4 @@ mod run;
 
 pub use environment::collect_environment;
 pub use limits::{Limits, OutputFile, half_of_memory};
-pub use run::{End, run, stop};
+pub use run::{End, resume, run, stop};

@@ -38,6 +38,11 @@ pub fn stop() {
     STOPPED.store(true, Ordering::Relaxed);
 }
 
+/// Lets programs start again after [`stop`], for a process that goes on.
+pub fn resume() {
+    STOPPED.store(false, Ordering::Relaxed);
+}
+
 /// Runs a program with nothing on its standard input, and returns how it ended. Whatever it started
 /// ends with it. Programs run one at a time.
 ///

@@ -4,6 +4,7 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use frame::{FileError, open_regular, read_bounded, write_atomically};
 use serde::de::DeserializeOwned;
@@ -143,10 +144,20 @@ pub fn hash_inputs<T: Serialize>(inputs: &T) -> String {
     hex(&serde_json::to_vec(inputs).expect("inputs are plain data"))
 }
 
+/// File of this code, if it is not the running program: a module of another program.
+static PROGRAM_FILE: OnceLock<PathBuf> = OnceLock::new();
+
+/// Names the file that [`hash_program`] hashes in place of the running program; the first name
+/// counts.
+pub fn name_program(path: PathBuf) {
+    let _ = PROGRAM_FILE.set(path);
+}
+
 /// Hashes the running program. Its bytes change with sources, dependencies, compiler and options:
 /// everything that may change a number and is no other input. None if the bytes cannot be read.
 pub fn hash_program() -> Option<String> {
-    hash_file(&std::env::current_exe().ok()?).ok()
+    let named = PROGRAM_FILE.get().cloned();
+    hash_file(&named.or_else(|| std::env::current_exe().ok())?).ok()
 }
 
 /// Hashes a regular file piece by piece: the program, which every run hashes, has a hundred

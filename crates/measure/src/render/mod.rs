@@ -2,6 +2,7 @@
 
 pub mod exclusion;
 pub mod files;
+pub mod in_memory;
 pub mod ingested_scene;
 pub mod ladders;
 pub mod memory;

@@ -19,7 +19,7 @@ pub struct RootArgs {
 }
 
 /// Finds the default folder of scenes: `scenes`, or the program's own if there is no such folder.
-fn default_scenes_root() -> Location {
+pub fn default_scenes_root() -> Location {
     let folder = PathBuf::from(DEFAULT);
     if folder.exists() {
         folder.into()
