@@ -261,7 +261,11 @@ fn the_page_is_one_file_of_both_pictures_and_the_map() {
 }
 
 /// Words after the command, and parts of the message.
-const REFUSED: [(&str, &[&str]); 11] = [
+const REFUSED: [(&str, &[&str]); 12] = [
+    (
+        "--image mine.exr --reference broken.exr",
+        &["broken.exr: holds [NaN, ", "at pixel (7, 2)", "finite"],
+    ),
     ("--image mine.png", &["--truth <FILE>|--reference <FILE>"]),
     ("--reference ref.png", &["--image"]),
     (
@@ -313,6 +317,9 @@ fn what_cannot_be_compared_is_refused() {
     let sandbox = set_up();
     write_png(&sandbox.path("small.png"), &Raster::filled(5, 4, [0.5; 3])).unwrap();
     sandbox.put("torn.jpg", "no picture");
+    let mut broken = disc(96, 60, 1);
+    broken.pixels[2 * 96 + 7][0] = f32::NAN;
+    write_radiance(&sandbox, "broken.exr", &broken);
     sandbox.refuse_each("score", &REFUSED);
 }
 

@@ -10,13 +10,13 @@ use measure::{
 };
 use metrics::{ImageMetric, Metric, Region, Scores};
 use report::{NamedPicture, PicturePage, picture_page};
-use run::{page_lines, write_page};
+use run::{page_lines, refuse_folder, write_page};
 use terminal::output::{Text, heading, print, print_json, push_wrapped};
 use terminal::refuse;
 use terminal::table::{Table, legend_text};
 
 use super::convention::read_convention;
-use super::score::{ScoreArgs, name_file};
+use super::score_args::{ScoreArgs, name_file};
 
 /// FLIP over the whole picture, as other programs compute it.
 const WHOLE: Metric = Metric::Image(ImageMetric::Flip, Region::Full);
@@ -52,6 +52,7 @@ struct Inputs {
 
 /// Scores a picture against a reference; prints the scores, and what the others need.
 pub fn execute(args: &ScoreArgs, reference: &Path) -> Result<(), Error> {
+    refuse_folder("--html", args.html.as_ref())?;
     let inputs = read_inputs(args, reference)?;
     let flip = FlipExposures::default();
     let display = Display {
@@ -114,6 +115,7 @@ fn read_inputs(args: &ScoreArgs, reference: &Path) -> Result<Inputs, Error> {
     let mut notes = Vec::new();
     let mut read = |path: &Path| -> Result<PictureFile, Error> {
         let file = read_picture(path, &convention, args.stops)?;
+        check_finite(path, &file.color)?;
         let name = name_file(path);
         notes.push(format!("{name}: {}", file.reading));
         notes.extend(file.notes.iter().map(|note| format!("{name}: {note}")));
@@ -141,6 +143,20 @@ fn read_inputs(args: &ScoreArgs, reference: &Path) -> Result<Inputs, Error> {
         moving,
         notes,
     })
+}
+
+/// Refuses a picture with NaN or infinity, and names the pixel.
+fn check_finite(path: &Path, color: &Image) -> Result<(), Error> {
+    let is_broken = |pixel: &[f32; 3]| pixel.iter().any(|value| !value.is_finite());
+    let Some(at) = color.pixels.iter().position(is_broken) else {
+        return Ok(());
+    };
+    let (x, y) = (at % color.width as usize, at / color.width as usize);
+    refuse!(
+        "{}: holds {:?} at pixel ({x}, {y}); every number must be finite",
+        path.display(),
+        color.pixels[at]
+    )
 }
 
 /// Refuses a file of another size than the reference.

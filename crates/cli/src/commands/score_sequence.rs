@@ -10,7 +10,8 @@ use scene::Scene;
 use terminal::refuse;
 
 use super::convention::read_convention;
-use super::score::{ScoreArgs, check_scene, scored_json, truth_text};
+use super::score::{check_scene, scored_json, truth_text};
+use super::score_args::ScoreArgs;
 use run::score_sequence_table;
 use terminal::output::{Text, print, print_json};
 use terminal::selection::select_scenes;
