@@ -94,13 +94,13 @@ const MISTAKES: [Mistake; 10] = [
         [0.0, 0.5],
         0,
         Alignment::Trailing,
-        "of the exposure: multiply the intensity by 2.",
+        "too short: multiply the intensity by 2.",
     ),
     (
         [-1.0, 1.0],
         0,
         Alignment::Centred,
-        "of the exposure: multiply the intensity by 0.5",
+        "too long: multiply the intensity by 0.5",
     ),
     (
         [-1.0, 0.0],
@@ -166,6 +166,26 @@ fn up_and_down_exchanged_show_in_slanted_motion() {
     assert!(right.is_right(Alignment::Trailing), "{right:?}");
     let text = sandbox.done(&format!("{line} --set {name}.turned=2"));
     assert_contains(&text, &["up and down exchanged"]);
+}
+
+#[test]
+fn a_right_blur_of_three_passes_is_not_halved() {
+    let sandbox = Sandbox::of(&Vec::new());
+    let folder = tests::root().join("examples/first_blur/godot_tiles");
+    let verdicts = [
+        "too short: multiply the intensity by 2.",
+        "right:",
+        "too long: multiply the intensity by 0.5",
+    ];
+    for (strength, verdict) in [0.5, 1.0, 2.0].into_iter().zip(verdicts) {
+        let filter = format!(
+            "{} --set godot_tiles.strength={strength:?}",
+            folder.display()
+        );
+        let text = sandbox.done(&format!("{RUN} --scenes sliding_panel --filter {filter}"));
+        let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert_contains(&words, &[verdict]);
+    }
 }
 
 /// Blurs that are right by their own references: a gather, a jump flood, tiles, and engines' ways of

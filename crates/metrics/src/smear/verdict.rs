@@ -74,8 +74,9 @@ impl Smear {
         } else {
             String::new()
         };
+        let wrong = if length < 1.0 { "short" } else { "long" };
         format!(
-            "{length:.2} of the exposure: multiply the intensity by {:.2}{doubt}",
+            "too {wrong}: multiply the intensity by {:.2}{doubt}",
             1.0 / length
         )
     }
