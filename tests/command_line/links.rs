@@ -127,3 +127,18 @@ fn the_page_of_evidence_names_tests_that_exist() {
     }
     assert!(count > 30, "only {count} tests were found");
 }
+
+/// Languages of code that the site's highlighter knows; it complains about others.
+const HIGHLIGHTED: [&str; 8] = ["c", "js", "python", "rust", "sh", "text", "toml", "yaml"];
+
+#[test]
+fn code_is_in_a_language_that_the_site_highlights() {
+    for page in find_pages(&root()) {
+        let text = fs::read_to_string(&page).unwrap();
+        let fences = text.lines().filter_map(|line| line.strip_prefix("```"));
+        for language in fences.filter(|language| !language.is_empty()) {
+            let place = page.display();
+            assert!(HIGHLIGHTED.contains(&language), "{place}: {language}");
+        }
+    }
+}

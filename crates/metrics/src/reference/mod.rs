@@ -28,7 +28,8 @@ use crate::subframes::ladder::Curves;
 use crate::{MeasureError, Measured, ObjectScores, ProbeScores, Region, Regions, Scores, Viewing};
 use check::{check_agreement, check_brightness, check_picture, check_viewing};
 use frozen::FrozenReference;
-use shared_noise::{halves_for, mark_shared};
+use shared_noise::halves_for;
+pub use shared_noise::mark_shared;
 
 pub use color::ColorReference;
 pub use jitter::Jitter;

@@ -178,10 +178,18 @@
     return all / count;
   };
 
-  // PSNR over a region, in dB, at most `limit`, which is what the truth's noise allows. `noise` is what that adds to the squared error.
-  const psnr = (output, truth, region, stops, noise, limit) => {
-    const squared = region.map((_, at) => output.reduce((all, plane, c) => all + (plane[at] - truth[c][at]) ** 2, 0) / 3);
-    const error = (meanOver(region, squared) - noise) * 4 ** stops;
+  // Largest change of a colour, relative to it, that counts as none: the rounding of 16-bit floats.
+  const ROUNDING = 1e-3;
+
+  // PSNR over a region, in dB, at most `limit`, which is what the truth's noise allows. `noise` is the root of what that adds to the
+  // squared error of a pixel; where it is negative, it adds nothing to a pixel that the filter leaves as it is in the frame.
+  const psnr = (output, frame, truth, region, stops, noise, limit) => {
+    const isLeft = (at) => output.every((plane, c) => Math.abs(plane[at] - frame[c][at]) <= ROUNDING * Math.abs(frame[c][at]));
+    const squared = region.map((_, at) => {
+      const all = output.reduce((sum, plane, c) => sum + (plane[at] - truth[c][at]) ** 2, 0) / 3;
+      return noise[at] < 0 && isLeft(at) ? all : all - noise[at] ** 2;
+    });
+    const error = meanOver(region, squared) * 4 ** stops;
     return Math.min(limit, -10 * Math.log10(Math.max(error, 10 ** (-PSNR_LIMIT / 10))));
   };
 

@@ -69,13 +69,14 @@
     const { device } = await openCard();
     if (mine.device !== device) await compile(mine, device);
     const output = await card.blur(device, wordsOf(mine));
-    const { data, width, height, truth, seen, region, scene, noise } = mine;
+    const { data, width, height, frame, truth, seen, region, scene, noise } = mine;
     const map = scores.mapFlip(seen, scores.see(output, width, height, scene.stops));
     if (mine !== tried) return;
     LAYERS.live.forEach((number, at) => put(number, output[at]));
     put(LAYERS.live_flip[0], map);
     const limit = data.stored.psnr_limit ?? Infinity;
-    mine.found = { flip: scores.meanOver(region, map), psnr: scores.psnr(output, truth, region, scene.stops, noise, limit) };
+    const psnr = scores.psnr(output, frame, truth, region, scene.stops, noise, limit);
+    mine.found = { flip: scores.meanOver(region, map), psnr };
     mine.version += 1;
     fillScores(mine);
     say(mine.errors.length > 0 ? STALE : "");
@@ -395,15 +396,15 @@
       const scene = await loadOnce(`live_scene_${data.scene}`, async (own) => ({ ...own, inputs: await floatsOf(own.inputs) }));
       const { width, height } = scene.crop;
       const truth = await planes(scene.truth[data.alignment]);
-      const [region] = await planes([scene.moving[data.alignment]]);
+      const frame = await planes(scene.frame);
+      const [region, noise] = await planes([scene.moving[data.alignment], scene.noise[data.alignment]]);
       const seen = scores.see(truth, width, height, scene.stops);
       if (mine !== tried) return;
       const preset = filter.presets.find(({ name }) => name === data.preset)?.values;
       const defaults = Object.fromEntries(filter.parameters.map((parameter) => [parameter.name, parameter.default]));
       const before = { ...defaults, ...preset, ...data.parameters };
       const texts = filter.modules.map(({ wgsl }) => wgsl);
-      const noise = scene.noise[data.alignment];
-      Object.assign(mine, { filter, scene, width, height, truth, region, noise, seen, texts, before });
+      Object.assign(mine, { filter, scene, width, height, frame, truth, region, noise, seen, texts, before });
       fillPanel(mine);
       set(mine, before);
     } catch (error) {

@@ -12,7 +12,7 @@ use crate::pixels::planes::deflate;
 use crate::pixels::scene_files::SceneFiles;
 
 /// Writes a scene as JSON. Adds the regions of its truths to its planes, as numbers that are 1
-/// where scores are pooled.
+/// where scores are pooled, and the truths' noise.
 pub fn scene_json(files: &mut SceneFiles) -> String {
     let (whole, inner) = (files.whole.size(), files.frame.size());
     let band = files.whole.guard_band;
@@ -21,7 +21,7 @@ pub fn scene_json(files: &mut SceneFiles) -> String {
         let moving = truth.regions.moving.map(|moves| f32::from(*moves));
         let name = alignment.to_string();
         truths.insert(name.clone(), json!(truth.color_planes()));
-        noises.insert(name.clone(), json!(truth.noise));
+        noises.insert(name.clone(), json!(files.planes.add(&truth.noise)));
         regions.insert(name, json!(files.planes.add(&moving)));
     }
     let scene = json!({
@@ -30,6 +30,7 @@ pub fn scene_json(files: &mut SceneFiles) -> String {
         "crop": { "x": band, "y": band, "width": inner.width, "height": inner.height },
         "inputs": list_inputs(&files.whole),
         "stops": files.frame.display.stops,
+        "frame": files.color_planes(),
         "truth": truths,
         "moving": regions,
         "noise": noises,

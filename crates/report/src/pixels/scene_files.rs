@@ -4,14 +4,13 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use frame::{
-    Alignment, ExrFile, Frame, Image, Picture, Plane, Region, Regions, Size, Truth, read_exr,
-    regions,
+    Alignment, ExrFile, Frame, Image, Picture, Plane, Regions, Size, Truth, read_exr, regions,
 };
 use measure::{
     Case, Error, ErrorMaps, FilterFrame, ReferencePicture, RenderFile, Run, read_exclusion,
     read_further_velocities,
 };
-use metrics::{Side, object_sides};
+use metrics::{Side, mark_shared, object_sides};
 
 use super::layer::Layer;
 use super::planes::Planes;
@@ -51,9 +50,10 @@ pub struct TruthFile {
     pub offset: frame::Vectors,
     /// Regions that scores are pooled over.
     pub regions: Regions,
-    /// The truth's own noise: its part of the mean squared error against `mean` where anything
-    /// moves, in units of radiance.
-    pub noise: f64,
+    /// Root of the truth's own noise in each pixel, which is a part of the squared error against
+    /// `mean`, in units of radiance. Negative where the frame has the same noise: a filter that
+    /// leaves such a pixel alone hands it on, and it is no part of the error there.
+    pub noise: Plane,
     /// Sides of each moving object's bleed, with the object's index.
     sides: Vec<(usize, frame::Raster<Side>)>,
     /// Truth and knowability.
@@ -119,6 +119,11 @@ impl SceneFiles {
         })
     }
 
+    /// Returns the planes of the frame's red, green and blue.
+    pub fn color_planes(&self) -> &[usize] {
+        &self.shared[0].1
+    }
+
     /// Draws a small truth, of any alignment, as an address that embeds the picture.
     pub fn thumbnail(&self) -> String {
         let truth = self.truths.values().next();
@@ -157,7 +162,7 @@ impl SceneFiles {
             offset: at_instant.offset.zip(placed, |offset, placed| {
                 offset.map(|sum| if *placed > 0.0 { sum / placed } else { 0.0 })
             }),
-            noise: noise_where_moving(&truth, &regions),
+            noise: mark_noise(&truth, &self.frame.color, &mean.color, &regions),
             regions,
             sides: objects
                 .filter_map(|id| Some((id, object_sides(&self.frame, &truth.support, id as u32)?)))
@@ -230,17 +235,20 @@ impl SceneFiles {
     }
 }
 
-/// Averages the squared noise of a truth where anything moves. A report's score is the product of
-/// the errors against both halves: the squared error against the mean of the halves, less the
-/// square of half their difference.
-fn noise_where_moving(truth: &Truth, regions: &Regions) -> f64 {
-    let [first, second] = truth.halves.each_ref().map(|half| &half.color.pixels);
-    let square = |at: usize| -> f64 {
-        let parts = first[at].iter().zip(&second[at]);
-        parts.map(|(a, b)| f64::from(a - b).powi(2) / 12.0).sum()
-    };
-    let squares: Vec<f64> = regions.indices(Region::Moving).map(square).collect();
-    squares.iter().sum::<f64>() / squares.len().max(1) as f64
+/// Computes the noise of a truth in each pixel: see [`TruthFile::noise`]. A report's score is the
+/// product of the errors against both halves: the squared error against the mean of the halves,
+/// less the square of half their difference.
+fn mark_noise(truth: &Truth, frame: &Image, mean: &Image, regions: &Regions) -> Plane {
+    let halves = truth.halves.each_ref().map(|half| &half.color);
+    let noise = halves[0].zip(halves[1], |a, b| {
+        let squares = a.iter().zip(b).map(|(a, b)| (a - b).powi(2));
+        (squares.sum::<f32>() / 12.0).sqrt()
+    });
+    let shared = mark_shared(frame, halves, mean, regions);
+    noise.zip(
+        &shared,
+        |noise, shared| if *shared { -noise } else { *noise },
+    )
 }
 
 /// Finds a case of the scene that an engine drew, rendered by the same run with the same exposure.
