@@ -4,7 +4,7 @@
 #
 # All look for a Vulkan driver first and, on Debian and Ubuntu, install the software one where there is none. The tests need Python:
 # Optuna drives the tuning service, Snakemake runs the jobs of a plan, numpy and OpenEXR compare presets with their originals, and
-# maturin builds the Python module.
+# flip-evaluator computes FLIP as its authors do. maturin builds the Python module.
 # They need Chromium to open reports and to draw scenes with three.js, node to install three.js and to drive it, and glslang to compile
 # shaders in GLSL. `make prove` needs Blender and mdBook, too.
 # On macOS and Windows plain cargo commands work.
@@ -186,14 +186,14 @@ software_vulkan: vulkan
 	found || { echo "still no lvp_icd*.json in /usr/share/vulkan/icd.d after the installation; $(VULKAN_WAY_OUT)" >&2; exit 1; }
 
 python:
-	@"$(PYTHON)" -c 'import optuna, snakemake, numpy, OpenEXR, maturin' 2>/dev/null && exit 0; \
+	@"$(PYTHON)" -c 'import optuna, snakemake, numpy, OpenEXR, maturin, flip_evaluator' 2>/dev/null && exit 0; \
 	[ "$(PYTHON)" = "$(VENV)/bin/python3" ] || \
-	{ echo "$(PYTHON) lacks one of optuna, snakemake, numpy, OpenEXR and maturin: pip install them, or leave PYTHON unset to have them installed" >&2; exit 1; }; \
+	{ echo "$(PYTHON) lacks one of optuna, snakemake, numpy, OpenEXR, maturin and flip-evaluator: pip install them, or leave PYTHON unset to have them installed" >&2; exit 1; }; \
 	python3 -c 'import ensurepip' 2>/dev/null || \
 	{ $(call INSTALL,Python that can make environments,python3-venv,install Python 3 with venv and pip); }; \
-	echo "installing Optuna, Snakemake, numpy, OpenEXR and maturin to $(VENV)" >&2; \
+	echo "installing Optuna, Snakemake, numpy, OpenEXR, maturin and flip-evaluator to $(VENV)" >&2; \
 	python3 -m venv "$(VENV)" && "$(VENV)/bin/python3" -m pip install -q optuna==5.0.0 snakemake==9.27.1 numpy==2.4.6 \
-	    OpenEXR==3.5.3 maturin==1.16.0 >&2
+	    OpenEXR==3.5.3 maturin==1.16.0 flip-evaluator==1.7 >&2
 
 CHROMIUM_WAY_OUT := install it, for example: apt-get install chromium (Debian), dnf install chromium (Fedora), pacman -S chromium (Arch), or name a Chromium or Chrome in CHROMIUM
 

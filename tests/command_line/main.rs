@@ -55,6 +55,7 @@ mod set_up;
 mod settings;
 mod shared_runs;
 mod shipped_files;
+mod smears;
 #[cfg(target_os = "linux")]
 mod snakemake;
 mod snapshots;
@@ -63,6 +64,7 @@ mod summary;
 mod terminal;
 #[path = "../../crates/tune/tests/program/mod.rs"]
 mod tune;
+mod two_pictures;
 mod variants;
 mod written_files;
 

@@ -236,7 +236,10 @@ const BAD_PICTURES: [(&str, &[&str]); 8] = [
     ("nowhere.png", &["nowhere.png", "cannot read"]),
     (
         "scenes/plate/plate.obj",
-        &["plate.obj", "allowed: a name that ends with .exr or .png"],
+        &[
+            "plate.obj",
+            "allowed: a name that ends with .exr, .hdr, .png, .jpg or .jpeg",
+        ],
     ),
     ("no.png", &["no.png", "not a PNG that can be read"]),
     ("no.exr", &["no.exr", "not a complete OpenEXR file"]),

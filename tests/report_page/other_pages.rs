@@ -2,9 +2,11 @@
 
 use std::fs;
 
+use frame::{Raster, write_png};
+
 use crate::browser::{Browser, address_of};
-use crate::open_page;
 use crate::sandbox::Sandbox;
+use crate::{open_page, press, settle};
 
 const GATHER: &str = "--filters velocity_gather:fine";
 
@@ -34,6 +36,42 @@ fn a_comparison_shows_pictures_first_and_a_change_with_sign_and_word() {
         "$$('.trio ~ .scroll tr').find(row => row.textContent.startsWith('psnr_moving')).cells[3].textContent",
     );
     assert!(psnr.starts_with('-') && psnr.ends_with("worse"), "{psnr}");
+    assert_eq!(browser.complaints(), [""; 0]);
+    assert_eq!(browser.requests(), [address_of(&page)]);
+}
+
+#[test]
+fn two_pictures_open_under_the_slider_and_blink_and_show_their_map() {
+    let sandbox = Sandbox::new();
+    for (name, edge) in [("ref", 20), ("mine", 26)] {
+        let picture = Raster::from_fn(48, 32, |x, _| [if x < edge { 0.8 } else { 0.2 }; 3]);
+        write_png(&sandbox.path(&format!("{name}.png")), &picture).unwrap();
+    }
+    sandbox.done("score --reference ref.png --image mine.png --html page.html");
+    let page = sandbox.path("page.html");
+    let mut browser = open_page(&page);
+    settle(&mut browser);
+    assert_eq!(browser.read("article h2"), "mine.png against ref.png");
+    let chosen =
+        "['left', 'right'].map(side => $(`[name=${side}]`).selectedOptions[0].text).join()";
+    assert_eq!(browser.text(chosen), "ref.png,mine.png");
+    let slide = browser.picture(".stack");
+    press(&mut browser, "[");
+    assert!(browser.picture(".stack") != slide, "the divider moves");
+    press(&mut browser, "2");
+    assert_eq!(browser.text("$('#viewer').dataset.mode"), "blink");
+    press(&mut browser, "1");
+    let maps = ["FLIP", "Signed error"].map(|_| {
+        press(&mut browser, "m");
+        browser.text("$('[name=right]').selectedOptions[0].text")
+    });
+    assert_eq!(maps, ["FLIP", "Signed error"]);
+    press(&mut browser, "w");
+    // The pictures differ in six columns, and no motion or depth is known to read there.
+    browser.value("$('.stack').focus()");
+    press(&mut browser, "ArrowRight");
+    let pixel = browser.read(".readout caption");
+    assert!(pixel.starts_with("x 2"), "{pixel}");
     assert_eq!(browser.complaints(), [""; 0]);
     assert_eq!(browser.requests(), [address_of(&page)]);
 }

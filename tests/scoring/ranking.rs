@@ -80,6 +80,7 @@ fn make_case(scene: usize, scores: &Scores, (name, bar, alignment, flip, common)
         intervals: BTreeMap::new(),
         common: moving,
         jitter: None,
+        smear: None,
         folder: name.replace(':', "_").into(),
     }
 }

@@ -66,11 +66,8 @@ const PACKAGES: [Package; 7] = [
     },
     Package {
         name: "image",
-        place: "frame/src/png",
-        code: &[
-            "image::load_from_memory_with_format(",
-            ".write_with_encoder(",
-        ],
+        place: "frame/src",
+        code: &["DynamicImage::from_decoder(", ".write_with_encoder("],
         is_alone: false,
     },
 ];

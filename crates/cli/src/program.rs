@@ -83,7 +83,7 @@ pub enum Command {
     /// Run, and compare every score with its bound: pass or fail
     Check(gate::CheckArgs),
     /// Measure a finished picture from any source
-    Score(score::ScoreArgs),
+    Score(score_args::ScoreArgs),
     /// Write a finished run or tuning as one HTML page
     Report(report::ReportArgs),
     /// Compare two runs: which scores changed by more than noise
@@ -228,8 +228,11 @@ pub fn execute(program: &Cli) -> Result<Ending, Error> {
         Command::New(args) => new::execute(args),
         Command::Run(args) => run::execute(args, &report::ADDITIONS),
         Command::Check(args) => return gate::execute_check(args, &report::ADDITIONS),
-        Command::Score(args) if args.frames > 1 => score_sequence::execute(args),
-        Command::Score(args) => score::execute(args),
+        Command::Score(args) => match &args.reference {
+            Some(reference) => score_pair::execute(args, reference),
+            None if args.frames > 1 => score_sequence::execute(args),
+            None => score::execute(args),
+        },
         Command::Report(args) => report::execute(args),
         Command::Compare(args) => compare::execute(args),
         Command::List(args) => list::execute(args, &program.settings),

@@ -32,6 +32,7 @@ mod file;
 mod frame;
 mod frame_options;
 mod hidden;
+mod photo;
 mod picture;
 mod png;
 mod provenance;
@@ -63,11 +64,9 @@ pub use file::{
 pub use frame::{FAR_DEPTH, Frame, read_frame_rate};
 pub use frame_options::{ColorSampling, FrameOptions, VelocityKind};
 pub use hidden::is_hidden;
+pub use photo::{MAX_PICTURE_PIXELS, read_hdr, read_jpeg, read_png_bits};
 pub use picture::Picture;
-pub use png::{
-    MAX_PNG_PIXELS, check_png_palette, png_bytes, read_png, write_animated_png, write_jpeg,
-    write_png,
-};
+pub use png::{check_png_palette, png_bytes, read_png, write_animated_png, write_jpeg, write_png};
 pub use provenance::Provenance;
 pub use raster::{Image, Plane, Raster, Vectors, find_broken};
 pub use region::{Region, Regions};

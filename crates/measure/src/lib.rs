@@ -63,7 +63,7 @@ pub use random::Random;
 pub use render::exclusion::{EXCLUSION_FILE, FilterFrame, read_exclusion};
 pub use render::in_memory::{MemoryRender, RenderedScene};
 pub use render::ingested_scene::{
-    BLURRED, Drawn, INGESTED_FORMAT, IngestedScene, engine_name, name_in_one_word,
+    BLURRED, Drawn, INGESTED_FORMAT, IngestedScene, NO_VELOCITY, engine_name, name_in_one_word,
 };
 pub use render::ladders::sharp_picture;
 pub use render::rendering::Rendering;
@@ -80,9 +80,13 @@ pub use run::sequence::{Frames, MAX_FRAMES, Sequence, SequenceFrame, worst_frame
 pub use run::stored::StoredRun;
 pub use run::{FORMAT, Run};
 pub use runner::{Runner, open_adapter, open_gpu};
-pub use score::finished_picture::{FinishedPicture, read_finished_picture};
+pub use score::finished_picture::{FinishedPicture, bright_note, read_finished_picture};
 pub use score::numbered::{find_numbered, numbered_file};
-pub use score::scores::{Scored, missing_scores, score};
+pub use score::picture_file::{PictureFile, PictureKind, read_picture};
+pub use score::reference::{
+    ComparedPictures, Mattes, PicturePair, compare_pictures, missing_in_pair, reference_shutter,
+};
+pub use score::scores::{Scored, missing_scores, score, shorten_names};
 pub use score::sequence::{SequenceTruth, file_at_frame, score_sequence};
 pub use stats::intervals::intervals;
 pub use stats::overall::{overall, rank_filters};

@@ -11,6 +11,7 @@
 //! | `color`, `label`, `object`, `probe` | formulas: errors of colour, of labels, of one object's matte, of probes |
 //! | `picture` | errors of a whole picture, pooled over regions |
 //! | `skill`, `subframes` | error put into proportion: skill and equivalent sub-frames |
+//! | `smear` | length, side and direction of a smear |
 //! | `reference` | the truth, ready to measure pictures against |
 //! | `scatter_oracle` | about the best picture that one frame can give |
 //! | `sequence` | errors from frame to frame |
@@ -34,6 +35,7 @@ mod score;
 mod scores;
 mod sequence;
 mod skill;
+mod smear;
 mod subframes;
 mod viewing;
 
@@ -58,6 +60,7 @@ pub use scores::Scores;
 pub use sequence::{
     Instant, JOD_DISPLAY, NEW_SHARE, SequenceMeasurement, SequenceReference, accumulate, video_jod,
 };
+pub use smear::{Smear, SmearDirection, measure_smear};
 pub use subframes::ladder::{Curves, ErrorKind, Errors, Rung};
 pub use subframes::{Equivalent, LadderRange, Subframes, equivalent};
 pub use viewing::Viewing;

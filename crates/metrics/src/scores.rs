@@ -147,6 +147,23 @@ impl Scores {
         }
     }
 
+    /// Replaces every score that depends on the motion of objects by the reason why that is not
+    /// known. The moving region stays: it also follows the colours.
+    pub fn take_out_motion(&mut self, reason: &str) {
+        for scores in &mut self.objects {
+            // Which objects stand still is not known.
+            scores.moves = true;
+            for metric in ObjectMetric::ALL {
+                if !matches!(
+                    metric,
+                    ObjectMetric::Flip | ObjectMetric::LabelTotalVariation
+                ) {
+                    *scores.get_mut(metric) = Measured::not_applicable(reason);
+                }
+            }
+        }
+    }
+
     /// Replaces every score that depends on what was seen at the instant by the reason why that is
     /// not known.
     pub(crate) fn take_out_instant(&mut self, reason: &'static str) {

@@ -6,7 +6,7 @@ use maud::{Markup, PreEscaped, html};
 use measure::Run;
 
 use crate::case::legend::colors;
-use crate::case::viewer::viewer;
+use crate::case::viewer::{case_words, viewer};
 use crate::document::{Document, Siblings, script_data};
 use crate::pixels::report_files::{Place, folder_name};
 use crate::sequence::SEQUENCES_PAGE;
@@ -78,7 +78,7 @@ pub fn run_page(run: &Run, content: &PageContent, html: &Path) -> String {
                 (content.overview)
                 @for section in content.sections { (section) }
             }
-            (viewer(run))
+            (viewer(run.render.size(), &case_words))
             (scene_numbers(content, html))
             (script_data("colors", &colors()))
         },

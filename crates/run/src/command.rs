@@ -12,7 +12,7 @@ use crate::pages::{WrittenFile, page_lines, refuse_folder, write_judgement, writ
 use crate::plan::{apply_options, make_plan};
 use crate::tables::{
     TableArgs, cases_csv, cases_markdown, failures_text, legend_text, ranking_markdown,
-    ranking_text, run_table, sequences_text,
+    ranking_text, run_table, sequences_text, smears_text,
 };
 use crate::watch::repeat_on_change;
 use terminal::arguments::{AdapterArgs, MeasureArgs, RunOptions, parse_named};
@@ -100,7 +100,7 @@ fn run_once(args: &RunArgs, additions: &[AddToPage], open: bool) -> Result<(), E
         // Bounds are for `check`. A judgement without findings replaces that of an earlier check.
         let html = args.html.as_ref();
         let pages = write_judgement(&whole, &[], None, &plan.out, html, additions)?;
-        (scores_text(&run, args.table), pages)
+        (scores_text(&run, args), pages)
     } else {
         (Text::default(), Vec::new())
     };
@@ -120,15 +120,21 @@ fn run_once(args: &RunArgs, additions: &[AddToPage], open: bool) -> Result<(), E
 }
 
 /// Formats the ranking or the table, and its subject.
-fn scores_text(run: &Run, as_table: bool) -> Text {
-    let scores = if as_table {
+fn scores_text(run: &Run, args: &RunArgs) -> Text {
+    let scores = if args.table {
         run_table(run)
     } else {
         ranking_text(run)
     };
     let scaling = run.scaling_note();
     let scaling = scaling.map_or(Text::default(), |note| legend_text(&note));
-    scores + scaling + sequences_text(run, as_table)
+    // Nobody asked about the lengths of all built-in filters.
+    let smears = if args.measure.filters.is_empty() {
+        Text::default()
+    } else {
+        smears_text(&run.cases)
+    };
+    scores + scaling + sequences_text(run, args.table) + smears
 }
 
 /// Names the report, run.json and the adapter, and counts cases and time.

@@ -19,4 +19,6 @@ pub use self::pages::{
 };
 pub use self::plan::{Margins, add_bounds, apply_options, lock_out, make_plan, read_margins};
 pub use self::previous::PREVIOUS;
-pub use self::tables::{failures_text, ranking_text, run_table, score_sequence_table, score_table};
+pub use self::tables::{
+    failures_text, ranking_text, run_table, score_sequence_table, score_table, shows_smears,
+};

@@ -10,5 +10,7 @@ pub mod new;
 pub mod render;
 pub mod report;
 pub mod score;
+pub mod score_args;
+pub mod score_pair;
 pub mod score_sequence;
 mod show_texture;

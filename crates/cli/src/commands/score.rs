@@ -1,77 +1,92 @@
 //! The command `score`.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use terminal::refuse;
 
-use clap::Args;
-use frame::{Frame, Ladder, Provenance, Truth};
+use frame::{Frame, Image, Ladder, Provenance, Truth};
 use measure::{
-    Error, Frames, Scored, engine_name, missing_scores, printable, read_finished_picture, score,
+    Error, IngestedScene, NO_VELOCITY, Scored, engine_name, missing_scores, printable,
+    read_finished_picture, score,
 };
-use metrics::Metric;
+use metrics::{Metric, Smear};
 
 use super::convention::read_convention;
-use run::score_table;
-use terminal::arguments::{RootArgs, above_zero, frame_count};
+use super::score_args::{ScoreArgs, name_file};
+use report::{NamedPicture, PicturePage, picture_page};
+use run::{page_lines, refuse_folder, score_table, shows_smears, write_page};
 use terminal::output::{Text, print, print_json};
-
-#[derive(Debug, Args)]
-pub struct ScoreArgs {
-    /// The truth: truth_<alignment>.exr of `truths render` or `run`; for a sequence, the first
-    /// frame's.
-    #[arg(long, value_name = "FILE")]
-    pub truth: PathBuf,
-    /// The frame that the picture was made from: frame.exr of the same scene; for a sequence, the
-    /// first one.
-    #[arg(long, value_name = "FILE")]
-    pub frame: PathBuf,
-    /// The picture: OpenEXR with scene-linear R G B and optional coverage.<object>; or a PNG for
-    /// display. With --frames a folder of such pictures, 0000.exr, 0001.exr and so on.
-    #[arg(long, value_name = "FILE|DIR")]
-    pub image: PathBuf,
-    /// TOML file with a table [convention] that says which colour the picture has [default:
-    /// scene-linear].
-    #[arg(long, value_name = "FILE")]
-    pub convention: Option<PathBuf>,
-    /// The folder ladder_<alignment> of `run` [default: no equivalent sub-frames, and no skill
-    /// unless the shutter is centred].
-    #[arg(long, value_name = "FOLDER")]
-    pub ladder: Option<PathBuf>,
-    /// Score a sequence of N consecutive frames, with files as `run` and `truths render` write
-    /// them.
-    #[arg(help_heading = "Sequences", long, value_name = "N", default_value_t = 1, value_parser = frame_count(), conflicts_with = "ladder")]
-    pub frames: u32,
-    /// Frames per second at which the sequence is shown. It changes only the score JOD. A scene at
-    /// a frame rate is shown at that rate.
-    #[arg(help_heading = "Sequences", long, value_name = "F", default_value_t = Frames::default().per_second, value_parser = above_zero(1000.0))]
-    pub fps: f64,
-    #[command(flatten, next_help_heading = "Sequences")]
-    pub root: RootArgs,
-    /// Print all scores as JSON instead of the table.
-    #[arg(help_heading = "Output", long)]
-    pub json: bool,
-}
 
 /// Scores one finished picture; prints the scores, and those that its file does not allow.
 pub fn execute(args: &ScoreArgs) -> Result<(), Error> {
-    let truth = Truth::read(&args.truth)?;
-    let frame = Frame::read(&args.frame)?;
+    refuse_folder("--html", args.html.as_ref())?;
+    let [truth_path, frame_path] = args.truth_files();
+    let truth = Truth::read(truth_path)?;
+    let frame = Frame::read(frame_path)?;
     let ladder = args.ladder.as_deref().map(Ladder::read).transpose()?;
-    check_scene(&args.frame, &frame.provenance, &truth)?;
+    check_scene(frame_path, &frame.provenance, &truth)?;
     if let (Some(path), Some(ladder)) = (&args.ladder, &ladder) {
         check_scene(path, &ladder.provenance, &truth)?;
     }
     let convention = read_convention(args.convention.as_deref())?;
     let picture = read_finished_picture(&args.image, &convention, &frame, &truth)?;
-    let scored = score(&picture, &frame, &truth, ladder.as_ref())
+    let mut scored = score(&picture, &frame, &truth, ladder.as_ref())
         .map_err(|error| Error::Refused(format!("{}: {error}", args.image.display())))?;
+    if lacks_velocity(truth_path)? {
+        scored.scores.take_out_motion(NO_VELOCITY);
+        scored.smear = None;
+    }
+    let mut written = None;
+    if let Some(html) = &args.html {
+        let page = make_page(args, &picture.color, &frame, &truth, &scored);
+        written = Some(write_page(&page, html)?);
+    }
     if args.json {
         let mut json = scored_json(args, &truth, &scored.notes, &scored.scores);
+        json["smear"] = serde_json::json!(scored.smear);
         json["truth_hash"] = truth.provenance.content_hash.as_str().into();
         print_json(&json)
     } else {
-        print(scores_text(args, &truth, &scored))
+        print(scores_text(args, &truth, &scored) + page_lines("written", written.as_slice()))
     }
+}
+
+/// Returns whether an engine's capture, of which the truth was made, has no velocity.
+fn lacks_velocity(truth: &Path) -> Result<bool, Error> {
+    match truth.parent() {
+        Some(folder) if IngestedScene::is_in(folder) => {
+            Ok(IngestedScene::read(folder)?.lacks_velocity())
+        }
+        _ => Ok(false),
+    }
+}
+
+/// Makes the page of a picture and its truth.
+fn make_page(
+    args: &ScoreArgs,
+    image: &Image,
+    frame: &Frame,
+    truth: &Truth,
+    scored: &Scored,
+) -> String {
+    let [truth_path, frame_path] = args.truth_files();
+    let named = |path: &Path, color| NamedPicture {
+        name: name_file(path),
+        color,
+    };
+    let (mean, frame) = (truth.mean().color, frame.cropped());
+    let page = PicturePage {
+        image: named(&args.image, image),
+        reference: named(truth_path, &mean),
+        frame: Some(named(frame_path, &frame.color)),
+        maps: &scored.maps,
+        regions: &scored.regions,
+        scores: &scored.scores,
+        headline: Metric::FLIP,
+        missing: &missing_scores(&scored.scores),
+        stops: frame.display.stops,
+        notes: &scored.notes,
+    };
+    picture_page(&page)
 }
 
 /// Refuses a file of a different scene than the truth's.
@@ -87,12 +102,33 @@ pub fn check_scene(path: &Path, provenance: &Provenance, truth: &Truth) -> Resul
     }
 }
 
-fn scores_text(args: &ScoreArgs, truth: &Truth, Scored { scores, notes }: &Scored) -> Text {
-    let name = args.image.file_name().unwrap_or(args.image.as_os_str());
-    let name = name.to_string_lossy();
-    let name = printable(&name);
+/// Says how long the smear is on the scene that calibrates lengths; empty on others.
+fn smear_text(smear: &Smear, truth: &Truth) -> String {
+    if !shows_smears(&truth.provenance.scene) {
+        return String::new();
+    }
+    format!(
+        "smear: {:.2} of the exposure, from {:.2} to {:.2}; {}\n",
+        smear.length(),
+        smear.open,
+        smear.close,
+        smear.verdict(truth.alignment)
+    )
+}
+
+fn scores_text(args: &ScoreArgs, truth: &Truth, scored: &Scored) -> Text {
+    let Scored {
+        scores,
+        notes,
+        smear,
+        ..
+    } = scored;
+    let name = name_file(&args.image);
     let mut text = score_table(&truth.provenance.scene, &name, scores);
     text += truth_text(truth);
+    if let Some(smear) = smear {
+        text += smear_text(smear, truth);
+    }
     for note in notes {
         text += format!("{name}: {note}\n");
     }
@@ -107,6 +143,7 @@ fn scores_text(args: &ScoreArgs, truth: &Truth, Scored { scores, notes }: &Score
         };
         text += format!("not available: {}: {reason}{way_out}\n", names.join(", "));
     }
+
     text
 }
 

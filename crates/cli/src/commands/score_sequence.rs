@@ -10,7 +10,8 @@ use scene::Scene;
 use terminal::refuse;
 
 use super::convention::read_convention;
-use super::score::{ScoreArgs, check_scene, scored_json, truth_text};
+use super::score::{check_scene, scored_json, truth_text};
+use super::score_args::ScoreArgs;
 use run::score_sequence_table;
 use terminal::output::{Text, print, print_json};
 use terminal::selection::select_scenes;
@@ -48,9 +49,8 @@ pub fn execute(args: &ScoreArgs) -> Result<(), Error> {
 
 /// Reads the frame and the truth of one frame of the sequence.
 fn read_truth(args: &ScoreArgs, frame: u32) -> Result<SequenceTruth, Error> {
-    let path = file_at_frame(&args.truth, frame);
+    let [path, frame_path] = args.truth_files().map(|first| file_at_frame(first, frame));
     let truth = Truth::read(&path)?;
-    let frame_path = file_at_frame(&args.frame, frame);
     let frame = Frame::read(&frame_path)?;
     check_scene(&frame_path, &frame.provenance, &truth)?;
     Ok(SequenceTruth { frame, truth, path })

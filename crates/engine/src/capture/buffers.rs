@@ -117,7 +117,18 @@ pub fn read_velocity(
     description: &CaptureDescription,
     buffer: &str,
 ) -> Result<Vectors, Error> {
-    let file = open(path, description, buffer)?;
+    take_velocity(&open(path, description, buffer)?, buffer)
+}
+
+/// Reads the screen motion of an OpenEXR file, in pixels per frame, by the convention. Velocity
+/// per shutter is of one that is open for `exposure` frames.
+pub fn read_motion(path: &Path, convention: &Convention, exposure: f64) -> Result<Vectors, Error> {
+    let stored = take_velocity(&read_passes(path)?, "velocity")?;
+    let motion = convention.restore_velocity(&stored, exposure);
+    Ok(motion.map_err(|reason| FileError::foreign(path, reason))?)
+}
+
+fn take_velocity(file: &ExrFile, buffer: &str) -> Result<Vectors, Error> {
     let channels = ["X", "Y"].map(|axis| format!("{buffer}.{axis}"));
     let pairs = [
         channels.each_ref().map(String::as_str),
@@ -128,9 +139,9 @@ pub fn read_velocity(
     // A file with half of a pair lacks the other half, and no other pair is meant.
     let has_any = |pair: &&[&str; 2]| pair.iter().any(|name| file.has_channel(name));
     let Some(names) = pairs.iter().find(has_any) else {
-        return refuse_channels(&file, "velocity.X and velocity.Y, X and Y, or R and G");
+        return refuse_channels(file, "velocity.X and velocity.Y, X and Y, or R and G");
     };
-    check_finite(&file, names)?;
+    check_finite(file, names)?;
     let [x, y] = names.map(|name| file.plane(name));
     Ok(x?.zip(&y?, |x, y| [*x, *y]))
 }

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use filters::{Convention, DepthKind, EXCLUSION, VelocityTime};
-use frame::{Alignment, FileError, Image, Plane, Raster, Vectors};
+use frame::{Alignment, FAR_DEPTH, FileError, Image, Plane, Raster, Vectors};
 use measure::{Error, read_text};
 
 use crate::capture::buffers::{
@@ -17,6 +17,9 @@ use crate::files::{name_of, refuse};
 
 /// Name of the file with a capture's convention.
 pub const CONVENTION_FILE: &str = "engine.toml";
+/// Names and first channels of the buffers that few captures lack.
+const VELOCITY: [&str; 2] = ["velocity", "velocity.X"];
+const DEPTH: [&str; 2] = ["depth", "Z"];
 /// Name of the folder with a capture's sub-frames.
 pub const SUBFRAMES: &str = "subframes";
 
@@ -31,7 +34,9 @@ pub struct Capture {
     pub convention: Convention,
     /// Scene-linear radiance.
     pub color: Image,
-    /// Screen motion in pixels per frame; +x right, +y down.
+    /// Buffers that it does not have: `velocity`, `depth`.
+    pub lacks: Vec<&'static str>,
+    /// Screen motion in pixels per frame; +x right, +y down. Zero if it has none.
     pub velocity: Vectors,
     /// The same from the instant to one frame later, if the capture has it.
     pub velocity_next: Option<Vectors>,
@@ -40,7 +45,8 @@ pub struct Capture {
     pub velocity_z: Option<Plane>,
     /// 1 where the blur must not change the picture, 0 elsewhere; none if the capture has no mask.
     pub exclusion: Option<Plane>,
-    /// Distance along the view axis in metres; [`frame::FAR_DEPTH`] where nothing is visible.
+    /// Distance along the view axis in metres; [`FAR_DEPTH`] where nothing is visible, and
+    /// everywhere if it has none.
     pub depth: Plane,
     /// Object at each pixel's centre, numbered as in an exported manifest; 0 is the background.
     /// None if the capture has no ids.
@@ -57,6 +63,15 @@ impl Capture {
     /// Reads a capture without its sub-frames. Takes the convention from the named file, or else
     /// from `engine.toml` in the folder.
     pub fn read(folder: &Path, convention: Option<&Path>) -> Result<Self, Error> {
+        let capture = Self::read_files(folder, convention)?;
+        // Without sub-frames there would be nothing to measure, either.
+        if capture.subframes.is_empty() {
+            capture.require_buffers()?;
+        }
+        Ok(capture)
+    }
+
+    fn read_files(folder: &Path, convention: Option<&Path>) -> Result<Self, Error> {
         if !folder.is_dir() {
             return refuse!(
                 folder,
@@ -64,20 +79,22 @@ impl Capture {
             );
         }
         let description = CaptureDescription::read(folder)?;
-        let convention = read_convention(folder, convention)?;
+        let lacks = list_lacking(folder)?;
+        let convention = read_convention(folder, convention, lacks.len() < 2)?;
         let Some(color_path) = find_picture(folder, "color")? else {
             return refuse_missing(&folder.join("color.exr"), "the radiance of one instant");
         };
         let Color { image: color, note } = read_color(&color_path, &convention, &description)?;
         let mut notes: Vec<String> = note.into_iter().collect();
 
-        let path = require(folder, ["velocity", "velocity.X"], "every pixel's motion")?;
-        let velocity = read_velocity(&path, &description, "velocity")?;
-        check_size(&path, &velocity, &color)?;
-        let is_half = are_halves(velocity.pixels.iter().flatten().copied());
         let exposure = find_velocity_exposure(folder, &description, &convention)?;
-        let velocity = in_file(&path, convention.restore_velocity(&velocity, exposure))?;
-        notes.extend(is_half.then(|| velocity_note(&path, &velocity)));
+        let buffers = Buffers {
+            folder,
+            description: &description,
+            convention: &convention,
+            color: &color,
+        };
+        let velocity = buffers.read_velocity(exposure, &mut notes)?;
         let read_next = |path: &Path| {
             let next = read_velocity(path, &description, "velocity_next")?;
             in_file(path, convention.restore_velocity(&next, exposure))
@@ -85,12 +102,7 @@ impl Capture {
         let next = ["velocity_next", "velocity_next.X"];
         let velocity_next = read_optional(folder, next, &color, read_next)?;
 
-        let path = require(folder, ["depth", "Z"], "the distance of every pixel")?;
-        let depth = read_depth(&path, &convention, &description)?;
-        check_size(&path, &depth, &color)?;
-        let is_half = are_halves(depth.pixels.iter().copied());
-        notes.extend(is_half.then(|| depth_note(&path, &convention)).flatten());
-        let depth = in_file(&path, convention.restore_depth(&depth))?;
+        let depth = buffers.read_depth(&mut notes)?;
         let read_z = |path: &Path| read_velocity_z(path, &description);
         let read_ids = |path: &Path| read_objects(path, &description);
         let mut blurred = None;
@@ -108,6 +120,7 @@ impl Capture {
             folder: folder.to_owned(),
             description,
             convention,
+            lacks,
             color,
             velocity,
             velocity_next,
@@ -128,6 +141,21 @@ impl Capture {
     /// Reads the object ids of one of the sub-frames; none if its file has no such channel.
     pub fn read_subframe_objects(&self, index: usize) -> Result<Option<Raster<u32>>, Error> {
         read_objects_beside_color(&self.subframes[index])
+    }
+
+    /// Refuses a capture without velocity or depth.
+    pub fn require_buffers(&self) -> Result<(), Error> {
+        let holds = |buffer: &&&str| match **buffer {
+            "velocity" => "every pixel's motion",
+            _ => "the distance of every pixel",
+        };
+        match self.lacks.first() {
+            None => Ok(()),
+            Some(lacking) => {
+                let path = self.folder.join(format!("{lacking}.exr"));
+                refuse_missing(&path, holds(&lacking))
+            }
+        }
     }
 
     /// Refuses another number of sub-frames than `capture.toml` says.
@@ -159,9 +187,63 @@ impl Capture {
     }
 }
 
-fn read_convention(folder: &Path, path: Option<&Path>) -> Result<Convention, Error> {
+/// Lists which of velocity and depth a capture does not have.
+fn list_lacking(folder: &Path) -> Result<Vec<&'static str>, Error> {
+    let mut lacks = Vec::new();
+    for [stem, channel] in [VELOCITY, DEPTH] {
+        if find_buffer(folder, stem, channel)?.is_none() {
+            lacks.push(stem);
+        }
+    }
+    Ok(lacks)
+}
+
+/// A capture's velocity and depth, in the form of frames.
+struct Buffers<'a> {
+    folder: &'a Path,
+    description: &'a CaptureDescription,
+    convention: &'a Convention,
+    color: &'a Image,
+}
+
+impl Buffers<'_> {
+    /// Reads velocity; zero if the capture has none.
+    fn read_velocity(&self, exposure: f64, notes: &mut Vec<String>) -> Result<Vectors, Error> {
+        let Some(path) = find_buffer(self.folder, VELOCITY[0], VELOCITY[1])? else {
+            return Ok(self.color.map(|_| [0.0; 2]));
+        };
+        let stored = read_velocity(&path, self.description, "velocity")?;
+        check_size(&path, &stored, self.color)?;
+        let is_half = are_halves(stored.pixels.iter().flatten().copied());
+        let velocity = in_file(&path, self.convention.restore_velocity(&stored, exposure))?;
+        notes.extend(is_half.then(|| velocity_note(&path, &velocity)));
+        Ok(velocity)
+    }
+
+    /// Reads depth; that of the background if the capture has none.
+    fn read_depth(&self, notes: &mut Vec<String>) -> Result<Plane, Error> {
+        let Some(path) = find_buffer(self.folder, DEPTH[0], DEPTH[1])? else {
+            return Ok(self.color.map(|_| FAR_DEPTH));
+        };
+        let stored = read_depth(&path, self.convention, self.description)?;
+        check_size(&path, &stored, self.color)?;
+        let is_half = are_halves(stored.pixels.iter().copied());
+        notes.extend(
+            is_half
+                .then(|| depth_note(&path, self.convention))
+                .flatten(),
+        );
+        in_file(&path, self.convention.restore_depth(&stored))
+    }
+}
+
+/// Reads the convention; a capture with neither velocity nor depth need not have one.
+fn read_convention(folder: &Path, path: Option<&Path>, needed: bool) -> Result<Convention, Error> {
     let default = folder.join(CONVENTION_FILE);
     if path.is_none() && !default.is_file() {
+        if !needed {
+            return Ok(Convention::default());
+        }
         return refuse!(
             default,
             "there is no such file; it says in a table [convention] which velocity and depth the engine has; write one, or name \
@@ -186,14 +268,6 @@ fn find_velocity_exposure(
             "in frames, because the convention has velocity per shutter",
         ),
         (None, _) => Ok(1.0),
-    }
-}
-
-/// Finds the file of a buffer by its name, or by a channel in a file of several buffers.
-fn require(folder: &Path, [stem, channel]: [&str; 2], holds: &str) -> Result<PathBuf, Error> {
-    match find_buffer(folder, stem, channel)? {
-        Some(path) => Ok(path),
-        None => refuse_missing(&folder.join(format!("{stem}.exr")), holds),
     }
 }
 

@@ -44,6 +44,7 @@ pub struct AuditArgs {
 /// engine drew something else.
 pub fn execute(args: &AuditArgs) -> Result<Ending, Error> {
     let capture = Capture::read(&args.capture, args.convention.as_deref())?;
+    capture.require_buffers()?;
     for note in &capture.notes {
         print_note(note);
     }

@@ -18,7 +18,7 @@ use crate::ingest::{IngestPlan, Ingested, ingest};
 #[derive(Debug, Args)]
 pub struct IngestArgs {
     /// Folder of a capture: capture.toml, color.exr, velocity.exr, depth.exr; optionally
-    /// subframes/0000.exr and on, and blurred.exr.
+    /// subframes/0000.exr and on, with which velocity and depth may be missing, and blurred.exr.
     #[arg(value_name = "DIR")]
     pub capture: PathBuf,
     /// TOML file with a table [convention] that says which velocity, depth and colour the engine
@@ -103,12 +103,13 @@ fn describe(ingested: &Ingested, out: &Path, traced: Option<&Scene>) -> String {
     if let Some(truth) = &ingested.truth {
         push_truth(&mut lines, scene, truth);
     }
-    if let Some(moving) = ingested.moving {
-        let [moving, restless] = [moving, ingested.restless].map(|part| 100.0 * part);
+    lines.extend(describe_lacking(scene));
+    if let (Some(moving), Some(restless)) = (ingested.moving, ingested.restless) {
+        let [moving, restless] = [moving, restless].map(|part| 100.0 * part);
         lines.push(format!(
             "moving: {moving:.1} % of the pixels; {restless:.1} % change between sub-frames though no velocity reaches them"
         ));
-        if ingested.restless > LEAST_RESTLESS {
+        if restless > 100.0 * LEAST_RESTLESS {
             lines.push(format!(
                 "FOUND: the moving region has {restless:.1} % of the pixels too many if nothing moves there, and its scores are diluted; \
                  draw all sub-frames with one seed, without grain and temporal effects; if things do move there, `engine audit` says whether \
@@ -152,21 +153,34 @@ fn describe(ingested: &Ingested, out: &Path, traced: Option<&Scene>) -> String {
     lines.join("\n") + "\n"
 }
 
+/// Says what the capture does not have, and what that leaves out.
+fn describe_lacking(scene: &IngestedScene) -> Vec<String> {
+    if scene.lacks.is_empty() {
+        return Vec::new();
+    }
+    let lacking = scene.lacks.join(" and no ");
+    let mut lines = vec![format!(
+        "left out: filters that read {}: the capture has no {lacking}",
+        scene.lacks.join(" or ")
+    )];
+    if scene.lacks_velocity() {
+        lines.push(
+            "left out: bleed, growth, loss and the other scores of objects along their motion, and the check of what moves: what moves is \
+             what changes between sub-frames"
+                .to_owned(),
+        );
+    }
+    lines
+}
+
 /// Adds the kind of truth, and how far it can be trusted.
 fn push_truth(lines: &mut Vec<String>, scene: &IngestedScene, truth: &Truth) {
-    let length = scene.step * f64::from(scene.subframes);
-    let most = scene.ladder.last().copied().unwrap_or(1);
     lines.push(format!(
-        "truth: mean of {} sub-frames, {} shutter, open for {} frames; not path traced\n\
-         limit: 99 % of what moves goes at most {length:.1} px while the shutter is open, {:.2} px between two sub-frames; a smear has \
-         steps of that length, and equivalent sub-frames are told up to {most}",
-        scene.subframes, scene.alignment, scene.exposure, scene.step
+        "truth: mean of {} sub-frames, {} shutter, open for {} frames; not path traced",
+        scene.subframes, scene.alignment, scene.exposure
     ));
-    if scene.step > LONG_STEP {
-        let wanted = ((length / LONG_STEP).ceil() as u32).next_multiple_of(2);
-        lines.push(format!(
-            "advice: {wanted} sub-frames would have steps of half a pixel"
-        ));
+    if !scene.lacks_velocity() {
+        push_limit(lines, scene);
     }
     let floors: Vec<String> = (truth.noise_floors().iter())
         .filter(|(region, _)| matches!(region, Region::Moving | Region::Still | Region::Full))
@@ -176,4 +190,21 @@ fn push_truth(lines: &mut Vec<String>, scene: &IngestedScene, truth: &Truth) {
         "noise of the truth, from its halves: {}",
         floors.join(", ")
     ));
+}
+
+/// Adds how far things move between two sub-frames, and how many of these would do.
+fn push_limit(lines: &mut Vec<String>, scene: &IngestedScene) {
+    let length = scene.step * f64::from(scene.subframes);
+    let most = scene.ladder.last().copied().unwrap_or(1);
+    lines.push(format!(
+        "limit: 99 % of what moves goes at most {length:.1} px while the shutter is open, {:.2} px between two sub-frames; a smear has \
+         steps of that length, and equivalent sub-frames are told up to {most}",
+        scene.step
+    ));
+    if scene.step > LONG_STEP {
+        let wanted = ((length / LONG_STEP).ceil() as u32).next_multiple_of(2);
+        lines.push(format!(
+            "advice: {wanted} sub-frames would have steps of half a pixel"
+        ));
+    }
 }

@@ -30,8 +30,8 @@ pub struct Ingested {
     /// Part of the pixels where anything moves, by colour or velocity; none without a truth.
     pub moving: Option<f64>,
     /// Part of the pixels that change between sub-frames although no velocity reaches them: by
-    /// noise, shadows, or wrong velocity.
-    pub restless: f64,
+    /// noise, shadows, or wrong velocity. None without a truth or velocity.
+    pub restless: Option<f64>,
     /// Radiance of the engine's blurred picture relative to the truth, or to the frame without a
     /// truth: the median over pixels that no velocity reaches. 1 for a blur that neither adds nor
     /// removes light; none without a picture, or if no lit pixel is still.
@@ -83,11 +83,15 @@ pub fn ingest(plan: IngestPlan, watch: Watch) -> Result<Ingested, Error> {
         let rungs = averaged.ladder.rungs.iter();
         scene.ladder = rungs.map(|rung| rung.subframes).collect();
     }
-    let restless = averaged.as_ref().map_or(0.0, |averaged| averaged.restless);
+    let restless = averaged.as_ref().map(|averaged| averaged.restless);
+    let restless = restless.filter(|_| !scene.lacks_velocity());
     let truth = write_files(capture, &scene, &frame, averaged, out)?;
     let unblurred = (truth.as_ref()).map_or(frame.color, |truth| truth.mean().color);
     // Noise changes colours where nothing moves, but not velocity.
-    let reached = mark_reached(&capture.velocity, shutter);
+    let reached = match &truth {
+        Some(truth) if scene.lacks_velocity() => truth.support.moving.clone(),
+        _ => mark_reached(&capture.velocity, shutter),
+    };
     let blurred = capture.blurred.as_ref();
     let moving = truth.as_ref().map(|truth| part_of(&truth.support.moving));
     Ok(Ingested {
@@ -182,6 +186,11 @@ fn describe_scene(capture: &Capture, hash: String, out: &Path) -> Result<Ingeste
         step: length / f64::from(subframes.max(1)),
         ladder: Vec::new(),
         has_picture: capture.blurred.is_some(),
+        lacks: capture
+            .lacks
+            .iter()
+            .map(|name| (*name).to_owned())
+            .collect(),
         further_inputs: [
             ("velocity_next", capture.velocity_next.is_some()),
             ("velocity_z", capture.velocity_z.is_some()),

@@ -2,7 +2,7 @@
 
 mod convert;
 mod engine_truth;
-mod moving;
+pub mod moving;
 mod objects;
 
 pub use convert::{IngestPlan, Ingested, ingest};

@@ -111,11 +111,17 @@ impl Filter {
         [main].into_iter().chain(corners).collect()
     }
 
+    /// Returns whether its shaders read a layer, by its name. A command may read all of them.
+    pub fn reads(&self, layer: &str) -> bool {
+        let stages = self.passes.iter().flat_map(|pass| self.stages(pass));
+        let mut reads = stages.map(|(_, entry)| entry.reads.contains(layer));
+        self.command.is_some() || reads.any(|reads| reads)
+    }
+
     /// Lists the layers that its shaders read and few frames have: `velocity_next`, `velocity_z`
     /// and `exclusion`.
     pub fn further_inputs(&self) -> Vec<Layer> {
-        let stages = || self.passes.iter().flat_map(|pass| self.stages(pass));
-        let is_read = |layer: &Layer| stages().any(|(_, entry)| entry.reads.contains(layer.name()));
+        let is_read = |layer: &Layer| self.command.is_none() && self.reads(layer.name());
         Layer::FURTHER.into_iter().filter(is_read).collect()
     }
 

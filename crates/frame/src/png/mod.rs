@@ -6,4 +6,4 @@ mod picture;
 
 pub use animation::write_animated_png;
 pub use palette::check_png_palette;
-pub use picture::{MAX_PNG_PIXELS, png_bytes, read_png, write_jpeg, write_png};
+pub use picture::{png_bytes, read_png, write_jpeg, write_png};

@@ -1,41 +1,21 @@
 //! PNG files as pictures of display values.
 
 use std::collections::BTreeSet;
-use std::io::Cursor;
 use std::path::Path;
 
+use image::ImageFormat;
+
 use super::palette::{MAX_COLORS, check_png_palette};
+use crate::photo::{MAX_PICTURE_BYTES, decode_picture, display_values};
 use crate::{FileError, Raster, read_bounded, write_atomically};
-
-/// Upper limit on the pixels of a PNG that is read as a finished picture.
-pub const MAX_PNG_PIXELS: u64 = 1 << 25;
-/// Upper limit on the bytes of such a file: the most that its pixels take.
-const MAX_PNG_BYTES: u64 = 16 * MAX_PNG_PIXELS;
-
-/// Refuses a PNG of more than [`MAX_PNG_PIXELS`] by its header: few bytes may encode very many
-/// pixels.
-fn check_size(bytes: &[u8]) -> Result<(), String> {
-    let reader = image::ImageReader::with_format(Cursor::new(bytes), image::ImageFormat::Png);
-    let (width, height) = (reader.into_dimensions())
-        .map_err(|error| format!("not a PNG that can be read: {error}"))?;
-    if u64::from(width) * u64::from(height) <= MAX_PNG_PIXELS {
-        Ok(())
-    } else {
-        Err(format!(
-            "claims {width}x{height} pixels; allowed: up to {MAX_PNG_PIXELS} pixels"
-        ))
-    }
-}
 
 /// Reads an 8-bit or 16-bit PNG as display values in [0, 1]; grey becomes colour. Refuses a picture
 /// that is not opaque, because its background is not known.
 pub fn read_png(path: &Path) -> Result<Raster<[f32; 3]>, FileError> {
-    let bytes = read_bounded(path, MAX_PNG_BYTES)?;
+    let bytes = read_bounded(path, MAX_PICTURE_BYTES)?;
     let foreign = |reason: String| FileError::foreign(path, reason);
-    check_size(&bytes).map_err(foreign)?;
     check_png_palette(&bytes).map_err(foreign)?;
-    let picture = image::load_from_memory_with_format(&bytes, image::ImageFormat::Png)
-        .map_err(|error| foreign(format!("not a PNG that can be read: {error}")))?;
+    let picture = decode_picture(path, &bytes, ImageFormat::Png)?;
     if picture.color().has_alpha() {
         let pixels = picture.to_rgba16();
         if let Some((x, y, _)) = pixels
@@ -47,14 +27,7 @@ pub fn read_png(path: &Path) -> Result<Raster<[f32; 3]>, FileError> {
             )));
         }
     }
-    let pixels = picture.to_rgb16();
-    Ok(Raster {
-        width: pixels.width(),
-        height: pixels.height(),
-        pixels: (pixels.pixels())
-            .map(|pixel| pixel.0.map(|value| f32::from(value) / f32::from(u16::MAX)))
-            .collect(),
-    })
+    Ok(display_values(&picture))
 }
 
 /// Encodes display values in [0, 1] (see [`display_srgb`](crate::display_srgb)) as an 8-bit PNG,

@@ -6,6 +6,7 @@ use filters::{Convention, FilterError};
 use frame::{Accumulation, Frame, Ladder, Picture, Size, Vectors};
 use metrics::{
     ColorReference, ImageScores, Jitter, MeasureError, Measurement, Metric, ProbeScores, Reference,
+    Smear, measure_smear,
 };
 use tracer::Defocus;
 
@@ -24,7 +25,7 @@ use crate::identity::ReferencePicture;
 use crate::inputs::depth_of_field::DepthOfField;
 use crate::inputs::input_format::InputFormat;
 use crate::render::exclusion::FilterFrame;
-use crate::render::ingested_scene::IngestedScene;
+use crate::render::ingested_scene::{IngestedScene, NO_VELOCITY};
 use crate::render::run_scene::RunScene;
 use crate::run::case::{Case, Intervals};
 use crate::runner::Runner;
@@ -70,6 +71,7 @@ struct MeasuredPicture {
     measurement: Measurement,
     nonlinearity: Option<f64>,
     jitter: Option<Jitter>,
+    smear: Option<Smear>,
     intervals: Intervals,
     dilated_velocity: Option<Vectors>,
     /// Pictures of parts of the frame's replicates.
@@ -84,6 +86,7 @@ impl MeasuredPicture {
             measurement,
             nonlinearity: None,
             jitter: None,
+            smear: None,
             intervals: Intervals::new(),
             dilated_velocity: None,
             parts: Vec::new(),
@@ -108,7 +111,16 @@ impl CaseContext<'_> {
             PictureSource::Filter(choice, input) => self.measure_filter(choice, *input)?,
             PictureSource::Engine(scene) => self.measure_engine(scene)?,
         };
-        self.write(planned, measured)
+        self.write(planned, self.without_motion(measured))
+    }
+
+    /// Takes out the scores of objects' motion, and the smear, if an engine did not hand it over.
+    fn without_motion(&self, mut measured: MeasuredPicture) -> MeasuredPicture {
+        if self.scene.scene.lacks_velocity() {
+            measured.measurement.scores.take_out_motion(NO_VELOCITY);
+            measured.smear = None;
+        }
+        measured
     }
 
     fn measure_reference(&self, picture: Picture) -> Result<MeasuredPicture, Error> {
@@ -128,7 +140,10 @@ impl CaseContext<'_> {
         let picture = scene.read_picture(self.frame)?;
         let mut measurement = self.references.reference.measure(&picture)?;
         measurement.scores.take_out_mattes(NO_MATTES);
-        Ok(MeasuredPicture::new(picture, measurement))
+        Ok(MeasuredPicture {
+            smear: measure_smear(&self.frame.cropped(), &picture.color),
+            ..MeasuredPicture::new(picture, measurement)
+        })
     }
 
     fn measure_filter(
@@ -157,6 +172,7 @@ impl CaseContext<'_> {
             |reference, picture| measure_output(reference, picture, &output)
         })?;
         Ok(MeasuredPicture {
+            smear: measure_smear(&self.frame.cropped(), &output.picture.color),
             intervals,
             nonlinearity: Some(output.nonlinearity),
             picture: output.picture,
@@ -328,6 +344,7 @@ impl CaseContext<'_> {
             jitter: measured.jitter,
             intervals: measured.intervals,
             scores: measured.measurement.scores,
+            smear: measured.smear,
             folder,
         };
         Ok((case, files))

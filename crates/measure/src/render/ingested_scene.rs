@@ -21,6 +21,8 @@ pub const INGESTED_FILE: &str = "ingested.json";
 pub const BLURRED: &str = "blurred.exr";
 /// Version of the layout of the record.
 pub const INGESTED_FORMAT: u32 = 3;
+/// Reason why scores of motion mean nothing.
+pub const NO_VELOCITY: &str = "the capture has no velocity, which says how objects move";
 /// Halves of a truth, each a picture of the whole shutter.
 const HALVES: u32 = 2;
 
@@ -55,6 +57,9 @@ pub struct IngestedScene {
     /// Inputs of the frame that few filters read: `velocity_next`, `velocity_z`, `exclusion`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub further_inputs: Vec<String>,
+    /// Inputs that most filters read and the capture does not have: `velocity`, `depth`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub lacks: Vec<String>,
     /// Hash of the capture: the inputs of the record.
     #[serde(skip)]
     pub hash: String,
@@ -163,12 +168,20 @@ impl IngestedScene {
         let is_there = |name: &&str| self.further_inputs.iter().any(|input| input == name);
         let further = choice.filter.further_inputs().into_iter();
         let mut further = further.map(Layer::name);
-        let lacking = if choice.filter.reads_camera(&choice.settings) {
+        let mut lacks = self.lacks.iter().map(String::as_str);
+        let lacking = if let Some(name) = lacks.find(|name| choice.filter.reads(name)) {
+            name
+        } else if choice.filter.reads_camera(&choice.settings) {
             "the camera"
         } else {
             further.find(|name| !is_there(name))?
         };
         Some(format!("because the capture does not have {lacking}"))
+    }
+
+    /// Returns whether the motion of what it shows is not known.
+    pub fn lacks_velocity(&self) -> bool {
+        self.lacks.iter().any(|name| name == Layer::Velocity.name())
     }
 
     /// Names the engine as a case does.

@@ -72,6 +72,11 @@ impl<'a> RunScene<'a> {
         }
     }
 
+    /// Returns whether the motion of what it shows is not known.
+    pub(crate) fn lacks_velocity(self) -> bool {
+        self.ingested().is_some_and(IngestedScene::lacks_velocity)
+    }
+
     /// Returns the family (none for an engine's scene), and what the scene exposes.
     pub(crate) fn describe(self) -> (Option<Family>, String) {
         match self {

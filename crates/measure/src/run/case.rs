@@ -9,7 +9,7 @@ use scene::{Family, FrameRate};
 use crate::{RenderFile, SHARP};
 use filters::{Convention, Value};
 use frame::{FileError, Frame, Truth};
-use metrics::{ImageScores, Interval, Jitter, Metric, Scores};
+use metrics::{ImageScores, Interval, Jitter, Metric, Scores, Smear};
 use serde::{Deserialize, Serialize};
 
 use crate::identity::{CaseId, ReferencePicture};
@@ -66,6 +66,10 @@ pub struct Case {
     /// The filter's noise as a part of the error; none for filters without noise, or if not
     /// requested.
     pub jitter: Option<Jitter>,
+    /// Smear of the only object that moves; none for reference pictures, and if there is no such
+    /// object.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub smear: Option<Smear>,
     /// Folder of the case's pictures, relative to `run.json`.
     pub folder: PathBuf,
 }

@@ -3,8 +3,9 @@
 use std::path::Path;
 
 use filters::Convention;
-use frame::{ExrFile, Frame, Image, Plane, Truth, read_passes, read_png, scene_linear};
+use frame::{ExrFile, Frame, Image, Plane, Truth};
 
+use super::picture_file::{PictureKind, read_picture};
 use crate::Error;
 
 /// A picture from a file, converted to the truth's size and to scene-linear radiance.
@@ -13,18 +14,18 @@ pub struct FinishedPicture {
     pub color: Image,
     /// Mattes: each object's share of every pixel of the picture; none if the file has none.
     pub mattes: Option<Vec<Plane>>,
-    /// True for a picture of displayed colours, such as a PNG: nothing in it is brighter than
+    /// True for a picture of displayed colours, a PNG or JPEG: nothing in it is brighter than
     /// display white.
     pub display_referred: bool,
     /// Changes that were made to the picture, each a sentence.
     pub notes: Vec<String>,
 }
 
-/// Reads a picture that was made from `frame`, to score it against `truth`: OpenEXR or PNG, by its
-/// name's ending.
+/// Reads a picture that was made from `frame`, to score it against `truth`: OpenEXR, HDR, PNG or
+/// JPEG, by its name's ending.
 ///
-/// Reads an OpenEXR's colours by the convention. Decodes a PNG from sRGB and undoes the frame's
-/// display exposure. Crops a picture with the frame's guard band. Refuses a file that says it was
+/// Reads scene-linear colours by the convention. Decodes those of a display from sRGB and undoes
+/// the frame's display exposure. Crops a picture with the frame's guard band. Refuses a file that says it was
 /// made for another shutter.
 pub fn read_finished_picture(
     path: &Path,
@@ -32,22 +33,29 @@ pub fn read_finished_picture(
     frame: &Frame,
     truth: &Truth,
 ) -> Result<FinishedPicture, Error> {
-    let ending = path.extension().and_then(|ending| ending.to_str());
-    let finished = match ending.map(str::to_ascii_lowercase).as_deref() {
-        Some("exr") => read_radiance(path, convention, truth)?,
-        Some("png") if *convention != Convention::default() => {
-            return refuse(
-                path,
-                "is a PNG with display colours; a convention is for OpenEXR files",
-            );
-        }
-        Some("png") => read_display_referred(path, frame.display.stops, truth)?,
-        _ => {
-            return refuse(
-                path,
-                "cannot be scored; allowed: a name that ends with .exr or .png",
-            );
-        }
+    let kind = PictureKind::of(path)?;
+    if kind.is_display_referred() && *convention != Convention::default() {
+        return refuse(
+            path,
+            "has colours of a display; a convention is for scene-linear files, OpenEXR and HDR",
+        );
+    }
+    let stops = frame.display.stops;
+    let file = read_picture(path, convention, stops)?;
+    let mut notes = file.notes;
+    if kind.is_display_referred() {
+        notes.extend(describe_display(stops, truth));
+    }
+    let mut mattes = None;
+    if let Some(file) = &file.channels {
+        check_shutter(file, truth)?;
+        mattes = find_mattes(file, truth)?;
+    }
+    let finished = FinishedPicture {
+        color: file.color,
+        mattes,
+        display_referred: kind.is_display_referred(),
+        notes,
     };
     let band = frame.guard_band;
     let size = finished.color.size();
@@ -68,44 +76,27 @@ pub fn read_finished_picture(
     }
 }
 
-fn read_radiance(
-    path: &Path,
-    convention: &Convention,
-    truth: &Truth,
-) -> Result<FinishedPicture, Error> {
-    let mut file = read_passes(path)?;
-    check_shutter(&file, truth)?;
-    let scale = convention.color_scale.filter(|scale| *scale != 1.0);
-    let scale = scale.map(|scale| format!("colours divided by color_scale = {scale}"));
-    Ok(FinishedPicture {
-        color: convention.read_color(&mut file)?,
-        mattes: mattes(&file, truth)?,
-        display_referred: false,
-        notes: file.meaning.note().into_iter().chain(scale).collect(),
-    })
-}
-
-fn read_display_referred(path: &Path, stops: f32, truth: &Truth) -> Result<FinishedPicture, Error> {
+/// Says how colours of a display were decoded, and what of the truth they cannot hold.
+fn describe_display(stops: f32, truth: &Truth) -> Vec<String> {
     let mut notes = vec![format!(
         "decoded from sRGB, and the frame's display exposure of {stops} stops undone"
     )];
+    notes.extend(bright_note(&truth.mean().color, stops, "the truth"));
+    notes
+}
+
+/// Counts what is brighter than display white in a picture that one of a display is compared with;
+/// none if nothing is.
+pub fn bright_note(picture: &Image, stops: f32, name: &str) -> Option<String> {
     let white = (-stops).exp2();
-    let truth = truth.mean().color;
-    let bright = (truth.pixels.iter())
-        .filter(|pixel| pixel.iter().any(|value| *value > white))
-        .count();
-    if bright > 0 {
-        notes.push(format!(
-            "a PNG ends at display white, which the truth exceeds in {:.2} % of the pixels: mse, psnr and relmse count \
-             the rest as an error of the picture, flip does not",
-            100.0 * bright as f64 / truth.pixels.len() as f64
-        ));
-    }
-    Ok(FinishedPicture {
-        color: scene_linear(&read_png(path)?, stops),
-        mattes: None,
-        display_referred: true,
-        notes,
+    let is_bright = |pixel: &&[f32; 3]| pixel.iter().any(|value| *value > white);
+    let bright = picture.pixels.iter().filter(is_bright).count();
+    (bright > 0).then(|| {
+        format!(
+            "a picture of a display ends at display white, which {name} exceeds in {:.2} % of the pixels: mse, psnr and relmse \
+             count the rest as an error of the picture, flip does not",
+            100.0 * bright as f64 / picture.pixels.len() as f64
+        )
     })
 }
 
@@ -144,7 +135,7 @@ fn check_shutter(file: &ExrFile, truth: &Truth) -> Result<(), Error> {
     Ok(())
 }
 
-fn mattes(file: &ExrFile, truth: &Truth) -> Result<Option<Vec<Plane>>, Error> {
+fn find_mattes(file: &ExrFile, truth: &Truth) -> Result<Option<Vec<Plane>>, Error> {
     let names: Vec<String> = (truth.objects.iter())
         .map(|object| format!("coverage.{object}"))
         .collect();

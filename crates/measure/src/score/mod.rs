@@ -2,5 +2,7 @@
 
 pub mod finished_picture;
 pub mod numbered;
+pub mod picture_file;
+pub mod reference;
 pub mod scores;
 pub mod sequence;

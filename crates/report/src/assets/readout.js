@@ -25,8 +25,9 @@
     const mine = asked;
     const at = pixel.y * width + pixel.x;
     const own = pictures.own();
-    const names = JSON.parse(pictures.section().querySelector(".viewer_place").dataset.names);
-    const [ids] = await planes(own.objects);
+    // Two pictures alone do not say which objects they show.
+    const names = JSON.parse(pictures.section().querySelector(".viewer_place").dataset.names ?? "[]");
+    const [ids] = own.objects ? await planes(own.objects) : [];
     const words = [];
     const cells = [];
     for (const row of table.querySelectorAll("[data-layer]")) {
@@ -41,7 +42,7 @@
     const [flip] = await textsOf("share", own.flip, at);
     if (mine !== asked) return;
     for (const [row, texts] of cells) [...row.querySelectorAll("td")].forEach((cell, c) => (cell.textContent = texts[c] ?? ""));
-    const place = `x ${pixel.x}, y ${pixel.y}, ${names[ids[at]]}`;
+    const place = `x ${pixel.x}, y ${pixel.y}${ids ? `, ${names[ids[at]]}` : ""}`;
     table.querySelector("caption span").textContent = place;
     table.dataset.pixel = `${pixel.x},${pixel.y}`;
     tip.textContent = [place, `${left.title}: ${sides[0].join(" ")}`, `${right.title}: ${sides[1].join(" ")}`, `FLIP: ${flip}`].join("\n");

@@ -308,6 +308,8 @@
       return speed > 1 ? motion(0, 0, 1) : motion(x * speed, y * speed, 1);
     };
     paint(canvas, color, canvas.width);
+    // Two pictures alone have neither motion nor depth.
+    if (!pictures.own().velocity) return;
     const fastest = speedOf(await planes(pictures.own().velocity));
     viewer.querySelector(".fastest").textContent = fastest.toPrecision(3);
     const [depth] = await planes(pictures.own().depth);

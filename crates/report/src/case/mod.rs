@@ -3,7 +3,7 @@
 pub mod bounds;
 pub mod case_view;
 pub mod legend;
-mod profile;
+pub mod profile;
 mod profile_chart;
 mod scores;
 pub mod viewer;
@@ -224,9 +224,11 @@ fn truth_facts(view: &CaseView) -> Markup {
             }
         }
         @if let Some(drawn) = &view.case.drawn {
-            div {
-                dt { "steps of the truth" }
-                dd { "99 % of what moves goes at most " (format!("{:.2}", drawn.step)) " px between two sub-frames" }
+            @if drawn.step > 0.0 {
+                div {
+                    dt { "steps of the truth" }
+                    dd { "99 % of what moves goes at most " (format!("{:.2}", drawn.step)) " px between two sub-frames" }
+                }
             }
             div {
                 dt { "our truth" }
@@ -256,6 +258,14 @@ fn facts(view: &CaseView) -> Markup {
                 @if let Some(change) = case.input.change() { div { dt { "input" } dd { (change) } } }
                 @if let Some(command) = &case.command {
                     div { dt { "command" } dd { code { (command.join(" ")) } } }
+                }
+                @if let Some(smear) = &case.smear {
+                    div {
+                        dt { "smear" }
+                        dd {
+                            "from " (format!("{:.2} to {:.2}", smear.open, smear.close)) " of the exposure; " (smear.verdict(case.alignment))
+                        }
+                    }
                 }
                 @if let Some(width) = case.reference_width {
                     div { dt { "values in pixels" } dd { "scaled from pictures " (width) " pixels wide" } }

@@ -1,8 +1,8 @@
 //! Viewer of pictures: one set of controls, which the script moves to the open case.
 
+use frame::Size;
 use judge::BLOCK;
 use maud::{Markup, html};
-use measure::Run;
 use serde_json::{Value, json};
 
 use super::legend::draw_legends;
@@ -45,12 +45,20 @@ const KEYS: [(&str, &str); 14] = [
     ("?", "these keys"),
 ];
 
+/// Title and hint of each kind of picture.
+pub type LayerWords<'a> = &'a dyn Fn(Layer) -> (String, String);
+
+/// Words for the cases of a run.
+pub fn case_words(layer: Layer) -> (String, String) {
+    (layer.title().to_owned(), layer.help().to_owned())
+}
+
 /// Writes the viewer, hidden until a case is open.
-pub fn viewer(run: &Run) -> Markup {
+pub fn viewer(size: Size, words: LayerWords) -> Markup {
     html! {
-        div #viewer hidden data-width=(run.render.width) data-height=(run.render.height) data-block=(BLOCK) {
+        div #viewer hidden data-width=(size.width) data-height=(size.height) data-block=(BLOCK) {
             (controls())
-            (stage(run))
+            (stage(size))
             p.hint aria-live="polite" {}
             (draw_legends())
             details.more {
@@ -68,11 +76,11 @@ pub fn viewer(run: &Run) -> Markup {
                     span { "Divider" }
                     input type="range" name="split" min="0" max="100" step="0.5" value="50";
                 }
-                (readout())
+                (readout(words))
             }
             p.spoken.unseen aria-live="polite" {}
             p.tip hidden aria-hidden="true" {}
-            (script_data("layers", &layers()))
+            (script_data("layers", &layers(words)))
         }
         dialog #keys aria-label="Keys" {
             form method="dialog" { button { "Close" } }
@@ -112,14 +120,14 @@ fn controls() -> Markup {
 }
 
 /// Writes the panes: two pictures under a divider, or next to each other.
-fn stage(run: &Run) -> Markup {
+fn stage(size: Size) -> Markup {
     html! {
-        div.stage style=(format!("--ratio:{}/{}", run.render.width, run.render.height)) {
+        div.stage style=(format!("--ratio:{}/{}", size.width, size.height)) {
             div.pane.stack tabindex="0" role="group"
                 aria-label="Two pictures; arrows read pixels, plus and minus zoom" {
-                (layer(run, "under"))
-                div.over { (layer(run, "over")) }
-                (marks(run))
+                (layer(size, "under"))
+                div.over { (layer(size, "over")) }
+                (marks(size))
                 div.divider aria-hidden="true" {}
                 p.tag.right data-tag="under" {}
                 p.tag.left data-tag="over" {}
@@ -127,8 +135,8 @@ fn stage(run: &Run) -> Markup {
             @for place in ["left", "right"] {
                 div.pane.single tabindex="0" role="group"
                     aria-label="One picture; arrows read pixels, plus and minus zoom" hidden {
-                    (layer(run, place))
-                    (marks(run))
+                    (layer(size, place))
+                    (marks(size))
                     p.tag.left data-tag=(place) {}
                 }
             }
@@ -137,11 +145,12 @@ fn stage(run: &Run) -> Markup {
 }
 
 /// Describes every kind of picture for the script, as JSON.
-fn layers() -> String {
+fn layers(words: LayerWords) -> String {
     let describe = |layer: &Layer| {
+        let (title, hint) = words(*layer);
         let facts = json!({
-            "title": layer.title(),
-            "hint": layer.help(),
+            "title": title,
+            "hint": hint,
             "painter": layer.painter(),
         });
         (layer.name().to_owned(), facts)
@@ -150,15 +159,14 @@ fn layers() -> String {
 }
 
 /// Makes a picture that zooms and pans with all others.
-fn layer(run: &Run, place: &str) -> Markup {
+fn layer(size: Size, place: &str) -> Markup {
     html! {
-        div.layer data-place=(place) { canvas width=(run.render.width) height=(run.render.height) role="img" {} }
+        div.layer data-place=(place) { canvas width=(size.width) height=(size.height) role="img" {} }
     }
 }
 
 /// Marks the profile's line, a bound's worst place, and the pixel that is read.
-fn marks(run: &Run) -> Markup {
-    let [width, height] = [run.render.width, run.render.height];
+fn marks(Size { width, height }: Size) -> Markup {
     html! {
         div.layer aria-hidden="true" {
             svg.overlay width=(width) height=(height) viewBox=(format!("0 0 {width} {height}")) {
@@ -173,14 +181,14 @@ fn marks(run: &Run) -> Markup {
 
 /// Lists the numbers of a pixel, one row per picture; the script fills it and hides rows that a
 /// case lacks.
-fn readout() -> Markup {
+fn readout(words: LayerWords) -> Markup {
     html! {
         table.readout {
             caption { span { "Point at a picture, or choose it and press an arrow" } " (linear values, three digits)" }
             tbody {
                 @for layer in Layer::ALL {
                     tr data-layer=(layer.name()) hidden {
-                        th scope="row" { (layer.title()) }
+                        th scope="row" { (words(*layer).0) }
                         @for component in 0..3 {
                             td data-label=[layer.components().get(component)] {}
                         }

@@ -7,6 +7,7 @@ mod ranking;
 mod ranks;
 mod scene_means;
 mod sequence;
+mod smears;
 
 pub use terminal::table::*;
 
@@ -17,3 +18,4 @@ pub use self::ranking::*;
 use self::ranks::Ranks;
 pub use self::scene_means::*;
 pub use self::sequence::*;
+pub use self::smears::*;

@@ -67,7 +67,7 @@ fn the_mean_of_sub_frames_is_our_truth_within_its_limit() {
         "0.58 px between two sub-frames",
         "equivalent sub-frames are told up to 4",
         "advice: 20 sub-frames would have steps of half a pixel",
-        "next: shuttertruth run --scenes plate,./out/engine/mine",
+        "next: shuttertruth run plate,./out/engine/mine",
     ];
     assert_contains(&told, &parts);
     sandbox.done("truths render --quiet --scenes plate --size 96x54 --samples-per-pixel 64");
@@ -175,6 +175,67 @@ fn a_run_on_a_capture_scores_near_our_own_scene_and_ranks_the_engine() {
     let again = sandbox.done(words);
     assert_contains(&again, &["cases: 17, 17 of them read back"]);
     sandbox.done("report out --html again.html --exr layers");
+}
+
+#[test]
+fn a_capture_without_velocity_has_the_scores_of_colour_and_says_what_is_left_out() {
+    let sandbox = Sandbox::new();
+    let capture = Capture::new(&sandbox).add_subframes(8, true);
+    for name in ["velocity.exr", "depth.exr", "engine.toml"] {
+        fs::remove_file(capture.path(name)).unwrap();
+    }
+    let told = ingest(&sandbox);
+    let parts = [
+        "left out: filters that read velocity or depth: the capture has no velocity and no depth",
+        "left out: bleed, growth, loss",
+        "mean of 8 sub-frames",
+    ];
+    assert_contains(&told, &parts);
+    assert!(
+        !told.contains("no velocity reaches them") && !told.contains("0.00 px"),
+        "{told}"
+    );
+    let words =
+        "run --scenes out/engine/mine --samples-per-pixel 64 --jitter-frames 0 --out out --filter";
+    let output = sandbox.shuttertruth(&split(&format!("{words} identity,jump_flood:paper")));
+    assert_contains(
+        &stderr(&output),
+        &["leaves out 1 preset because the capture does not have velocity"],
+    );
+    let run = sandbox.read_run();
+    let engine = find(&run, NAME, "Test_Engine_1.2");
+    for case in [engine, find(&run, NAME, "identity")] {
+        assert!(case.scores.get(Metric::FLIP).value().unwrap() > 0.0);
+        for metric in split("bleed_lateral lateral_growth extent centroid") {
+            assert_absent(case, metric, "the capture has no velocity");
+        }
+        let contamination = case.scores.get(Metric::OccluderContamination);
+        assert_eq!(
+            contamination.value(),
+            None,
+            "nobody knows what stands still"
+        );
+        assert!(case.smear.is_none());
+    }
+    sandbox.refuse(&format!("{words} jump_flood:paper"), &["no filter is left"]);
+    let scene = "out/engine/mine";
+    let line = format!(
+        "score --truth {scene}/truth_trailing.exr --frame {scene}/frame.exr --image {scene}/frame.exr"
+    );
+    assert_contains(
+        &sandbox.done(&line),
+        &["extent", "the capture has no velocity"],
+    );
+    sandbox.refuse(
+        "engine audit capture",
+        &["velocity.exr: there is no such file"],
+    );
+    // Without sub-frames nothing is left to measure.
+    fs::remove_dir_all(capture.path("subframes")).unwrap();
+    sandbox.refuse(
+        "engine ingest capture -o out/engine/mine",
+        &["velocity.exr: there is no such file", "save that buffer"],
+    );
 }
 
 #[test]

@@ -1,0 +1,328 @@
+//! Length, side and direction of a smear: the shutter whose even smear fits a picture best.
+
+mod verdict;
+
+use std::iter::Sum;
+
+use frame::{Frame, Image};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use crate::object::mover::{LARGEST_DEVIATION, LEAST_DISPLACEMENT};
+
+/// Least motion over the exposure, in pixels: a shorter smear has no length to measure.
+const LEAST_MOTION: f64 = 2.0;
+/// Least pixels of a mover.
+const LEAST_PIXELS: usize = 60;
+/// Most pixels of a mover that are compared.
+const MOST_PIXELS: usize = 3000;
+/// How far from the instant shutters are searched, in exposures: a double exposure and a reserve.
+const REACH: f64 = 2.5;
+/// Steps per exposure that the search starts with, and finer ones around the best.
+const COARSE: usize = 8;
+const FINE: usize = 64;
+/// Part of the error of the best smear along the motion that one in another direction must stay
+/// below: a real one leaves a small part.
+const CLEARLY_BETTER: f64 = 0.5;
+/// Direction of a smear.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SmearDirection {
+    /// Along the motion.
+    Along,
+    /// Along the motion with up and down exchanged.
+    Flipped,
+    /// At a right angle to it.
+    Across,
+}
+
+/// The even smear that fits a picture of a mover best.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Smear {
+    /// Motion over the exposure, in pixels.
+    pub motion: f64,
+    /// Direction.
+    pub direction: SmearDirection,
+    /// When its shutter opens, in exposures after the instant: -1 for a trailing one, -0.5 for a
+    /// centred one.
+    pub open: f64,
+    /// When it closes: 0 for a trailing one, 0.5 for a centred one.
+    pub close: f64,
+    /// Weight of the even smear; the rest is the frame's own colour, which many filters count more
+    /// than once.
+    pub weight: f64,
+    /// Difference of the picture from that sum, as a part of its difference from no blur: 0 for a
+    /// perfect fit, 1 if nothing is gained.
+    pub rest: f64,
+}
+
+/// A ray of colours through a pixel, as sums from its start on.
+struct Ray {
+    /// Colour of the frame at the pixel.
+    frame: [f64; 3],
+    /// Change of the picture from it.
+    change: [f64; 3],
+    /// Sums of the frame's colours up to each step.
+    sums: Vec<[f64; 3]>,
+}
+
+/// An interval of steps along a ray.
+type Steps = [usize; 2];
+
+/// Measures the smear of the only object that moves, in a picture that was made from the frame,
+/// which has no guard band.
+///
+/// On the mover an even smear is the mean of the frame's colours along the motion, whatever a
+/// filter does beyond the silhouette. The smear is the interval and its weight, next to the frame's
+/// own colour, that leave the least squared difference.
+/// None if the camera or several objects move, if the object does not translate or touches the
+/// border, or if its motion is too short.
+pub fn measure_smear(frame: &Frame, picture: &Image) -> Option<Smear> {
+    let (id, displacement) = only_mover(frame)?;
+    let motion = displacement[0].hypot(displacement[1]);
+    let pixels = pick_pixels(frame, id, REACH * motion)?;
+    let [x, y] = displacement.map(|part| part / motion);
+    let mut ways = vec![
+        (SmearDirection::Along, [x, y]),
+        (SmearDirection::Across, [-y, x]),
+    ];
+    // Level and plumb motion does not change its line.
+    if x.abs().min(y.abs()) > 0.1 {
+        ways.push((SmearDirection::Flipped, [x, -y]));
+    }
+    let mut best: Option<(f64, Smear)> = None;
+    for (direction, along) in ways {
+        let (error, smear) = fit(
+            frame,
+            picture,
+            &pixels,
+            along.map(|part| part * motion),
+            direction,
+        )?;
+        let is_better = (best.as_ref()).is_none_or(|(least, _)| error < CLEARLY_BETTER * least);
+        if is_better {
+            best = Some((error, smear));
+        }
+    }
+    best.map(|(_, smear)| smear)
+}
+
+/// Sums over the pixels of an object of their displacements over the exposure.
+#[derive(Clone, Copy, Default)]
+struct Displacements {
+    count: f64,
+    sum: [f64; 2],
+    squares: f64,
+    /// Largest one.
+    most: f64,
+}
+
+/// Finds the only object that moves, and its displacement over the exposure. None if several move,
+/// or if that one does not translate, as scores of objects decide it.
+fn only_mover(frame: &Frame) -> Option<(u32, [f64; 2])> {
+    let mut objects = vec![Displacements::default(); frame.objects.len()];
+    for (id, velocity) in frame.object_id.pixels.iter().zip(&frame.velocity.pixels) {
+        let object = objects.get_mut(*id as usize)?;
+        let [x, y] = velocity.map(|part| f64::from(part) * frame.exposure);
+        object.count += 1.0;
+        object.sum = [object.sum[0] + x, object.sum[1] + y];
+        object.squares += x * x + y * y;
+        object.most = object.most.max(x.hypot(y));
+    }
+    let mut movers = (0_u32..)
+        .zip(&objects)
+        .filter(|(_, object)| object.most >= LEAST_DISPLACEMENT);
+    let (id, object) = movers.next()?;
+    if id == 0 || movers.next().is_some() {
+        return None;
+    }
+    let mean = object.sum.map(|sum| sum / object.count);
+    let square = mean[0] * mean[0] + mean[1] * mean[1];
+    let deviation = (object.squares / object.count - square).max(0.0).sqrt();
+    let translates = deviation <= LARGEST_DEVIATION * square.sqrt();
+    (translates && square.sqrt() >= LEAST_MOTION).then_some((id, mean))
+}
+
+/// Picks pixels of the mover, evenly over its area; none if it has too few, or if a smear of `reach`
+/// pixels would leave the picture.
+fn pick_pixels(frame: &Frame, id: u32, reach: f64) -> Option<Vec<(u32, u32)>> {
+    let width = frame.color.width;
+    let at = |index: usize| (index as u32 % width, index as u32 / width);
+    let shown = (0..frame.object_id.pixels.len()).filter(|at| frame.object_id.pixels[*at] == id);
+    let all: Vec<(u32, u32)> = shown.map(at).collect();
+    let is_inside = |(x, y): &(u32, u32)| {
+        let (right, bottom) = (width - 1 - x, frame.color.height - 1 - y);
+        f64::from(*x.min(y).min(&right).min(&bottom))
+            > reach.min(f64::from(frame.color.height) / 3.0)
+    };
+    let inside: Vec<(u32, u32)> = all.iter().copied().filter(is_inside).collect();
+    if inside.len() < LEAST_PIXELS || 2 * inside.len() < all.len() {
+        return None;
+    }
+    let step = inside.len().div_ceil(MOST_PIXELS);
+    Some(inside.into_iter().step_by(step).collect())
+}
+
+/// Finds the interval along `displacement` that fits best; returns its squared difference, too.
+fn fit(
+    frame: &Frame,
+    picture: &Image,
+    pixels: &[(u32, u32)],
+    displacement: [f64; 2],
+    direction: SmearDirection,
+) -> Option<(f64, Smear)> {
+    let half = (REACH * FINE as f64) as usize;
+    let rays: Vec<Ray> = (pixels.par_iter())
+        .map(|at| trace_ray(frame, picture, *at, displacement, half))
+        .collect();
+    let none: f64 = rays.par_iter().map(Ray::change).sum();
+    if none <= 0.0 {
+        return None;
+    }
+    let error = |steps: Steps| {
+        let Products { changes, smears } = rays.par_iter().map(|ray| ray.products(steps)).sum();
+        let weight = if smears > 0.0 {
+            (changes / smears).clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
+        let error = none - 2.0 * weight * changes + weight * weight * smears;
+        (error.max(0.0), weight)
+    };
+    let stride = FINE / COARSE;
+    let coarse = (0..=2 * half).step_by(stride);
+    let all = coarse.clone().flat_map(|first| {
+        (coarse.clone()).filter_map(move |last| (first <= last).then_some([first, last]))
+    });
+    let mut best = least(all, &error)?;
+    let mut around = stride;
+    while around > 1 {
+        around /= 2;
+        let near = |step: usize| {
+            [
+                step.saturating_sub(around),
+                step,
+                (step + around).min(2 * half),
+            ]
+        };
+        let (firsts, lasts) = (near(best.2[0]), near(best.2[1]));
+        let next = firsts.into_iter().flat_map(|first| {
+            (lasts.into_iter()).filter_map(move |last| (first <= last).then_some([first, last]))
+        });
+        best = least(next, &error)?;
+    }
+    let (error, weight, steps) = best;
+    // A pixel shows at a time what was ahead of it by as much at the instant.
+    let [close, open] = steps.map(|step| (half as f64 - step as f64) / FINE as f64);
+    let smear = Smear {
+        motion: displacement[0].hypot(displacement[1]),
+        direction,
+        open,
+        close,
+        weight,
+        rest: (error / none).sqrt(),
+    };
+    Some((error, smear))
+}
+
+/// Finds the interval with the least error; returns error, weight and interval.
+fn least(
+    all: impl Iterator<Item = Steps>,
+    error: &impl Fn(Steps) -> (f64, f64),
+) -> Option<(f64, f64, Steps)> {
+    let errors = all.map(|steps| {
+        let (error, weight) = error(steps);
+        (error, weight, steps)
+    });
+    errors.min_by(|a, b| a.0.total_cmp(&b.0))
+}
+
+/// Sums over pixels: of the picture's change times the smear's, and of the smear's squared.
+struct Products {
+    changes: f64,
+    smears: f64,
+}
+
+impl Sum for Products {
+    fn sum<I: Iterator<Item = Self>>(all: I) -> Self {
+        let nothing = Self {
+            changes: 0.0,
+            smears: 0.0,
+        };
+        all.fold(nothing, |sum, other| Self {
+            changes: sum.changes + other.changes,
+            smears: sum.smears + other.smears,
+        })
+    }
+}
+
+/// Follows the frame's colours through a pixel, `half` steps to either side.
+fn trace_ray(
+    frame: &Frame,
+    picture: &Image,
+    (x, y): (u32, u32),
+    displacement: [f64; 2],
+    half: usize,
+) -> Ray {
+    let mut sums = vec![[0.0; 3]];
+    let mut sum = [0.0; 3];
+    for step in 0..=2 * half {
+        let ahead = (step as f64 - half as f64) / FINE as f64;
+        let place = [
+            f64::from(x) + ahead * displacement[0],
+            f64::from(y) + ahead * displacement[1],
+        ];
+        let color = interpolate(&frame.color, place);
+        for (sum, color) in sum.iter_mut().zip(color) {
+            *sum += color;
+        }
+        sums.push(sum);
+    }
+    let [sharp, blurred] = [&frame.color, picture].map(|image| image.at(x, y).map(f64::from));
+    Ray {
+        frame: sharp,
+        change: std::array::from_fn(|c| blurred[c] - sharp[c]),
+        sums,
+    }
+}
+
+impl Ray {
+    /// Returns the squared change of the picture from the frame.
+    fn change(&self) -> f64 {
+        self.change.iter().map(|part| part * part).sum()
+    }
+
+    /// Returns the products for the smear over some steps.
+    fn products(&self, [first, last]: Steps) -> Products {
+        let count = (last + 1 - first) as f64;
+        let (from, to) = (self.sums[first], self.sums[last + 1]);
+        let smear: [f64; 3] = std::array::from_fn(|c| (to[c] - from[c]) / count - self.frame[c]);
+        let times = |other: &[f64; 3]| smear.iter().zip(other).map(|(a, b)| a * b).sum();
+        Products {
+            changes: times(&self.change),
+            smears: times(&smear),
+        }
+    }
+}
+
+/// Interpolates colours between four pixels; at the border they go on.
+fn interpolate(image: &Image, [x, y]: [f64; 2]) -> [f64; 3] {
+    let (left, top) = (x.floor(), y.floor());
+    let [across, down] = [x - left, y - top];
+    let at = |x: f64, y: f64| {
+        let column = x.clamp(0.0, f64::from(image.width - 1)) as u32;
+        let row = y.clamp(0.0, f64::from(image.height - 1)) as u32;
+        image.at(column, row).map(f64::from)
+    };
+    let [a, b, c, d] = [
+        at(left, top),
+        at(left + 1.0, top),
+        at(left, top + 1.0),
+        at(left + 1.0, top + 1.0),
+    ];
+    std::array::from_fn(|channel| {
+        let upper = a[channel] + across * (b[channel] - a[channel]);
+        let lower = c[channel] + across * (d[channel] - c[channel]);
+        upper + down * (lower - upper)
+    })
+}

@@ -1,0 +1,256 @@
+//! Measured smears: length, side and direction, in words.
+
+use frame::Alignment;
+use metrics::{Smear, SmearDirection};
+use tests::text::assert_contains;
+
+use crate::sandbox::Sandbox;
+
+/// Scene, size and noise of every run.
+const RUN: &str = "run --quiet --jitter-frames 0 --samples-per-pixel 16 --size 320x180 --out out";
+
+const MANIFEST: &str = r#"
+summary = "Averages colours along a part of the motion."
+
+[[parameter]]
+name = "first"
+kind = "real"
+default = 0.0
+range = [-2.0, 2.0]
+doc = "Start, in exposures ahead of the pixel."
+
+[[parameter]]
+name = "last"
+kind = "real"
+default = 1.0
+range = [-2.0, 2.0]
+doc = "End, in exposures."
+
+[[parameter]]
+name = "turned"
+kind = "real"
+default = 0.0
+range = [0.0, 2.0]
+doc = "1 exchanges x and y, 2 turns y round."
+
+[[pass]]
+entry = "blur"
+"#;
+
+const KERNEL: &str = "
+struct Parameters { first: f32, last: f32, turned: f32 }
+@group(0) @binding(1) var<uniform> parameters: Parameters;
+@group(0) @binding(2) var color: texture_2d<f32>;
+@group(0) @binding(3) var velocity: texture_2d<f32>;
+@group(0) @binding(4) var output: texture_storage_2d<rgba32float, write>;
+
+@compute @workgroup_size(8, 8)
+fn blur(@builtin(global_invocation_id) id: vec3<u32>) {
+    let pixel = vec2<i32>(id.xy);
+    if !inside(pixel) { return; }
+    var trail = frame.exposure * textureLoad(velocity, pixel, 0).xy;
+    if parameters.turned == 1.0 { trail = trail.yx; }
+    if parameters.turned == 2.0 { trail.y = -trail.y; }
+    var sum = vec4<f32>(0.0);
+    for (var tap = 0; tap < 48; tap++) {
+        let part = (f32(tap) + 0.5) / 48.0;
+        sum += bilinear(color, centre(pixel) + mix(parameters.first, parameters.last, part) * trail);
+    }
+    textureStore(output, pixel, sum / 48.0);
+}
+";
+
+/// Writes the filter `<alignment>_blur`.
+fn write_blur(sandbox: &Sandbox, alignment: Alignment) -> String {
+    let name = format!("{alignment}_blur");
+    let manifest = format!("name = \"{name}\"\nalignment = \"{alignment}\"\n{MANIFEST}");
+    sandbox.write_filter(&name, &manifest, KERNEL);
+    name
+}
+
+/// Part of a trail, how it is turned, the declared shutter, and the verdict.
+type Mistake = ([f64; 2], u32, Alignment, &'static str);
+
+const MISTAKES: [Mistake; 10] = [
+    (
+        [0.0, 1.0],
+        0,
+        Alignment::Trailing,
+        "right: as long as the exposure, behind the mover",
+    ),
+    (
+        [-0.5, 0.5],
+        0,
+        Alignment::Centred,
+        "right: as long as the exposure, on both sides",
+    ),
+    (
+        [-1.0, 0.0],
+        0,
+        Alignment::Leading,
+        "right: as long as the exposure, ahead of the mover",
+    ),
+    (
+        [0.0, 0.5],
+        0,
+        Alignment::Trailing,
+        "too short: multiply the intensity by 2.",
+    ),
+    (
+        [-1.0, 1.0],
+        0,
+        Alignment::Centred,
+        "too long: multiply the intensity by 0.5",
+    ),
+    (
+        [-1.0, 0.0],
+        0,
+        Alignment::Trailing,
+        "runs against the motion, ahead of the mover: change the sign of the velocity",
+    ),
+    (
+        [0.0, 1.0],
+        0,
+        Alignment::Centred,
+        "one-sided, behind the mover: centre the taps, or declare alignment = \"trailing\"",
+    ),
+    (
+        [-0.5, 0.5],
+        0,
+        Alignment::Trailing,
+        "lies on both sides: declare alignment = \"centred\"",
+    ),
+    (
+        [-0.5, 0.5],
+        1,
+        Alignment::Centred,
+        "runs across the motion: exchange x and y of the velocity",
+    ),
+    (
+        [0.0, 0.0],
+        0,
+        Alignment::Centred,
+        "no smear: the filter changes nothing",
+    ),
+];
+
+#[test]
+fn every_wrong_length_side_and_direction_has_its_verdict() {
+    let sandbox = Sandbox::of(&Vec::new());
+    for ([first, last], turned, alignment, verdict) in MISTAKES {
+        let name = write_blur(&sandbox, alignment);
+        let set = [
+            ("first", first),
+            ("last", last),
+            ("turned", f64::from(turned)),
+        ];
+        let set = set
+            .map(|(key, value)| format!("--set {name}.{key}={value:?}"))
+            .join(" ");
+        let text = sandbox.done(&format!(
+            "{RUN} --scenes sliding_panel --filter ./{name} {set}"
+        ));
+        let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert_contains(&words, &["smear over the exposure", verdict]);
+    }
+}
+
+#[test]
+fn up_and_down_exchanged_show_in_slanted_motion() {
+    let sandbox = Sandbox::of(&Vec::new());
+    let name = write_blur(&sandbox, Alignment::Trailing);
+    let line = format!("{RUN} --scenes sliding_panel@32px_30deg --filter ./{name}");
+    sandbox.done(&line);
+    let right = sandbox.read_filter_cases()[0].smear.unwrap();
+    assert_eq!(right.direction, SmearDirection::Along);
+    assert!(right.is_right(Alignment::Trailing), "{right:?}");
+    let text = sandbox.done(&format!("{line} --set {name}.turned=2"));
+    assert_contains(&text, &["up and down exchanged"]);
+}
+
+#[test]
+fn a_right_blur_of_three_passes_is_not_halved() {
+    let sandbox = Sandbox::of(&Vec::new());
+    let folder = tests::root().join("examples/first_blur/godot_tiles");
+    let verdicts = [
+        "too short: multiply the intensity by 2.",
+        "right:",
+        "too long: multiply the intensity by 0.5",
+    ];
+    for (strength, verdict) in [0.5, 1.0, 2.0].into_iter().zip(verdicts) {
+        let filter = format!(
+            "{} --set godot_tiles.strength={strength:?}",
+            folder.display()
+        );
+        let text = sandbox.done(&format!("{RUN} --scenes sliding_panel --filter {filter}"));
+        let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert_contains(&words, &[verdict]);
+    }
+}
+
+/// Blurs that are right by their own references: a gather, a jump flood, tiles, and engines' ways of
+/// each.
+const GOOD: [&str; 9] = [
+    "velocity_gather:fine",
+    "jump_flood:corrected",
+    "jimenez:slides_2014",
+    "jimenez:hdrp",
+    "kino:mended",
+    "godot:mended",
+    "bevy:high",
+    "urp:high",
+    "blender:compositor",
+];
+
+#[test]
+fn good_blurs_of_each_kind_are_right() {
+    let sandbox = Sandbox::of(&Vec::new());
+    let text = sandbox.done(&format!(
+        "{RUN} --scenes sliding_panel --filter {}",
+        GOOD.join(",")
+    ));
+    let cases = sandbox.read_filter_cases();
+    assert_eq!(cases.len(), GOOD.len());
+    for case in cases {
+        let smear: Smear = case.smear.unwrap();
+        assert!(smear.is_right(case.alignment), "{}: {smear:?}", case.name());
+        // An eighth of the exposure: the shortest of them, kino's, rounds its tiles.
+        assert!(
+            (smear.length() - 1.0).abs() < 0.13,
+            "{}: {smear:?}",
+            case.name()
+        );
+    }
+    assert_eq!(
+        text.matches("right: as long as the exposure").count(),
+        GOOD.len()
+    );
+}
+
+#[test]
+fn a_finished_picture_has_the_smear_of_its_filter() {
+    let sandbox = Sandbox::of(&Vec::new());
+    let name = write_blur(&sandbox, Alignment::Trailing);
+    let scene = "out/sliding_panel";
+    sandbox.done(&format!(
+        "{RUN} --scenes sliding_panel --filter ./{name} --set {name}.last=0.5"
+    ));
+    let case = sandbox.read_filter_cases().remove(0);
+    let image = case.folder.join("output.png");
+    let line = format!(
+        "score --truth {scene}/truth_trailing.exr --frame {scene}/frame.exr --image out/{}",
+        image.display()
+    );
+    assert_contains(
+        &sandbox.done(&line),
+        &["smear: 0.4", "multiply the intensity by 2."],
+    );
+}
+
+#[test]
+fn lengths_of_all_built_in_filters_and_of_other_scenes_are_not_printed() {
+    let sandbox = Sandbox::once(|sandbox| drop(sandbox.measure("--filters velocity_gather:fine")));
+    let text = sandbox
+        .done("run --out out --size 64x32 --samples-per-pixel 16 --filters velocity_gather:fine");
+    assert!(!text.contains("smear over the exposure"), "{text}");
+}
