@@ -16,6 +16,7 @@ mod empty_folder;
 #[path = "../../crates/engine/tests/program/mod.rs"]
 mod engine;
 mod exclusion;
+mod expected_times;
 mod exported_tables;
 mod failures;
 mod fidelity;

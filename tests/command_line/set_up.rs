@@ -44,15 +44,33 @@ fn completions_know_every_command_in_every_shell() {
 
 #[cfg(unix)]
 #[test]
-fn bash_completes_a_command() {
+fn bash_completes_commands_scenes_and_filters() {
     let sandbox = Sandbox::new();
     let completions = sandbox.done("completions bash");
     sandbox.put("completions", completions);
-    let script = "source completions; COMP_WORDS=(shuttertruth compl); COMP_CWORD=1; _shuttertruth shuttertruth compl shuttertruth; \
-                  echo \"${COMPREPLY[@]}\"";
-    let mut bash = Command::new("bash");
-    bash.current_dir(sandbox.path("")).args(["-c", script]);
-    assert_eq!(stdout(&bash.output().unwrap()), "completions\n");
+    for (words, completed) in [
+        ("compl", "completions"),
+        ("run rail", "railing"),
+        ("check rail", "railing"),
+        ("run fan two_s", "two_spheres"),
+        ("run --filter mcg", "mcguire"),
+        ("tune search --filter kin", "kino"),
+        ("list rail", "railing"),
+        ("list mcg", "mcguire"),
+    ] {
+        let all: Vec<&str> = words.split(' ').collect();
+        let (word, before) = (all[all.len() - 1], all.get(all.len().wrapping_sub(2)));
+        let script = format!(
+            "source completions; COMP_WORDS=(shuttertruth {words}); COMP_CWORD={}; \
+             _shuttertruth shuttertruth {word} {}; echo \"${{COMPREPLY[@]}}\"",
+            all.len(),
+            before.unwrap_or(&"shuttertruth")
+        );
+        let mut bash = Command::new("bash");
+        bash.current_dir(sandbox.path("")).args(["-c", &script]);
+        let printed = stdout(&bash.output().unwrap());
+        assert_eq!(printed.trim_end(), completed, "{words}");
+    }
 }
 
 #[test]

@@ -8,7 +8,7 @@ use filters::Gpu;
 use frame::Size;
 use measure::{Error, open_adapter};
 
-use terminal::arguments::{AdapterArgs, parse_size, within};
+use terminal::arguments::{AdapterArgs, filter_names, parse_size, within};
 use terminal::expected::print_expected_time;
 use terminal::output::make_monitor;
 use terminal::result::{write_json, write_result};
@@ -29,7 +29,9 @@ pub struct BenchArgs {
         long = "filter",
         visible_alias = "filters",
         value_delimiter = ',',
-        value_name = "FILTERS"
+        value_name = "FILTERS",
+        value_parser = filter_names(),
+        hide_possible_values = true
     )]
     pub filters: Vec<String>,
     /// Picture size in pixels [default: 1920x1080, or 320x180 on a software adapter].

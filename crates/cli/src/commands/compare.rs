@@ -3,15 +3,16 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use judge::compare_runs;
-use measure::{Error, StoredRun};
+use judge::{compare_runs, pair_cases};
+use measure::{Error, StoredRun, estimate_case_seconds};
 use report::compare_page;
 
 use crate::tables::{compare_csv, compare_markdown, compare_table};
 use run::write_page;
 use run::{PREVIOUS, read_margins};
 use terminal::arguments::RootArgs;
-use terminal::output::{make_monitor, open_page, print, print_json};
+use terminal::expected::print_expected_time;
+use terminal::output::{count_text, make_monitor, open_page, print, print_json};
 use terminal::refuse;
 use terminal::table::TableArgs;
 
@@ -39,6 +40,22 @@ pub struct CompareArgs {
     pub tables: TableArgs,
 }
 
+/// Prints the expected time to measure both pictures of every case that changed, against the truth
+/// and against it without each pair of its replicates.
+fn print_expected_compare(first: &StoredRun, second: &StoredRun) {
+    let pairs = pair_cases(&first.run, &second.run);
+    let changed = pairs
+        .iter()
+        .filter(|pair| pair.first.scores != pair.second.scores);
+    let changed = changed.count();
+    let truths = f64::from(1 + first.run.render.replicates / 2);
+    let seconds = changed as f64 * 2.0 * truths * estimate_case_seconds(&first.run.render);
+    print_expected_time(
+        seconds,
+        &count_text(changed, "changed case", "changed cases"),
+    );
+}
+
 /// Reads a run, and the one before it in the same folder.
 fn read_previous(path: &Path) -> Result<(StoredRun, StoredRun), Error> {
     let last = StoredRun::read(path)?;
@@ -58,6 +75,7 @@ pub fn execute(args: &CompareArgs) -> Result<(), Error> {
         Some(second) => (StoredRun::read(&args.first)?, StoredRun::read(second)?),
         None => read_previous(&args.first)?,
     };
+    print_expected_compare(&first, &second);
     let margins = read_margins(&args.root.scenes_dir)?;
     let compared = make_monitor().watch("cases that changed", |watch| {
         compare_runs(&first, &second, &margins, watch)

@@ -11,7 +11,7 @@ use tracer::find_coincident_surfaces;
 
 use super::copy::copy_scenes;
 use crate::tables::{details_text, filter_json, filters_text, inputs_text, scenes_text};
-use terminal::arguments::{AdapterArgs, RootArgs};
+use terminal::arguments::{AdapterArgs, RootArgs, filter_names, listed_names};
 use terminal::output::{Text, make_monitor, print, print_json, print_note, print_scene_notes};
 use terminal::selection::{is_pattern, load_filters, match_names, suggest_names};
 use terminal::settings::Settings;
@@ -20,7 +20,7 @@ use terminal::settings::Settings;
 pub struct ListArgs {
     /// Things to list: scenes, filters, inputs, adapters, or names or patterns of scenes and
     /// filters, which are shown in detail [default: scenes and filters].
-    #[arg(value_name = "WHAT")]
+    #[arg(value_name = "WHAT", value_parser = listed_names(), hide_possible_values = true)]
     pub what: Vec<String>,
     /// Filters to list in detail: names, folders or patterns; repeatable, or separated by commas. A
     /// filter of your own is tried out with every preset and at both ends of every range.
@@ -28,7 +28,9 @@ pub struct ListArgs {
         long = "filter",
         visible_alias = "filters",
         value_delimiter = ',',
-        value_name = "FILTERS"
+        value_name = "FILTERS",
+        value_parser = filter_names(),
+        hide_possible_values = true
     )]
     pub filters: Vec<String>,
     /// Copy the named built-in scenes, or all, and bounds.toml into this folder. Nothing is

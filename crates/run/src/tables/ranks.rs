@@ -4,7 +4,7 @@ use judge::{RankedFilter, rank_presets};
 use measure::{FilterId, Run};
 use scene::FrameRate;
 
-use super::bracket_name;
+use terminal::table::bracket_name;
 
 /// Ranks of all presets of a run, each within its shutter and frame rate.
 pub struct Ranks(Vec<RankedFilter>);

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use frame::Size;
 
-use super::{InputFormArgs, ProgramArgs, SceneArgs, parse_even, parse_size, within};
+use super::{InputFormArgs, ProgramArgs, SceneArgs, filter_names, parse_even, parse_size, within};
 
 /// Choice of scenes, filters and inputs to measure.
 #[derive(Clone, Debug, Args)]
@@ -20,7 +20,9 @@ pub struct MeasureArgs {
         long = "filter",
         visible_alias = "filters",
         value_delimiter = ',',
-        value_name = "FILTERS"
+        value_name = "FILTERS",
+        value_parser = filter_names(),
+        hide_possible_values = true
     )]
     pub filters: Vec<String>,
     /// Preset of every filter [default: all presets].

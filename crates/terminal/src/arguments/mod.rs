@@ -1,6 +1,7 @@
 //! Arguments that commands share.
 
 mod frame_rates;
+mod hinted;
 mod input_forms;
 mod measure;
 mod parse;
@@ -10,6 +11,7 @@ mod scenes;
 mod scenes_root;
 
 pub use self::frame_rates::*;
+pub use self::hinted::*;
 pub use self::input_forms::*;
 pub use self::measure::*;
 pub use self::parse::*;

@@ -8,7 +8,7 @@ use measure::Error;
 use scene::SceneId;
 use tracer::RenderSettings;
 
-use super::{FrameRateArgs, RootArgs, parse_exposure, parse_samples, thread_count};
+use super::{FrameRateArgs, RootArgs, parse_exposure, parse_samples, scene_names, thread_count};
 use crate::selection::split_scene;
 
 /// On or off.
@@ -26,7 +26,7 @@ pub enum Switch {
 pub struct SceneArgs {
     /// Scenes: names, folders or patterns such as 'rail*', each with an optional @variant or @all
     /// [default: all].
-    #[arg(value_delimiter = ',', value_name = "SCENES", help_heading = None)]
+    #[arg(value_delimiter = ',', value_name = "SCENES", help_heading = None, value_parser = scene_names(), hide_possible_values = true)]
     pub scenes: Vec<String>,
     /// The same as an option: earlier commands, in run.json and in bounds.toml, have it.
     #[arg(

@@ -8,7 +8,7 @@ use measure::{
     Error, FilterChoice, Sharing, estimate_case_seconds, estimate_render_seconds, lock_folder,
     open_gpu,
 };
-use terminal::arguments::{AdapterArgs, ProgramArgs, SceneArgs, parse_size};
+use terminal::arguments::{AdapterArgs, ProgramArgs, SceneArgs, filter_names, parse_size};
 use terminal::expected::print_expected_time;
 use terminal::output::{count_text, make_monitor};
 use terminal::selection::{load_scenes, select_filters};
@@ -22,7 +22,7 @@ use crate::trial::Objective;
 #[derive(Debug, Args)]
 pub struct CandidateArgs {
     /// Filter: a name or a folder.
-    #[arg(help_heading = "Filters", long, value_name = "FILTER")]
+    #[arg(help_heading = "Filters", long, value_name = "FILTER", value_parser = filter_names(), hide_possible_values = true)]
     pub filter: String,
     /// Preset to start from [default: the filter's first].
     #[arg(help_heading = "Filters", long, value_name = "PRESET")]
@@ -79,9 +79,8 @@ impl CandidateArgs {
         Ok(open_gpu(filters, adapter, make_monitor())?)
     }
 
-    /// Renders or reads the scenes, and scores candidates on them. If the number of candidates is
-    /// known, prints the expected time and locks the folder meanwhile; otherwise other processes
-    /// may share it.
+    /// Prints the expected time, renders or reads the scenes, and scores candidates on them. If the number of candidates is
+    /// known, locks the folder meanwhile; otherwise other processes may share it.
     pub fn score<T>(
         &self,
         choice: &FilterChoice,
@@ -97,7 +96,10 @@ impl CandidateArgs {
                 print_expected_scoring(&scenes, &render, count, f64::INFINITY);
                 Sharing::Alone
             }
-            None => Sharing::Together,
+            None => {
+                print_expected_scoring(&scenes, &render, 1, f64::INFINITY);
+                Sharing::Together
+            }
         };
         let SceneArgs { out, .. } = &self.scenes;
         let locked = lock_folder(out, scenes.iter().map(|known| &known.scene), sharing)?;
