@@ -66,6 +66,7 @@ fn draw(scene: &Scene, time: f64) -> Capture {
         },
         convention: Convention::default(),
         color: frame.color,
+        lacks: Vec::new(),
         velocity: frame.velocity,
         velocity_next: None,
         velocity_z: None,
