@@ -1,6 +1,7 @@
 # `make run` does the main job, and `make site` makes a site of its results. `make test` proves that the program is right, and
 # `make prove` repeats it at full breadth within an hour: CONTRIBUTING.md. `make archive` makes the release archive; `make action` and
-# `make image` try it in a bare Debian and in two images: docs/release.md.
+# `make image` try it in a bare Debian and in two images. `make wheel` makes the Python wheel, and `make try_wheel` tries it:
+# docs/release.md.
 #
 # All look for a Vulkan driver first and, on Debian and Ubuntu, install the software one where there is none. The tests need Python:
 # Optuna drives the tuning service, Snakemake runs the jobs of a plan, numpy and OpenEXR compare presets with their originals, and

@@ -146,14 +146,13 @@ def score(
 
     image: scene-linear radiance, a float array of shape (height, width, 3) and of the truth's size.
     truth: the render of the frame that the picture was made from.
-    reference: what the picture should be, if there is no render; scored where the two pictures alone allow.
+    reference: what the picture should be, if there is no render: FLIP, squared error and PSNR of the whole picture.
     """
     if (truth is None) == (reference is None):
         raise Error("score needs a truth or a reference; allowed: one of the two")
-    image = _picture("image", image)
     if truth is not None:
-        return Scores(*_native.score(image, truth))
-    return Scores(*_native.score_pair(image, _picture("reference", reference)))
+        return Scores(*_native.score(_picture("image", image), truth))
+    return Scores(*_native.score_pair(*_pair("image", image, "reference", reference)))
 
 
 def run(
@@ -190,10 +189,7 @@ def flip(a: ArrayLike, b: ArrayLike, *, stops: float = 0.0, srgb: bool = False) 
     stops: exposure at which scene-linear pictures are shown: radiance times 2**stops is 1 at display white.
     srgb: True if the pictures are sRGB values in 0 to 1, such as a PNG's divided by 255.
     """
-    a, b = _picture("a", a), _picture("b", b)
-    if a.shape != b.shape:
-        raise Error(f"a has the shape {a.shape}, b has {b.shape}; FLIP compares pictures of one size")
-    return _native.flip(a, b, stops, srgb)
+    return _native.flip(*_pair("a", a, "b", b), stops, srgb)
 
 
 def _path(path: Optional[Path]) -> Optional[str]:
@@ -218,3 +214,17 @@ def _picture(what: str, pixels: ArrayLike) -> NDArray[np.float32]:
             "divide 8-bit values by 255 and decode sRGB first, and move channels to the end with numpy.moveaxis(array, 0, -1)"
         )
     return np.ascontiguousarray(array, dtype=np.float32)
+
+
+def _pair(
+    what: str, pixels: ArrayLike, other: str, other_pixels: ArrayLike
+) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Converts two pictures; refuses two sizes, and what is no number."""
+    pair = _picture(what, pixels), _picture(other, other_pixels)
+    if pair[0].shape != pair[1].shape:
+        raise Error(f"{what} has the shape {pair[0].shape}, {other} has {pair[1].shape}; allowed: pictures of one size")
+    for name, array in zip((what, other), pair):
+        if not np.isfinite(array).all():
+            y, x, _ = np.argwhere(~np.isfinite(array))[0]
+            raise Error(f"{name} holds {array[y, x]} at column {x}, row {y}; allowed: finite numbers")
+    return pair
