@@ -82,7 +82,17 @@ fn scenes_root(folder: Option<&str>) -> Location {
 
 fn load(name: String, options: &RenderOptions) -> Result<Scene, Error> {
     let root = scenes_root(options.scenes_dir.as_deref());
-    let mut choices = select_scenes(root, &[name])?;
+    let mut choices = select_scenes(root, std::slice::from_ref(&name))?;
+    if choices.len() > 1 {
+        let names: Vec<String> = (choices.iter())
+            .map(|choice| choice.scene.id.to_string())
+            .collect();
+        return Err(Error::Refused(format!(
+            "scene \"{name}\" names {} scenes; allowed: one, such as {}",
+            names.len(),
+            names.join(", ")
+        )));
+    }
     Ok(choices.remove(0).scene.at_frame(options.at_frame))
 }
 

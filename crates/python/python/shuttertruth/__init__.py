@@ -13,6 +13,7 @@ processor alone; `blur` and `run` need a Vulkan driver.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from numbers import Integral
 from os import PathLike, fspath
 from typing import Any, Optional, Union
 
@@ -91,12 +92,12 @@ def render(
     options = {
         "size": _size(size),
         "exposure": exposure,
-        "samples": samples,
-        "seed": seed,
-        "subframes": subframes,
+        "samples": _count("samples", samples),
+        "seed": _count("seed", seed, 2**64),
+        "subframes": _count("subframes", subframes),
         "alignment": alignment,
         "velocity": velocity,
-        "at_frame": at_frame,
+        "at_frame": _count("at_frame", at_frame),
         "noise": noise,
         "scenes_dir": _path(scenes_dir),
     }
@@ -128,7 +129,7 @@ def blur(
     options = {
         "set": {name: _text(value) for name, value in set.items()},
         "as_written": as_written,
-        "frame_index": frame_index,
+        "frame_index": _count("frame_index", frame_index),
         "adapter": adapter,
         "allow_commands": allow_commands,
     }
@@ -200,9 +201,19 @@ def _text(value: Any) -> str:
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 
+def _count(what: str, number: int, limit: int = 2**32) -> int:
+    """Returns a whole number; refuses others."""
+    if not isinstance(number, Integral) or not 0 <= number < limit:
+        raise Error(f"{what} is {number!r}; allowed: whole numbers from 0 to {limit - 1}")
+    return int(number)
+
+
 def _size(size: tuple[int, int]) -> list[int]:
-    width, height = size
-    return [int(width), int(height)]
+    """Returns columns and rows; refuses what is not two of them."""
+    sides = list(size) if isinstance(size, Iterable) else [size]
+    if len(sides) != 2 or not all(isinstance(side, Integral) and 16 <= side <= 16384 for side in sides):
+        raise Error(f"size is {size!r}; allowed: columns and rows from 16 to 16384, such as (640, 360)")
+    return [int(side) for side in sides]
 
 
 def _picture(what: str, pixels: ArrayLike) -> NDArray[np.float32]:
