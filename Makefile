@@ -10,7 +10,7 @@
 # shaders in GLSL. `make prove` needs Blender and mdBook, too.
 # On macOS and Windows plain cargo commands work.
 
-.PHONY: run site pictures test module wheel try_wheel prove breadth guides fuzz mutants growth archive action image publish vulkan software_vulkan python chromium node glslang blender mdbook
+.PHONY: run site pictures test module wheel try_wheel prove breadth guides fuzz mutants growth archive action release image publish vulkan software_vulkan python chromium node glslang blender mdbook
 
 # Mesa complains on every start where a login session has not set it, as in containers; nothing is written there.
 export XDG_RUNTIME_DIR ?= /tmp
@@ -21,12 +21,12 @@ TARGET_DIR := $(or $(CARGO_TARGET_DIR),target)
 SCENES ?= sliding_panel,panel_over_texture,two_spheres,railing,fan
 
 run: vulkan
-	cargo run --locked --bin shuttertruth -- run $(if $(SCENES),--scenes $(SCENES)) --samples-per-pixel 64 --out out
+	cargo run --locked --bin shuttertruth -- run $(SCENES) --samples-per-pixel 64 --out out
 
 # A static site in target/site: results, a page per engine, the gallery, live cases of $(SCENES), and the guides.
 site: vulkan mdbook
 	cargo build --locked --bin shuttertruth --example results
-	"$(PROGRAM)" run --scenes $(SCENES) --size 320x180 --samples-per-pixel 64 --out "$(TARGET_DIR)/site_run" \
+	"$(PROGRAM)" run $(SCENES) --size 320x180 --samples-per-pixel 64 --out "$(TARGET_DIR)/site_run" \
 	    --filter "identity$$(sed -n 's/^shape = "\(.*\)"/,\1/p' results/engines.toml | tr -d '\n')"
 	rm -rf "$(TARGET_DIR)/site_source"
 	"$(dir $(PROGRAM))examples/results" --site "$(TARGET_DIR)/site_source" "$(TARGET_DIR)/site_run/run.json"
@@ -112,7 +112,7 @@ PROGRAM = $(TARGET_DIR)/debug/shuttertruth
 growth: software_vulkan python
 	rm -rf "$(GROWTH)"
 	$(TEST) --no-run
-	"$(PROGRAM)" check --scenes sliding_panel --filter mcguire:paper --size 160x90 --samples-per-pixel 64 --out "$(GROWTH)/small"
+	"$(PROGRAM)" check sliding_panel --filter mcguire:paper --size 160x90 --samples-per-pixel 64 --out "$(GROWTH)/small"
 	"$(PYTHON)" examples/growth.py "$(GROWTH)/small" --scenes 100 --filters 94 --out "$(GROWTH)/large" --program "$(PROGRAM)"
 
 archive:
@@ -125,6 +125,9 @@ ARCHIVE = $(shell ls -t target/archive/shuttertruth-*-$(shell rustc -vV | sed -n
 action: archive python
 	"$(PYTHON)" -c 'import yaml' 2>/dev/null || "$(PYTHON)" -m pip install -q pyyaml==6.0.3
 	"$(PYTHON)" release/try_action.py "$(ARCHIVE)" $(if $(ROOT),--root "$(ROOT)")
+
+# As root: everything that a release consists of, each tried as its user would.
+release: archive try_wheel action publish
 
 # As root: BASE=IMAGE names another base than Debian's image of Docker Hub.
 image: archive

@@ -1,6 +1,6 @@
 """Measures how merge, check and report grow: makes a large run of copies of a small one, and times the commands on it.
 
-    shuttertruth check --scenes sliding_panel --filter mcguire:paper --size 160x90 --samples-per-pixel 64 --out out/small
+    shuttertruth check sliding_panel --filter mcguire:paper --size 160x90 --samples-per-pixel 64 --out out/small
     python3 examples/growth.py out/small --scenes 100 --filters 94 --out out/growth
 
 The small run has one scene and one filter. Every copy of the scene has its references and `--filters` copies of the filter, each a

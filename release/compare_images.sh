@@ -14,7 +14,7 @@ for name in one two; do
     container=$($buildah from --pull-never "localhost/shuttertruth:$name")
     mkdir "$work/$name"
     $buildah run --isolation chroot --volume "$work/$name:/work" "$container" -- \
-        shuttertruth check --scenes fan --filter mcguire:paper --quiet --out /work/out
+        shuttertruth check fan --filter mcguire:paper --quiet --out /work/out
 done
 for file in run.json fan/frame.exr fan/truth_centred.exr fan/mcguire_paper/output.exr; do
     cmp "$work/one/out/$file" "$work/two/out/$file"

@@ -4,15 +4,20 @@ use std::path::Path;
 use std::process::Command;
 
 /// Source folders of the program, relative to this crate.
-const SOURCES: [&str; 4] = [
+const SOURCES: [&str; 5] = [
     "../../Cargo.lock",
     "../../crates",
+    EXAMPLES,
     "../../scenes",
     "../../shaders",
 ];
 
+/// Filters that the command `new` writes.
+const EXAMPLES: &str = "../../examples/first_blur";
+
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
+    println!("cargo::rerun-if-changed={EXAMPLES}");
     println!("cargo::rerun-if-env-changed=SHUTTERTRUTH_COMMIT");
     let version = env("CARGO_PKG_VERSION");
     let target = env("TARGET");

@@ -4,7 +4,7 @@
     blender -b --python examples/blender/blender.py -- out/gltf/railing captures/railing --size 160x90
     shuttertruth engine audit captures/railing
     shuttertruth engine ingest captures/railing
-    shuttertruth run --scenes railing,out/engine/railing
+    shuttertruth run railing out/engine/railing
 
 The blur is the compositor's Vector Blur, which reads the vector pass as a real-time blur reads its velocity buffer, or with
 `--blur cycles` the motion blur of Cycles, which opens a shutter. `--blur none` draws neither blur nor sub-frames.

@@ -150,7 +150,7 @@ class Scores:
     def __init__(self, arguments, manifest, more=()):
         words = [arguments.program, "tune", "evaluate", "--filter", str(arguments.filter), "--from", arguments.preset, "--objective", "flip"]
         words += ["--size", arguments.size, "--samples-per-pixel", arguments.samples_per_pixel, "--scenes-dir", arguments.scenes_dir]
-        words += ["--out", arguments.out, "--quiet", *(["--scenes", arguments.scenes] if arguments.scenes else []), *more]
+        words += ["--out", arguments.out, "--quiet", *([arguments.scenes] if arguments.scenes else []), *more]
         self.words = [*words, "--params"]
         self.manifest = manifest
         self.width = int(arguments.size.split("x")[0])

@@ -145,7 +145,7 @@ def text(value):
 
 def render(arguments, scenes=SCENES):
     shuttertruth(arguments, [
-        "truths", "render", "--quiet", "--scenes", ",".join(scenes), "--scenes-dir", arguments.scenes_dir, "--size", arguments.size,
+        "truths", "render", "--quiet", *scenes, "--scenes-dir", arguments.scenes_dir, "--size", arguments.size,
         "--samples-per-pixel", "8", "--replicates", "2", "--further-velocities", "--out", str(arguments.out)])
     return [Frame(arguments.out / scene / "frame.exr") for scene in scenes]
 

@@ -1,6 +1,6 @@
 """Compares captures of three.js with the tracer's renders, and three.js's blur with the mean of its own sub-frames.
 
-    shuttertruth truths render --scenes railing --size 320x180 --velocity previous_frame --out out/render
+    shuttertruth truths render railing --size 320x180 --velocity previous_frame --out out/render
     python3 examples/threejs/compare.py out/capture/railing out/render/railing
 
 Arguments are pairs: a capture, and the folder of the rendered scene, or the word `still` for a capture with `--before 0`, in which

@@ -16,6 +16,7 @@ mod empty_folder;
 #[path = "../../crates/engine/tests/program/mod.rs"]
 mod engine;
 mod exclusion;
+mod exported_tables;
 mod failures;
 mod fidelity;
 mod finished_sequence;
@@ -34,8 +35,12 @@ mod interrupts;
 mod kept;
 mod kept_cases;
 mod links;
+#[cfg(target_os = "linux")]
+mod look;
+mod new;
 mod own_filter;
 mod pictures;
+mod previous;
 mod quotes;
 mod reference_width;
 mod refusals;
@@ -46,6 +51,7 @@ mod scene_notes;
 mod score;
 mod sequences;
 mod set_up;
+mod settings;
 mod shared_runs;
 mod shipped_files;
 #[cfg(target_os = "linux")]

@@ -1,7 +1,5 @@
 //! The guide's filter, and the error messages that the guide quotes.
 
-use tests::text::code_block;
-
 use crate::sandbox::{Sandbox, stderr};
 
 const GUIDE: &str = include_str!("../../docs/add-a-filter.md");
@@ -12,22 +10,27 @@ fn section() -> &'static str {
     start.split_once("\n## ").unwrap().0
 }
 
-/// Returns the section's first code block in this language.
-fn block(language: &str) -> &'static str {
-    code_block(section(), &format!("```{language}\n"))
-}
+/// Files of the guide's filter, which `new --from wgsl` writes.
+const FILES: [(&str, &str); 2] = [
+    (
+        "filter.toml",
+        include_str!("../../examples/first_blur/wgsl/filter.toml"),
+    ),
+    (
+        "my_blur.wgsl",
+        include_str!("../../examples/first_blur/wgsl/my_blur.wgsl"),
+    ),
+];
 
 /// Writes the guide's filter, with one of its mistakes if asked.
 fn write(sandbox: &Sandbox, change: Option<&Mistake>) {
-    let [manifest, kernels] =
-        [("filter.toml", "toml"), ("my_blur.wgsl", "wgsl")].map(|(name, language)| match change {
-            Some(change) if change.file == name => {
-                let text = block(language);
-                assert!(text.contains(change.from), "{name} holds {}", change.from);
-                text.replace(change.from, change.to)
-            }
-            _ => block(language).to_owned(),
-        });
+    let [manifest, kernels] = FILES.map(|(name, text)| match change {
+        Some(change) if change.file == name => {
+            assert!(text.contains(change.from), "{name} holds {}", change.from);
+            text.replace(change.from, change.to)
+        }
+        _ => text.to_owned(),
+    });
     sandbox.write_filter("my_blur", &manifest, &kernels);
 }
 
@@ -65,7 +68,7 @@ fn read_mistakes() -> Vec<Mistake> {
 fn the_guide_s_filter_runs_and_beats_the_identity() {
     let sandbox = Sandbox::new();
     write(&sandbox, None);
-    assert!(block("wgsl").lines().count() <= 20);
+    assert!(FILES[1].1.lines().count() <= 20);
     sandbox.measure("--filters identity --filter my_blur");
     let cases = sandbox.read_filter_cases();
     let flip = |case: usize| cases[case].scores.moving.flip.value().unwrap();

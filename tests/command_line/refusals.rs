@@ -75,7 +75,10 @@ fn a_bad_scene_is_refused_with_file_and_line_and_leaves_nothing_behind() {
 fn bad_bounds_are_refused_with_file_and_line_and_leave_nothing_behind() {
     let sandbox = Sandbox::new();
     sandbox.write_bound(0.0001);
-    assert_done(&sandbox.run(&["--filters", "identity"]));
+    assert_eq!(
+        sandbox.check(&["--filters", "identity"]).status.code(),
+        Some(1)
+    );
     assert_eq!(sandbox.read_findings().len(), 1);
     fs::remove_dir_all(sandbox.path("out")).unwrap();
     let rows: [(&str, &[&str]); 2] = [

@@ -5,6 +5,8 @@ use std::fs;
 
 use tests::root;
 
+use crate::links::find_pages;
+
 fn read(path: &str) -> String {
     fs::read_to_string(root().join(path)).unwrap()
 }
@@ -94,4 +96,24 @@ fn cargo_binstall_looks_for_the_archive_by_its_name() {
     assert!(url.ends_with(&end), "{url}");
     let folder = format!("{name}/shuttertruth{{ binary-ext }}");
     assert_eq!(binstall["bin-dir"].as_str().unwrap(), folder);
+}
+
+#[test]
+fn the_citation_has_the_version_of_the_package() {
+    let version = env!("CARGO_PKG_VERSION");
+    let citation = read("CITATION.cff");
+    assert!(
+        citation.contains(&format!("\nversion: {version}\n")),
+        "{citation}"
+    );
+}
+
+#[test]
+fn no_page_leads_to_an_address_that_does_not_exist() {
+    let pages = find_pages(&root());
+    assert!(pages.len() > 50, "{}", pages.len());
+    for page in pages {
+        let text = fs::read_to_string(&page).unwrap();
+        assert!(!text.contains("OWNER/"), "{}", page.display());
+    }
 }

@@ -25,7 +25,7 @@ fn a_run_ranks_filters_in_at_most_40_lines_and_names_the_report() {
 fn filters_within_noise_share_ranks() {
     let filters = "--filters jump_flood:paper,jump_flood_packed:paper,identity";
     let text = Sandbox::new().measure(filters);
-    let is_filter = |line: &&str| line.contains(":paper") || line.contains("identity:");
+    let is_filter = |line: &&str| line.contains(":paper") || line.contains("- no blur");
     let rows = text.lines().filter(is_filter);
     let ranks: Vec<&str> = rows.map(|line| split(line)[0]).collect();
     assert_eq!(ranks, ["1-2", "1-2", "-"], "{text}");
@@ -41,10 +41,7 @@ fn no_blur_is_a_reference_and_never_the_best_filter() {
         text.starts_with(&format!("trailing shutter: {none}\n")),
         "{text}"
     );
-    assert_contains(
-        &text,
-        &["   - identity:default", "   1 camera_gather:default"],
-    );
+    assert_contains(&text, &["   - no blur", "   1 camera_gather:default"]);
     let page = sandbox.text("out/report.html");
     let due = format!(
         "With a trailing shutter <strong>{none}</strong>; first: <strong><a href=\"#filter:camera_gather:default\">"
@@ -59,11 +56,56 @@ fn no_blur_is_a_reference_and_never_the_best_filter() {
     let text = sandbox.measure("--filters camera_gather:default");
     assert_contains(&text, &[none]);
     let text = sandbox.measure("--filters identity,jump_flood:paper");
-    assert!(!text.contains("no blur"), "{text}");
+    assert!(!text.contains(none), "{text}");
     assert_contains(
         &sandbox.text("out/report.html"),
         &["Best with a trailing shutter: <strong>"],
     );
+}
+
+#[test]
+fn no_blur_has_a_row_in_every_shutter_and_few_scenes_are_said_to_be_few() {
+    let sandbox = Sandbox::two_scenes();
+    let text = sandbox.measure("--filters velocity_gather:fine,bevy:default");
+    assert_eq!(text.matches("   - no blur").count(), 2, "{text}");
+    let cases = sandbox.read_run().cases.into_iter();
+    let none: Vec<f64> = (cases.filter(|case| case.is_reference && case.filter == "identity"))
+        .filter(|case| case.alignment == frame::Alignment::Centred)
+        .map(|case| case.estimate(metrics::Metric::FLIP).unwrap())
+        .collect();
+    let mean = format!("{:.3}", (none[0] + none[1]) / 2.0);
+    let (_, centred) = text.split_once("centred shutter\n").unwrap();
+    let row = centred
+        .lines()
+        .find(|line| line.contains("- no blur"))
+        .unwrap();
+    assert_eq!(split(row)[3], mean, "{text}");
+    assert_contains(
+        &tests::text::squeeze(&text),
+        &["Few scenes: a mean over 2 is uncertain."],
+    );
+    let table = sandbox.measure("--filters velocity_gather:fine,bevy:default --table");
+    assert_contains(
+        &table,
+        &[
+            "  1 velocity_gather:fine",
+            "  1 bevy:default",
+            "  [identity]",
+        ],
+    );
+}
+
+#[test]
+fn a_scene_whose_noise_hides_the_blur_says_how_many_samples_it_needs() {
+    let sandbox = Sandbox::new();
+    let said = "these scenes cannot separate filters";
+    let filter = "--filters velocity_gather:fine";
+    assert!(!sandbox.measure(filter).contains(said));
+    // A thousandth of the motion, as little as the noise.
+    sandbox.edit("scenes/plate/scene.toml", "[-1.6, 0, 0]", "[-0.002, 0, 0]");
+    let text = tests::text::squeeze(&sandbox.measure(filter));
+    assert_contains(&text, &[said, "plate (trailing shutter: "]);
+    assert_contains(&sandbox.text("out/report.html"), &[said]);
 }
 
 #[test]

@@ -44,7 +44,12 @@ fn list_features(arguments: &[&str]) -> Features {
         "--format",
         "{p} {f}",
     ]);
-    let output = (cargo.args(arguments).arg("--manifest-path").arg(root).output()).expect("cargo");
+    let output = (cargo
+        .args(arguments)
+        .arg("--manifest-path")
+        .arg(root)
+        .output())
+    .expect("cargo");
     let text = String::from_utf8(output.stdout).expect("text");
     let mut features = Features::new();
     for line in text.lines() {

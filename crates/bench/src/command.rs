@@ -11,10 +11,12 @@ use measure::{Error, open_adapter};
 use terminal::arguments::{AdapterArgs, parse_size, within};
 use terminal::expected::print_expected_time;
 use terminal::output::make_monitor;
-use terminal::result::write_result;
+use terminal::result::{write_json, write_result};
 use terminal::selection::{Programs, select_filters};
+use terminal::table::TableArgs;
 
 use crate::page::BENCH_FILE;
+use crate::table::{bench_csv, bench_markdown};
 use crate::{BenchPlan, bench, bench_table};
 
 /// Arguments of `bench`.
@@ -55,6 +57,9 @@ pub struct BenchArgs {
     /// Print bench.json to standard output instead of the tables.
     #[arg(help_heading = "Output", long)]
     pub json: bool,
+    /// Other forms of the table.
+    #[command(flatten)]
+    pub tables: TableArgs,
 }
 
 /// Time that llvmpipe on two cores needs to filter a pixel, in seconds: the built-in filters' mean
@@ -89,6 +94,10 @@ pub fn execute(args: &BenchArgs) -> Result<(), Error> {
     print_expected_bench(&plan, &gpu);
     let done = make_monitor().watch("bench", |watch| bench(plan, &gpu, watch))?;
     let path = args.out.join(BENCH_FILE);
+    let markdown = || bench_markdown(&done);
+    if args.tables.write(|| bench_csv(&done), markdown)? {
+        return write_json(&path, &done).map(drop);
+    }
     write_result(&path, &done, bench_table(&done), args.json)
 }
 

@@ -1,7 +1,7 @@
 //! Tables of a bench.
 
 use terminal::output::{Text, push_wrapped};
-use terminal::table::{Table, cell};
+use terminal::table::{Table, cell, csv_number, csv_table};
 
 use crate::{BASELINE, Bench, CaseCost, GROWTH_FROM, REACHES, Spread};
 
@@ -24,8 +24,50 @@ pub fn bench_table(bench: &Bench) -> Text {
     text
 }
 
+/// Makes the table of costs as Markdown.
+pub fn bench_markdown(bench: &Bench) -> String {
+    cost_table(bench).markdown()
+}
+
+/// Makes all times as CSV: a row per filter, with an empty pass, and one per pass of it.
+pub fn bench_csv(bench: &Bench) -> String {
+    let titles = "filter pass milliseconds lower_quartile upper_quartile bytes_per_pixel";
+    let titles: Vec<&str> = titles.split(' ').collect();
+    let row = |filter: &str, pass: &str, seconds: &Spread, bytes: Option<f64>| {
+        let times = [
+            seconds.median,
+            seconds.lower_quartile,
+            seconds.upper_quartile,
+        ];
+        let times = times.map(|time| csv_number(Some(1e3 * time)));
+        let mut row = vec![filter.to_owned(), pass.to_owned()];
+        row.extend(times);
+        row.push(csv_number(bytes));
+        row
+    };
+    let rows = bench.cases.iter().flat_map(|case| {
+        let filter = format!("{}:{}", case.filter, case.preset);
+        let whole = row(&filter, "", &case.seconds, case.bytes_per_pixel);
+        let passes = (case.passes.iter())
+            .map(|pass| row(&filter, &pass.entry, &pass.seconds, pass.bytes_per_pixel));
+        let passes: Vec<Vec<String>> = passes.collect();
+        std::iter::once(whole).chain(passes)
+    });
+    csv_table(&titles, rows)
+}
+
 fn push_costs(text: &mut Text, bench: &Bench) {
     *text += format!("{}\n", bench.frame_text());
+    *text += cost_table(bench).text() + "\n";
+    let legend = format!(
+        "baseline: {BASELINE}. B/px: every texture that a pass reads or writes, counted once per pass. of copy: those bytes per \
+         second, as a part of what copying a buffer reached."
+    );
+    push_wrapped(text, 0, legend);
+    *text += "\n";
+}
+
+fn cost_table(bench: &Bench) -> Table {
     let mut table = Table::new("filter / pass", ["ms", "x baseline", "B/px", "of copy"]);
     for case in &bench.cases {
         let cells = [
@@ -43,13 +85,7 @@ fn push_costs(text: &mut Text, bench: &Bench) {
         let cells = [spread_text(&copy.seconds, 1e3), none(), none(), speed];
         table.push("copy of a buffer", cells);
     }
-    *text += table.text() + "\n";
-    let legend = format!(
-        "baseline: {BASELINE}. B/px: every texture that a pass reads or writes, counted once per pass. of copy: those bytes per \
-         second, as a part of what copying a buffer reached."
-    );
-    push_wrapped(text, 0, legend);
-    *text += "\n";
+    table
 }
 
 fn push_passes(table: &mut Table, case: &CaseCost) {

@@ -12,6 +12,7 @@ use terminal::arguments::{
     AdapterArgs, MeasureArgs, ProgramArgs, RootArgs, RunOptions, SceneArgs, SequenceArgs,
 };
 use terminal::output::OutputArgs;
+use terminal::settings::Settings;
 
 /// Columns of help on the page of all commands.
 const WIDTH: usize = 100;
@@ -108,7 +109,7 @@ const SHARED: [(&str, Group); 9] = [
 /// Makes the page of all commands: its own introduction, each command's help, and the shared
 /// arguments.
 fn commands_page(written: &str) -> String {
-    let program = Cli::command_line();
+    let program = Cli::command_line(&Settings::default());
     let mut text = written.split("\n## ").next().unwrap().to_owned();
     let below = (program.get_subcommands()).filter(|command| command.get_name() != "help");
     let below = below.flat_map(|command| once(command).chain(command.get_subcommands()));
@@ -122,7 +123,10 @@ fn commands_page(written: &str) -> String {
             groups.map(move |(group, ids)| (command, group, ids))
         });
         let (command, _, ids) = shared.find(|(_, group, _)| *group == title).expect(title);
-        text += &format!("\n## {title}\n\n{}", help(command, "{options}", &ids));
+        text += &format!(
+            "\n## {title}\n\n{}",
+            help(command, "{positionals}\n{options}", &ids)
+        );
     }
     text
 }

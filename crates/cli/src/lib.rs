@@ -16,6 +16,7 @@ use terminal::output::{
     INTERRUPTED_TEXT, catch_interrupts, interrupted_code, print_error, print_failure, set_output,
 };
 use terminal::result::Ending;
+use terminal::settings::Settings;
 use tracer::TraceError;
 
 pub use gate::{annotations, check_text, junit, summary};
@@ -28,7 +29,15 @@ pub use terminal::table::{list_once, markdown_table, range_text};
 /// code.
 pub fn run_program(words: &[OsString]) -> u8 {
     catch_interrupts();
-    let arguments = Cli::parse_words(words).unwrap_or_else(|error| refuse_arguments(words, &error));
+    let settings = match Settings::read() {
+        Ok(settings) => settings,
+        Err(error) => {
+            print_failure(&error);
+            return exit_code(&error);
+        }
+    };
+    let arguments = Cli::parse_words(words, &settings)
+        .unwrap_or_else(|error| refuse_arguments(words, &error, &settings));
     set_output(arguments.output);
     match execute(&arguments) {
         Ok(Ending::Done) => 0,
@@ -71,13 +80,13 @@ fn way_out(error: &Error) -> Option<&'static str> {
 }
 
 /// Prints an error of the command line, or the requested help.
-fn refuse_arguments(words: &[OsString], error: &clap::Error) -> ! {
+fn refuse_arguments(words: &[OsString], error: &clap::Error, settings: &Settings) -> ! {
     if let Some(place) = find_new_place(error) {
         print_failure(&Error::Refused(place));
         std::process::exit(error.exit_code())
     }
     // Words may be file names with control codes, which the message must show as escapes.
     let words = (words.iter()).map(|word| printable(&word.to_string_lossy()).into_owned());
-    let shown = Cli::parse_words(words).err();
+    let shown = Cli::parse_words(words, settings).err();
     shown.as_ref().unwrap_or(error).exit()
 }

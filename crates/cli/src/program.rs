@@ -8,8 +8,9 @@ use measure::Error;
 
 use crate::commands::*;
 use engine::command::{audit, export, import, ingest};
-use terminal::output::OutputArgs;
+use terminal::output::{OutputArgs, print_note};
 use terminal::result::Ending;
+use terminal::settings::{FromFile, Settings};
 
 /// Version, commit and target of the program.
 const VERSION: &str = env!("SHUTTERTRUTH_VERSION");
@@ -26,11 +27,55 @@ pub struct Cli {
     /// Number of threads that the command is given.
     #[arg(skip)]
     pub threads: Option<usize>,
+    /// Settings of the working folder.
+    #[arg(skip)]
+    pub settings: Settings,
+    /// Values of the command that are the settings', in words.
+    #[arg(skip)]
+    pub from_file: Option<String>,
 }
+
+/// What the settings give each command.
+const FROM_FILE: [FromFile; 8] = [
+    FromFile {
+        command: "run",
+        keys: "scenes size samples_per_pixel filters out",
+    },
+    FromFile {
+        command: "check",
+        keys: "scenes size samples_per_pixel filters out baseline",
+    },
+    FromFile {
+        command: "report",
+        keys: "out:run",
+    },
+    FromFile {
+        command: "compare",
+        keys: "out:first",
+    },
+    FromFile {
+        command: "bench",
+        keys: "filters out",
+    },
+    FromFile {
+        command: "truths render",
+        keys: "scenes size samples_per_pixel out",
+    },
+    FromFile {
+        command: "limits accept",
+        keys: "out baseline",
+    },
+    FromFile {
+        command: "limits calibrate",
+        keys: "scenes size samples_per_pixel filters out",
+    },
+];
 
 /// The commands.
 #[derive(Debug, Subcommand)]
 pub enum Command {
+    /// Begin a filter of your own: write an engine's example, and try it
+    New(new::NewArgs),
     /// Render scenes, run filters, measure and rank them
     ///
     /// Prints a ranking; writes report.html, run.json, EXR and PNG.
@@ -41,7 +86,7 @@ pub enum Command {
     Score(score::ScoreArgs),
     /// Write a finished run or tuning as one HTML page
     Report(report::ReportArgs),
-    /// Compare two finished runs: which scores changed by more than noise
+    /// Compare two runs: which scores changed by more than noise
     Compare(compare::CompareArgs),
     /// List scenes, filters, parameters, presets, inputs and adapters
     List(list::ListArgs),
@@ -62,10 +107,8 @@ pub enum Command {
     #[command(subcommand, disable_help_subcommand = true)]
     Limits(LimitsCommand),
     /// Print completions for a shell
-    #[command(hide = true)]
     Completions(description::CompletionsArgs),
     /// Write the pages of the manual
-    #[command(hide = true)]
     Man(description::ManArgs),
 }
 
@@ -107,17 +150,16 @@ pub enum LimitsCommand {
 
 impl Cli {
     /// Makes the command line with help that lists the commands for beginners.
-    pub fn command_line() -> clap::Command {
-        let mut program = Self::command();
+    pub fn command_line(settings: &Settings) -> clap::Command {
+        let mut program = settings.give_defaults(Self::command(), &FROM_FILE);
         program.build();
-        // The commands have headings.
+        // The commands have headings, and say more about colours; a screen has 24 lines.
         (program.mut_subcommand("help", |help| help.hide(true)))
-            .mut_args(|argument| argument.help_heading(None::<&str>))
-    }
-
-    /// Makes the command line with all commands, for completions and the manual.
-    fn all_visible() -> clap::Command {
-        Self::command().mut_subcommands(|command| command.hide(false))
+            .mut_args(|argument| {
+                let is_color = argument.get_id() == "color";
+                argument.help_heading(None::<&str>).hide(is_color)
+            })
+            .help_template("{about-with-newline}{usage-heading} {usage}\n\n{all-args}")
     }
 
     /// Parses the words of a command line.
@@ -126,17 +168,29 @@ impl Cli {
     /// The words are wrong, or ask for help.
     pub fn parse_words<W: Into<OsString> + Clone>(
         words: impl IntoIterator<Item = W>,
+        settings: &Settings,
     ) -> Result<Self, clap::Error> {
-        let mut program = Self::command_line();
+        let mut program = Self::command_line(settings);
         let matches = program.try_get_matches_from_mut(words)?;
         let parsed =
             Self::from_arg_matches(&matches).map_err(|error| error.format(&mut program))?;
         let mut command = &matches;
-        while let Some((_, inner)) = command.subcommand() {
+        let mut names = Vec::new();
+        while let Some((name, inner)) = command.subcommand() {
             command = inner;
+            names.push(name);
         }
+        let from = FROM_FILE
+            .iter()
+            .find(|from| from.command == names.join(" "));
+        let from_file = from.and_then(|from| settings.used_text(command, from));
         let threads = command.try_get_one("threads").unwrap_or(None).copied();
-        Ok(Self { threads, ..parsed })
+        Ok(Self {
+            threads,
+            settings: settings.clone(),
+            from_file,
+            ..parsed
+        })
     }
 }
 
@@ -169,14 +223,16 @@ pub fn execute(program: &Cli) -> Result<Ending, Error> {
             .build_global()
             .map_err(|error| Error::Refused(format!("cannot start the threads: {error}")))?;
     }
+    program.from_file.iter().for_each(|text| print_note(text));
     let done = match &program.command {
+        Command::New(args) => new::execute(args),
         Command::Run(args) => run::execute(args, &report::ADDITIONS),
         Command::Check(args) => return gate::execute_check(args, &report::ADDITIONS),
         Command::Score(args) if args.frames > 1 => score_sequence::execute(args),
         Command::Score(args) => score::execute(args),
         Command::Report(args) => report::execute(args),
         Command::Compare(args) => compare::execute(args),
-        Command::List(args) => list::execute(args),
+        Command::List(args) => list::execute(args, &program.settings),
         Command::Bench(args) => bench::execute(args),
         Command::Tune(command) => tune::execute(command),
         Command::Engine(EngineCommand::Import(args)) => import::execute(args),
@@ -188,8 +244,8 @@ pub fn execute(program: &Cli) -> Result<Ending, Error> {
         Command::Truths(TruthsCommand::Merge(args)) => merge::execute(args),
         Command::Limits(LimitsCommand::Accept(args)) => gate::execute_accept(args),
         Command::Limits(LimitsCommand::Calibrate(args)) => gate::execute_calibrate(args),
-        Command::Completions(args) => description::print_completions(args, Cli::all_visible()),
-        Command::Man(args) => description::write_manual(args, Cli::all_visible()),
+        Command::Completions(args) => description::print_completions(args, Cli::command()),
+        Command::Man(args) => description::write_manual(args, Cli::command()),
     };
     done.map(|()| Ending::Done)
 }

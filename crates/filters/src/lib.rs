@@ -42,4 +42,5 @@ pub use gpu::{
     PassTime, list_adapters, try_out,
 };
 pub use input::Input;
+pub use manifest::check_filter_name;
 pub use shader::Format;

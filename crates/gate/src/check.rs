@@ -77,7 +77,7 @@ impl Check {
         match self.decision {
             Decision::Pass => Ok(()),
             Decision::Inconclusive => Err(Error::Inconclusive(format!(
-                "{} from the truth's noise; raise the samples per pixel as said above",
+                "{} from the truth's noise; what settles it is said above",
                 either(
                     counted(
                         bounds,

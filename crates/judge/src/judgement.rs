@@ -75,7 +75,7 @@ impl Judgement {
         let text = read_text_within(&path, MAX_RUN_BYTES)?;
         let refuse = |reason: String| {
             Error::Refused(format!(
-                "{}: {reason}; judge the run again: shuttertruth check {}",
+                "{}: {reason}; judge the run again: shuttertruth check --run {}",
                 path.display(),
                 folder.join("run.json").display()
             ))

@@ -4,6 +4,7 @@ mod bounds;
 mod compare;
 mod decoys;
 mod evidence;
+mod few_scenes;
 mod finding;
 mod groups;
 mod judged_score;
@@ -28,6 +29,7 @@ pub use compare::{
 };
 pub use decoys::{Resemblance, make_wrong_pictures};
 pub use evidence::add_evidence;
+pub use few_scenes::few_scenes_text;
 pub use finding::{Finding, MAX_SAMPLES, settling_samples};
 use judged_score::judge_sequence;
 pub use judged_score::{JudgedScore, judge_scores};
@@ -36,10 +38,11 @@ use measure::{Case, Run, Sequence};
 pub use numbers::{number, round_to_digits};
 pub use outcome::{Decision, Outcome};
 pub use ranking::filters::{
-    MAX_RANKED, RANK_RULE, RankedFilter, list_summarized, rank_for_summary,
+    MAX_RANKED, RANK_RULE, RankedFilter, list_summarized, rank_for_summary, rank_presets,
 };
 pub use ranking::lag::{lag_text, mean_lag};
 pub use ranking::no_blur::no_gain_text;
+pub use ranking::separation::{Inseparable, inseparable_text, list_inseparable};
 pub use ranking::sequence_ranking::{RANKED_BY, RankedSequence, rank_sequences, rank_sequences_on};
 pub use ranking::side_effects::{SIDE_EFFECTS_RULE, SideEffects};
 pub use results::{ResultScores, Results};

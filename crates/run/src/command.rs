@@ -4,16 +4,21 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use clap::Args;
-use judge::{Level, judge};
 use measure::{Error, Part, Run, open_gpu, printable_path, refuse_failures};
 use report::AddToPage;
 
 use crate::measured::{MeasuredRun, measure};
 use crate::pages::{WrittenFile, page_lines, refuse_folder, write_judgement, write_run};
-use crate::plan::{add_bounds, apply_options, make_plan};
-use crate::tables::{failures_text, legend_text, ranking_text, run_table, sequences_text};
+use crate::plan::{apply_options, make_plan};
+use crate::tables::{
+    TableArgs, cases_csv, cases_markdown, failures_text, legend_text, ranking_markdown,
+    ranking_text, run_table, sequences_text,
+};
+use crate::watch::repeat_on_change;
 use terminal::arguments::{AdapterArgs, MeasureArgs, RunOptions, parse_named};
-use terminal::output::{Text, adapter_text, clock_text, print};
+use terminal::output::{Text, adapter_text, clock_text, open_page, print};
+use terminal::refuse;
+use terminal::selection::filter_folders;
 
 /// Arguments of `run`.
 #[derive(Debug, Args)]
@@ -34,20 +39,46 @@ pub struct RunArgs {
     /// HTML page to write [default: report.html in --out].
     #[arg(help_heading = "Output", long, value_name = "FILE")]
     pub html: Option<PathBuf>,
+    /// Open the page in the browser.
+    #[arg(help_heading = "Output", long, conflicts_with = "part")]
+    pub open: bool,
+    /// Run again whenever a file in a filter's folder changes; Ctrl-C ends.
+    #[arg(help_heading = "Output", long, conflicts_with = "part")]
+    pub watch: bool,
     /// Print every case and all means, instead of the ranking.
     #[arg(help_heading = "Output", long, conflicts_with = "json")]
     pub table: bool,
     /// Print run.json to standard output instead of the ranking.
     #[arg(help_heading = "Output", long)]
     pub json: bool,
+    /// Other forms of the ranking or the table.
+    #[command(flatten)]
+    pub tables: TableArgs,
 }
 
-/// Runs every case, writes `run.json` and the page, and prints the ranking or the table.
-/// `additions` make what other crates add to the page.
+/// Runs every case, writes `run.json` and the page, and prints the ranking or the table; with
+/// --watch, again after each change. `additions` make what other crates add to the page.
 pub fn execute(args: &RunArgs, additions: &[AddToPage]) -> Result<(), Error> {
+    if !args.watch {
+        return run_once(args, additions, args.open);
+    }
+    let folders = filter_folders(&args.measure.filters);
+    if folders.is_empty() {
+        refuse!(
+            "--watch: no filter of the run is a folder; name one with --filter, such as ./my_blur"
+        );
+    }
+    let mut open = args.open;
+    repeat_on_change(&folders, || {
+        // Later pages replace the open one.
+        run_once(args, additions, std::mem::take(&mut open))
+    })
+}
+
+fn run_once(args: &RunArgs, additions: &[AddToPage], open: bool) -> Result<(), Error> {
     let began = Instant::now();
     refuse_folder("--html", args.html.as_ref())?;
-    let (mut plan, mut bounds) = make_plan(&args.measure, args.measure.scenes.out.clone())?;
+    let (mut plan, _) = make_plan(&args.measure, args.measure.scenes.out.clone())?;
     apply_options(&mut plan, &args.options)?;
     plan.part = args.part.unwrap_or_default();
     let gpu = open_gpu(&plan.filters, args.adapter.adapter.as_deref(), plan.monitor)?;
@@ -57,30 +88,29 @@ pub fn execute(args: &RunArgs, additions: &[AddToPage]) -> Result<(), Error> {
         lock: _lock,
     } = measure(&mut plan, gpu.as_ref())?;
     write_run(&whole, &plan.out)?;
-    let (scores, pages) = if plan.part == Part::Whole {
-        // Cases of an earlier run keep their targets.
-        add_bounds(&mut bounds, &whole, &args.measure.scenes.root.scenes_dir)?;
-        let size = plan.render.size();
-        for bounds in bounds.values_mut() {
-            *bounds = std::mem::take(bounds).at(size).over(plan.frames);
+    let markdown = || {
+        if args.table {
+            cases_markdown(&run)
+        } else {
+            ranking_markdown(&run.cases)
         }
-        // Bounds are for `check`: broken ones fail nothing here.
-        let mut findings = judge(&whole, &bounds);
-        (findings.iter_mut()).for_each(|finding| finding.level = Level::Report);
-        let pages = write_judgement(
-            &whole,
-            &findings,
-            None,
-            &plan.out,
-            args.html.as_ref(),
-            additions,
-        )?;
+    };
+    let is_printed = args.tables.write(|| cases_csv(&run), markdown)?;
+    let (scores, pages) = if plan.part == Part::Whole {
+        // Bounds are for `check`. A judgement without findings replaces that of an earlier check.
+        let html = args.html.as_ref();
+        let pages = write_judgement(&whole, &[], None, &plan.out, html, additions)?;
         (scores_text(&run, args.table), pages)
     } else {
         (Text::default(), Vec::new())
     };
+    if let Some(page) = pages.first().filter(|_| open) {
+        open_page(&page.path);
+    }
     print(if args.json {
         Text::from(whole.text()) + "\n"
+    } else if is_printed {
+        Text::default()
     } else {
         scores
             + failures_text(&run.failures)
@@ -94,7 +124,7 @@ fn scores_text(run: &Run, as_table: bool) -> Text {
     let scores = if as_table {
         run_table(run)
     } else {
-        ranking_text(&run.cases)
+        ranking_text(run)
     };
     let scaling = run.scaling_note();
     let scaling = scaling.map_or(Text::default(), |note| legend_text(&note));

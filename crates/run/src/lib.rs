@@ -7,7 +7,9 @@ mod kept_truths;
 mod measured;
 mod pages;
 mod plan;
+mod previous;
 mod tables;
+mod watch;
 
 pub use self::command::{RunArgs, execute};
 pub use self::measured::{MeasuredRun, measure};
@@ -16,4 +18,5 @@ pub use self::pages::{
     write_run_page,
 };
 pub use self::plan::{Margins, add_bounds, apply_options, lock_out, make_plan, read_margins};
+pub use self::previous::PREVIOUS;
 pub use self::tables::{failures_text, ranking_text, run_table, score_sequence_table, score_table};

@@ -6,6 +6,7 @@ use measure::{
 };
 
 use crate::plan::lock_out;
+use crate::previous::keep_aside;
 use terminal::expected::print_expected;
 use terminal::output::{count_text, is_quiet, print_note};
 
@@ -24,6 +25,7 @@ pub struct MeasuredRun {
 pub fn measure(plan: &mut RunPlan, gpu: Option<&Gpu>) -> Result<MeasuredRun, Error> {
     choose_folder(plan)?;
     let lock = lock_out(plan)?;
+    keep_aside(plan)?;
     let earlier = EarlierCases::find(plan, gpu.map(|gpu| &gpu.adapter)).map_err(name_options)?;
     if !is_quiet() {
         print_expected(&estimate_run(plan, gpu), &plan.out);

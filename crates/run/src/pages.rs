@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use terminal::refuse;
 
+use crate::previous;
 use judge::{Finding, Judgement, Verdict};
 use measure::{Error, Run, printable_path};
 use report::{AddToPage, LARGEST_PAGE, RunReport, SEQUENCES_PAGE, sequences_page, write_report};
@@ -81,12 +82,10 @@ pub fn write_run_page(
     files.into_iter().map(WrittenFile::new).collect()
 }
 
-/// Writes `run.json`.
+/// Writes `run.json`. What it replaces becomes the previous run.
 pub fn write_run(run: &Run, out: &Path) -> Result<(), Error> {
-    Ok(frame::write_atomically(
-        &out.join("run.json"),
-        run.text().as_bytes(),
-    )?)
+    frame::write_atomically(&out.join("run.json"), run.text().as_bytes())?;
+    previous::finish(out)
 }
 
 /// Writes the findings about a run, whose `run.json` is written, and the page.

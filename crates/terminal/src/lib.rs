@@ -14,4 +14,5 @@ pub mod expected;
 pub mod output;
 pub mod result;
 pub mod selection;
+pub mod settings;
 pub mod table;

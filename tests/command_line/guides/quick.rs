@@ -28,11 +28,9 @@ const QUICK: [(&str, &str, &str); 5] = [
     ("--noise", "0.05", ""),
 ];
 
-/// Options added to a command if the page leaves them out, meaning all scenes or filters.
-const NARROWED: [(&str, &str, &str); 2] = [
-    ("--scenes", "fan", "run, check, tune search"),
-    ("--filter", "mcguire:paper", "bench"),
-];
+/// Commands whose scenes, right after their name, are added if the page leaves them out, meaning
+/// all.
+const OF_SCENES: [&str; 3] = ["run", "check", "tune search"];
 
 /// Makes a command of a page quick.
 pub fn shorten(command: &str) -> String {
@@ -65,11 +63,15 @@ pub fn shorten(command: &str) -> String {
         let few = "--held-out-size 96x54 --held-out-samples-per-pixel 16";
         words.extend(few.split(' ').map(str::to_owned));
     }
-    // A finished run determines its scenes.
-    let finished = words.iter().any(|word| word.ends_with("run.json"));
-    for (option, value, commands) in NARROWED {
-        if named(commands) && !finished && !words.iter().any(|word| word == option) {
-            words.extend([option, value].map(str::to_owned));
+    if named("bench") && !words.iter().any(|word| word == "--filter") {
+        words.extend(["--filter", "mcguire:paper"].map(str::to_owned));
+    }
+    let scenes = OF_SCENES.iter().find(|name| named(name));
+    if let Some(at) = scenes.map(|name| name.split(' ').count()) {
+        // A finished run determines its scenes.
+        let has_scenes = (words.get(at)).is_some_and(|word| !word.starts_with("--"));
+        if !has_scenes && !words.iter().any(|word| word == "--run") {
+            words.insert(at, "fan".to_owned());
         }
     }
     format!("shuttertruth {}", words.join(" "))

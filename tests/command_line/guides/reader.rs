@@ -6,7 +6,6 @@ use std::process::{Command, Output};
 
 use tests::root;
 
-use super::page::{Step, find_steps};
 use crate::sandbox::read_below;
 
 /// A copy of the repository files that the guides' commands need.
@@ -31,10 +30,9 @@ impl Reader {
         fs::create_dir(reader.path("bin")).unwrap();
         let program = env!("CARGO_BIN_EXE_shuttertruth");
         std::os::unix::fs::symlink(program, reader.path("bin/shuttertruth")).unwrap();
-        for step in find_steps(include_str!("../../../docs/add-a-filter.md")) {
-            if let Step::Write { path, text } = step {
-                reader.write(path, text);
-            }
+        let kernel = read_below(&root().join("examples/first_blur/wgsl"));
+        for (name, bytes) in kernel {
+            reader.write(Path::new("my_blur").join(name), bytes);
         }
         reader
     }

@@ -18,7 +18,7 @@ const RESULTS: &str = include_str!("../../../docs/results.md");
 const ALL: &str = include_str!("run_tables.txt");
 
 /// Scenes of `make run`.
-const RUN: &str = "shuttertruth run --quiet --scenes sliding_panel,panel_over_texture,two_spheres,railing,fan \
+const RUN: &str = "shuttertruth run --quiet sliding_panel panel_over_texture two_spheres railing fan \
                    --samples-per-pixel 64";
 
 /// Lists the lines of a page's tables of scores.

@@ -143,7 +143,7 @@ fn a_check_refuses_folders_tracked_by_git() {
     sandbox.git(&format!("add -f {RECORD}"));
     let parts = [RECORD, "is tracked by git"];
     assert_refused(&sandbox.check(&IDENTITY), 2, &parts);
-    sandbox.refuse("check out/run.json", &parts);
+    sandbox.refuse("check --run out/run.json", &parts);
 }
 
 /// A repository's settings, such as `core.fsmonitor`, can make git start programs.

@@ -95,8 +95,9 @@ fn the_page_of_a_check_ranks_as_the_terminal_does() {
     let page = make_page(&sandbox);
     let run = sandbox.read_run();
     let table = panel(&page, "flip_moving");
-    let terminal = cli::ranking_text(&run.cases).plain();
-    for ranked in judge::rank_for_summary(&run.cases).concat() {
+    let terminal = cli::ranking_text(&run).plain();
+    let ranking = judge::rank_for_summary(&run.cases).concat();
+    for ranked in ranking.iter().filter(|ranked| ranked.is_ranked()) {
         let cells: Vec<f64> = (run.cases.iter().filter(|case| case.name() == ranked.name))
             .map(|case| {
                 let link = format!("href=\"#{}\"", address(case));

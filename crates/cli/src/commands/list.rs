@@ -1,6 +1,6 @@
 //! The command `list`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use terminal::refuse;
 
 use clap::Args;
@@ -14,6 +14,7 @@ use crate::tables::{details_text, filter_json, filters_text, inputs_text, scenes
 use terminal::arguments::{AdapterArgs, RootArgs};
 use terminal::output::{Text, make_monitor, print, print_json, print_note, print_scene_notes};
 use terminal::selection::{is_pattern, load_filters, match_names, suggest_names};
+use terminal::settings::Settings;
 
 #[derive(Debug, Args)]
 pub struct ListArgs {
@@ -44,7 +45,7 @@ pub struct ListArgs {
 }
 
 /// Prints scenes and filters in brief, or the named ones in detail.
-pub fn execute(args: &ListArgs) -> Result<(), Error> {
+pub fn execute(args: &ListArgs, settings: &Settings) -> Result<(), Error> {
     if let Some(folder) = &args.copy_to {
         return copy_scenes(&args.what, folder);
     }
@@ -81,7 +82,17 @@ pub fn execute(args: &ListArgs) -> Result<(), Error> {
     if !filters.is_empty() {
         text += filters_text(&filters);
     }
-    print(text + "details: shuttertruth list NAME\n")
+    let settings = settings
+        .all_text()
+        .map(|text| format!("settings: {text}\n"));
+    print(text + settings.unwrap_or_default() + "details: shuttertruth list NAME\n")
+}
+
+/// Tries out the filter in a folder, and prints its details.
+pub fn list_filter(folder: &Path) -> Result<(), Error> {
+    let filter = Filter::load(folder)?;
+    try_filters(&[&filter], None)?;
+    print(details_text(&[], &[filter]))
 }
 
 /// Writes what is worth knowing about a scene and its variants: what the loader left out, and
@@ -157,8 +168,8 @@ fn find_named(args: &ListArgs) -> Result<(Vec<SceneListing>, Vec<Filter>), Error
     for name in &args.filters {
         filters.extend(load_filters(name)?);
     }
-    let is_own = |filter: &&Filter| !builtin.contains(&filter.name);
-    let user_filters: Vec<&Filter> = filters.iter().filter(is_own).collect();
+    let is_users = |filter: &&Filter| !builtin.contains(&filter.name);
+    let user_filters: Vec<&Filter> = filters.iter().filter(is_users).collect();
     try_filters(&user_filters, args.adapter.adapter.as_deref())?;
     Ok((scenes, filters))
 }

@@ -6,6 +6,7 @@ mod convention;
 mod copy;
 pub mod description;
 pub mod list;
+pub mod new;
 pub mod render;
 pub mod report;
 pub mod score;

@@ -9,7 +9,7 @@ use measure::{Error, StoredRun, printable_path, write_layers};
 use report::{AddToPage, FolderPage, write_gallery};
 
 use run::{WrittenFile, page_lines, page_path, write_page, write_run_page};
-use terminal::output::{make_monitor, print, print_json};
+use terminal::output::{make_monitor, open_page, print, print_json};
 
 /// Contents that other crates add to the page of a run, in their order.
 pub const ADDITIONS: [AddToPage; 1] = [bench::add_costs];
@@ -26,6 +26,9 @@ pub struct ReportArgs {
     /// given].
     #[arg(long, value_name = "FILE")]
     pub html: Option<PathBuf>,
+    /// Open the page in the browser.
+    #[arg(long)]
+    pub open: bool,
     /// Folder for one multi-layer OpenEXR file per case: truth, output, instant, flip, velocity,
     /// coverage and more.
     #[arg(long, value_name = "DIR")]
@@ -48,6 +51,9 @@ pub fn execute(args: &ReportArgs) -> Result<(), Error> {
         Some((page, folder)) => (write_folder_page(args, page, folder)?, Vec::new()),
         None => write_run_report(args)?,
     };
+    if let Some(page) = pages.first().filter(|_| args.open) {
+        open_page(&page.path);
+    }
     if args.json {
         let written: Vec<&WrittenFile> = pages.iter().chain(&layers).collect();
         return print_json(&written);

@@ -67,7 +67,7 @@ pub fn execute(args: &ImportArgs) -> Result<(), Error> {
     }
     let folder = printable_path(&out);
     print(format!(
-        "{exposes}\n{triangles} triangles, the set's among them\nwritten: {folder}\nnext: shuttertruth run --scenes {}{folder}\n",
+        "{exposes}\n{triangles} triangles, the set's among them\nwritten: {folder}\nnext: shuttertruth run {}{folder}\n",
         if out.is_relative() { "./" } else { "" },
     ))
 }

@@ -146,7 +146,7 @@ fn describe(ingested: &Ingested, out: &Path, traced: Option<&Scene>) -> String {
     let dot = if out.is_relative() { "./" } else { "" };
     let ours = traced.map_or(String::new(), |scene| format!("{},", scene.id));
     lines.push(match scene.check_truth() {
-        Ok(()) => format!("next: shuttertruth run --scenes {ours}{dot}{folder}"),
+        Ok(()) => format!("next: shuttertruth run {ours}{dot}{folder}"),
         Err(_) => "no sub-frames, and so no truth: `run` needs one; `score` can compare the picture with a truth of ours".to_owned(),
     });
     lines.join("\n") + "\n"

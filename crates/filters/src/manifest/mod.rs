@@ -13,4 +13,5 @@ mod passes;
 mod presets;
 mod source;
 
+pub use number::check_filter_name;
 pub(crate) use parse::parse;

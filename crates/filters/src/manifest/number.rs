@@ -148,6 +148,18 @@ pub(super) fn is_identifier(name: &str) -> bool {
             .all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_')
 }
 
+/// Checks the name of a filter.
+///
+/// # Errors
+/// The name is none that filter.toml may have; says the rule.
+pub fn check_filter_name(name: &str) -> Result<(), String> {
+    if is_identifier(name) {
+        Ok(())
+    } else {
+        Err(format!("the name \"{name}\": {IDENTIFIER}"))
+    }
+}
+
 /// Reads a finite number, or an expression of known names. The error begins with what was found.
 fn read(
     entry: &NumberEntry,

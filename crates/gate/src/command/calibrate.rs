@@ -52,7 +52,7 @@ pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
     let (mut plan, bounds) = make_plan(&args.measure, out.clone())?;
     if let Some(scene) = plan.ingested.first() {
         refuse!(
-            "--scenes: {} was drawn by an engine, and does not change from run to run; write its bounds by hand into {}",
+            "{} was drawn by an engine, and does not change from run to run; write its bounds by hand into {}",
             scene.id,
             scene.folder.join(BOUNDS_FILE).display()
         );

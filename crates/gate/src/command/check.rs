@@ -42,11 +42,11 @@ fn list_measuring() -> Vec<Id> {
 pub struct CheckArgs {
     /// Finished run to judge: its run.json, or its folder. Renders nothing and opens no adapter
     /// [default: measure now].
-    #[arg(value_name = "RUN", conflicts_with_all = list_measuring())]
-    pub run: Option<PathBuf>,
+    #[arg(help_heading = "Judging", long = "run", value_name = "RUN", conflicts_with_all = list_measuring())]
+    pub finished: Option<PathBuf>,
     /// For every broken bound of RUN, find the worst place and the known failure that the picture
     /// resembles most. A check that measures always does.
-    #[arg(help_heading = "Judging", long, requires = "run")]
+    #[arg(help_heading = "Judging", long, requires = "finished")]
     pub evidence: bool,
     /// What to measure.
     #[command(flatten)]
@@ -92,7 +92,7 @@ pub fn execute(args: &CheckArgs, additions: &[AddToPage]) -> Result<Ending, Erro
         additions,
     };
     let summary_file = args.github.then(find_summary_file).transpose()?;
-    let judged = match &args.run {
+    let judged = match &args.finished {
         Some(path) => judge_finished(args, path, &judging)?,
         None => run_and_judge(args, &judging)?,
     };
@@ -120,9 +120,9 @@ fn report(
         folder,
     } = judged;
     if let Some(path) = &args.junit {
-        frame::write_atomically(path, junit(checked).as_bytes())?;
+        frame::write_atomically(path, junit(checked, folder, &run.seconds).as_bytes())?;
     }
-    let measured = args.run.as_ref().map(|path| {
+    let measured = args.finished.as_ref().map(|path| {
         format!(
             "nothing was measured or verified now: the scores are those that {} has",
             printable_path(path)
@@ -242,7 +242,7 @@ fn judge_finished(args: &CheckArgs, path: &Path, judging: &Judging) -> Result<Ju
         folder => folder.to_owned(),
     };
     let run = side.run;
-    refuse_tracked(&folder, "measure it now: shuttertruth check, without a RUN")?;
+    refuse_tracked(&folder, "measure it now: shuttertruth check, without --run")?;
     let root = &args.measure.scenes.root.scenes_dir;
     let bounds = read_run_bounds(&run, root)?;
     let mut findings = judge(&run, &bounds);
@@ -290,7 +290,7 @@ fn read_run_bounds(run: &Run, root: &Location) -> Result<RunBounds, Error> {
         None => Ok(bounds),
         Some(case) if case.drawn.is_some() => refuse!(
             "{}: an engine drew it, and its bounds lie beside what was ingested, which is not in {root}; name the folder \
-             above that with --scenes-dir, such as out/engine, or measure it now: shuttertruth check --scenes",
+             above that with --scenes-dir, such as out/engine, or measure it now: shuttertruth check FOLDER",
             case.scene
         ),
         Some(case) => refuse!(

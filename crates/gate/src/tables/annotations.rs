@@ -1,5 +1,7 @@
 //! Text for GitHub Actions: annotations, and the summary of a step.
 
+use std::path::Path;
+
 use crate::check::Check;
 use judge::{Decision, Finding, number};
 use measure::{escape_markdown, printable};
@@ -20,26 +22,69 @@ pub fn annotations(check: &Check) -> String {
         .map(|finding| {
             let title = format!("{} / {}", finding.scene, finding.filter);
             let suffix = way_out(finding).map(|way_out| format!("; {way_out}"));
-            (title, finding_line(finding) + &suffix.unwrap_or_default())
+            Annotation {
+                place: file_place(&finding.place),
+                title,
+                message: finding_line(finding) + &suffix.unwrap_or_default(),
+            }
         });
     let comparisons = (check.comparisons.iter())
         .filter(|comparison| comparison.decision() != Decision::Pass)
-        .map(|comparison| (comparison.filter.clone(), comparison_line(comparison)));
+        .map(|comparison| Annotation {
+            place: None,
+            title: comparison.filter.clone(),
+            message: comparison_line(comparison),
+        });
     let failures = check.failures.iter().map(|failure| {
         let title = format!("{} / {}", failure.scene, failure.filter);
-        (title, format!("FAILED {}", failure.reason))
+        Annotation {
+            place: None,
+            title,
+            message: format!("FAILED {}", failure.reason),
+        }
     });
-    let mut all: Vec<(String, String)> = failures.chain(findings).chain(comparisons).collect();
+    let mut all: Vec<Annotation> = failures.chain(findings).chain(comparisons).collect();
     if all.len() > MAX_ANNOTATIONS {
         let more = all.split_off(MAX_ANNOTATIONS - 1).len();
         let more = format!("and {more} more: see the summary");
-        all.push(("shuttertruth".to_owned(), more));
+        all.push(Annotation {
+            place: None,
+            title: "shuttertruth".to_owned(),
+            message: more,
+        });
     }
-    let line = |(title, message): &(String, String)| {
-        let title = escape_property(title);
-        format!("::error title={title}::{}\n", escape_message(message))
-    };
-    all.iter().map(line).collect()
+    all.iter().map(Annotation::line).collect()
+}
+
+/// An error that GitHub shows with a change.
+struct Annotation {
+    /// File and line; none if no file of the repository causes the error.
+    place: Option<(String, String)>,
+    title: String,
+    message: String,
+}
+
+impl Annotation {
+    /// Formats the workflow command.
+    fn line(&self) -> String {
+        let place = self.place.as_ref().map(|(file, line)| {
+            let [file, line] = [file, line].map(|text| escape_property(text));
+            format!("file={file},line={line},")
+        });
+        format!(
+            "::error {}title={}::{}\n",
+            place.unwrap_or_default(),
+            escape_property(&self.title),
+            escape_message(&self.message)
+        )
+    }
+}
+
+/// Splits the place of a bound into file and line; none for the program's own bounds.
+fn file_place(place: &str) -> Option<(String, String)> {
+    let (file, line) = place.rsplit_once(':')?;
+    let file = file.strip_prefix("./").unwrap_or(file);
+    (Path::new(file).is_file()).then(|| (file.to_owned(), line.to_owned()))
 }
 
 /// Makes the summary of the step, as Markdown.

@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use judge::{Decision, Finding, Level, MAX_SAMPLES, Outcome, Verdict, Worst, number};
+use judge::{
+    Decision, Finding, Level, MAX_SAMPLES, Outcome, Verdict, Worst, few_scenes_text, number,
+};
 use report::{finding_score, finding_status, length_text, way_out, worst_frame_text};
 
 use super::list_once;
@@ -33,6 +35,10 @@ pub fn check_text(check: &Check, out: &Path, targets: bool) -> Text {
         text += heading("compared with the baseline") + "\n";
         for comparison in &check.comparisons {
             push_wrapped(&mut text, 2, comparison_line(comparison));
+        }
+        let scenes = check.comparisons.iter().map(|compared| compared.scenes);
+        if let Some(few) = scenes.max().and_then(few_scenes_text) {
+            push_wrapped(&mut text, 2, few);
         }
     }
     for line in count_lines(check) {

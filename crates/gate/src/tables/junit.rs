@@ -1,20 +1,30 @@
 //! JUnit XML of a check: one suite per scene, one case per filter and bound.
 
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::time::Duration;
+
 use crate::check::Check;
 use judge::{Decision, Finding, Level, Outcome};
+use measure::printable_path;
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 use report::{finding_line, way_out, worst_frame_text};
 
 use super::comparison_line;
+use scene::SceneId;
 
 /// Makes the document. Failed cases and broken required bounds are failures; inconclusive ones and
 /// limits within the noise are errors; the rest that did not pass is skipped: not applicable, not
-/// judged, or broken but only reported.
-pub fn junit(check: &Check) -> String {
+/// judged, or broken but only reported. A case that did not pass names its picture, below the run's
+/// `folder`, in the form that CI services show as an attachment. Each scene has its `seconds`.
+pub fn junit(check: &Check, folder: &Path, seconds: &BTreeMap<SceneId, f64>) -> String {
     let mut suites: Vec<TestSuite> = Vec::new();
-    let mut add = |suite: &str, filter: &str, what: &str, status: TestCaseStatus| {
+    let mut add = |suite: &str, filter: &str, what: &str, status: TestCaseStatus, picture| {
         let mut case = TestCase::new(format!("{filter} {what}"), status);
         case.set_classname(format!("{suite}.{filter}"));
+        if let Some(picture) = picture {
+            case.set_system_out(format!("[[ATTACHMENT|{picture}]]"));
+        }
         let known = suites
             .iter()
             .position(|earlier| earlier.name.as_str() == suite);
@@ -26,11 +36,13 @@ pub fn junit(check: &Check) -> String {
     };
     for finding in &check.findings {
         let (scene, metric) = (finding.scene.to_string(), finding.metric.name());
-        add(&scene, &finding.filter, &metric, status(finding));
+        let picture = picture_path(finding, folder);
+        add(&scene, &finding.filter, &metric, status(finding), picture);
     }
     for failure in &check.failures {
         let status = with_message(NonSuccessKind::Failure, "failed", failure.reason.clone());
-        add(&failure.scene.to_string(), &failure.filter, "runs", status);
+        let scene = failure.scene.to_string();
+        add(&scene, &failure.filter, "runs", status, None);
     }
     for comparison in &check.comparisons {
         let line = comparison_line(comparison);
@@ -44,11 +56,31 @@ pub fn junit(check: &Check) -> String {
             &comparison.filter,
             &comparison.metric.to_string(),
             status,
+            None,
         );
     }
     let mut report = Report::new("shuttertruth check");
+    for suite in &mut suites {
+        let of_suite = (seconds.iter()).find(|(scene, _)| suite.name.as_str() == scene.to_string());
+        if let Some((_, seconds)) = of_suite {
+            suite.set_time(Duration::from_secs_f64(*seconds));
+        }
+    }
+    if !seconds.is_empty() {
+        report.set_time(Duration::from_secs_f64(seconds.values().sum()));
+    }
     report.add_test_suites(suites);
     report.to_string().expect("a report in memory is written")
+}
+
+/// Returns the picture of a score that did not pass: the worst place if it is known, or the output.
+fn picture_path(finding: &Finding, folder: &Path) -> Option<String> {
+    if !finding.outcome.is_notable() {
+        return None;
+    }
+    let worst = (finding.worst.as_ref()).map(|worst| worst.picture.clone());
+    let picture = worst.unwrap_or_else(|| finding.pictures.join("output.png"));
+    Some(printable_path(&folder.join(picture)))
 }
 
 fn status(finding: &Finding) -> TestCaseStatus {

@@ -94,6 +94,17 @@ pub fn rank_for_summary(cases: &[Case]) -> Vec<Vec<RankedFilter>> {
     rank_best(&full, &references)
 }
 
+/// Ranks every preset in every input form, as a table of all of them does.
+pub fn rank_presets(cases: &[Case]) -> Vec<Vec<RankedFilter>> {
+    let (references, filters): (Vec<&Case>, Vec<&Case>) =
+        cases.iter().partition(|case| case.is_reference);
+    let [references, filters] = [references, filters].map(|cases| -> Vec<RankedScore> {
+        let cases = cases.into_iter();
+        cases.filter_map(RankedScore::flip_of).collect()
+    });
+    rank_by_score(&filters, &references, false)
+}
+
 /// Ranks all presets; if they are too many for a summary, only the best of each filter. No blur may
 /// be among the references.
 pub(crate) fn rank_best(
@@ -101,9 +112,11 @@ pub(crate) fn rank_best(
     references: &[RankedScore],
 ) -> Vec<Vec<RankedFilter>> {
     let presets = rank_by_score(scores, references, false);
-    match presets.iter().map(Vec::len).sum() {
-        ..=MAX_RANKED => presets,
-        _ => rank_by_score(scores, references, true),
+    let ranked = presets.iter().flatten().filter(|preset| preset.is_ranked());
+    if ranked.count() <= MAX_RANKED {
+        presets
+    } else {
+        rank_by_score(scores, references, true)
     }
 }
 
@@ -124,7 +137,7 @@ impl RankedScore {
 
 /// Ranks filters of one shutter and frame rate, best first: one group per shutter and rate. With
 /// `best_presets`, each filter is represented by its best preset. No blur, among the scores or the
-/// references, has a place and no rank.
+/// references, has a place in every group and no rank.
 ///
 /// One filter is better than another if its mean is lower and the 95 % CI of the mean difference
 /// over their common scenes excludes 0; on a single scene, if the difference exceeds the noise
@@ -153,7 +166,11 @@ fn rank_group(
     no_blur: &[&RankedScore],
     best_presets: bool,
 ) -> Vec<RankedFilter> {
-    let entries = filters.into_iter();
+    // No blur has a row in every shutter, from its reference picture where no filter is it.
+    let is_measured = |scores: &Vec<&RankedScore>| scores[0].filter == IDENTITY;
+    let reference =
+        (!no_blur.is_empty() && !filters.iter().any(is_measured)).then(|| no_blur.to_vec());
+    let entries = filters.into_iter().chain(reference);
     let mut group: Vec<Entry> = entries.map(|scores| (summarize(&scores), scores)).collect();
     let ruins_still = |filter: &RankedFilter| filter.side_effects.ruins_still();
     group.sort_by(|(a, _), (b, _)| {
@@ -186,6 +203,20 @@ fn rank_group(
 }
 
 impl RankedFilter {
+    /// Returns whether it has a rank: no blur has none.
+    pub fn is_ranked(&self) -> bool {
+        self.ranks.is_some()
+    }
+
+    /// Returns the name that tables show: no blur is a picture, not a filter.
+    pub fn shown_name(&self) -> &str {
+        if self.is_ranked() {
+            &self.name
+        } else {
+            "no blur"
+        }
+    }
+
     /// Formats its rank, or the range of its ranks: `1`, `2-4`, `-`.
     pub fn rank_text(&self) -> String {
         match self.ranks {

@@ -5,10 +5,7 @@ use crate::ranking::filters::RankedFilter;
 /// Describes a ranked shutter in which no filter is clearly better than no blur; none if one is, or
 /// if no blur was not measured.
 pub fn no_gain_text(group: &[RankedFilter]) -> Option<&'static str> {
-    let mut filters = group
-        .iter()
-        .filter(|filter| filter.ranks.is_some())
-        .peekable();
+    let mut filters = group.iter().filter(|filter| filter.is_ranked()).peekable();
     if filters.peek().is_none() {
         return Some("nothing but no blur was measured");
     }

@@ -28,21 +28,27 @@ pub struct RankedSequence {
 /// its best one. Leaves out filters without the deciding score, which have no rank.
 pub fn rank_sequences(run: &Run) -> Vec<Vec<RankedSequence>> {
     let is_full = |_: &Sequence, case: &Case| case.input == InputFormat::default();
-    rank(run, is_full, |losses| {
-        rank_best(losses, &list_references(run))
-    })
+    rank(
+        &list_filters(run, is_full),
+        &list_references(run),
+        rank_best,
+    )
 }
 
 /// Ranks the sequences of one scene, every preset in every input form.
 pub fn rank_sequences_on(run: &Run, scene: &SceneId) -> Vec<Vec<RankedSequence>> {
     let is_of_scene = |sequence: &Sequence, _: &Case| sequence.scene == *scene;
-    rank(run, is_of_scene, |losses| {
-        rank_by_score(losses, &list_references(run), false)
-    })
+    let mut references = list_references(run);
+    references.retain(|reference| reference.scene == *scene);
+    rank(
+        &list_filters(run, is_of_scene),
+        &references,
+        |losses, references| rank_by_score(losses, references, false),
+    )
 }
 
-/// Lists the sequences of filters, each with the case of its first frame.
-fn list_filters(run: &Run) -> Vec<(&Sequence, &Case)> {
+/// Lists the sequences of some filters, each with its filter's name.
+fn list_filters(run: &Run, is_listed: impl Fn(&Sequence, &Case) -> bool) -> Vec<(&Sequence, &str)> {
     let filters = run.cases.iter().filter(|case| !case.is_reference);
     let cases: HashMap<(&SceneId, FilterId), &Case> = filters
         .map(|case| ((&case.scene, case.filter_id()), case))
@@ -51,27 +57,33 @@ fn list_filters(run: &Run) -> Vec<(&Sequence, &Case)> {
         .sequences
         .iter()
         .filter(|sequence| !sequence.is_reference);
-    let with_case = sequences.filter_map(|sequence| {
-        Some((
-            sequence,
-            *cases.get(&(&sequence.scene, sequence.filter.clone()))?,
-        ))
+    let listed = sequences.filter_map(|sequence| {
+        let case = cases.get(&(&sequence.scene, sequence.filter.clone()))?;
+        is_listed(sequence, case).then_some((sequence, case.filter.as_str()))
     });
-    with_case.collect()
+    listed.collect()
+}
+
+/// Lists the sequences of reference pictures.
+fn list_references(run: &Run) -> Vec<&Sequence> {
+    let sequences = run.sequences.iter();
+    sequences.filter(|sequence| sequence.is_reference).collect()
 }
 
 fn rank(
-    run: &Run,
-    is_ranked: impl Fn(&Sequence, &Case) -> bool,
-    rank: impl Fn(&[RankedScore]) -> Vec<Vec<RankedFilter>>,
+    filters: &[(&Sequence, &str)],
+    references: &[&Sequence],
+    rank: impl Fn(&[RankedScore], &[RankedScore]) -> Vec<Vec<RankedFilter>>,
 ) -> Vec<Vec<RankedSequence>> {
-    let mut filters = list_filters(run);
-    filters.retain(|(sequence, case)| is_ranked(sequence, case));
     let losses = filters.iter();
-    let losses = losses.filter_map(|(sequence, case)| loss_of(sequence, &case.filter));
+    let losses = losses.filter_map(|(sequence, filter)| loss_of(sequence, filter));
     let losses: Vec<RankedScore> = losses.collect();
+    let lost = references.iter();
+    let lost = lost.filter_map(|reference| loss_of(reference, &reference.name));
+    let lost: Vec<RankedScore> = lost.collect();
     let with_means = |lost: RankedFilter| {
-        let sequences: Vec<&Sequence> = (filters.iter().map(|(sequence, _)| *sequence))
+        let filters = filters.iter().map(|(sequence, _)| *sequence);
+        let sequences: Vec<&Sequence> = (filters.chain(references.iter().copied()))
             .filter(|sequence| sequence.name == lost.name && sequence.alignment == lost.alignment)
             .filter(|sequence| sequence.scene.rate == lost.rate)
             .collect();
@@ -82,19 +94,9 @@ fn rank(
             ranked: as_quality(lost),
         }
     };
-    (rank(&losses).into_iter())
+    (rank(&losses, &lost).into_iter())
         .map(|group| group.into_iter().map(with_means).collect())
         .collect()
-}
-
-/// Lists the losses of the reference pictures' sequences.
-fn list_references(run: &Run) -> Vec<RankedScore> {
-    let references = run
-        .sequences
-        .iter()
-        .filter(|reference| reference.is_reference);
-    let losses = references.filter_map(|reference| loss_of(reference, &reference.name));
-    losses.collect()
 }
 
 /// Computes a sequence's JOD below perfect, and the JOD that the truth's noise may account for.

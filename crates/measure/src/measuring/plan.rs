@@ -1,5 +1,6 @@
 //! Plan of a run.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use filters::{AdapterDescription, Layer};
@@ -99,6 +100,7 @@ impl RunPlan {
             failures: Vec::new(),
             overall: Vec::new(),
             read_back: 0,
+            seconds: BTreeMap::new(),
         }
     }
 

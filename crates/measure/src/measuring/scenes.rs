@@ -1,6 +1,9 @@
 //! Runs: every scene of a plan, measured in turn.
 
+use std::time::Instant;
+
 use filters::Gpu;
+use scene::SceneId;
 use tracer::{Progress, Watch};
 
 use super::frames::{count_frames, visit_frames};
@@ -59,6 +62,7 @@ fn measure_all(
             });
         };
         advance(0);
+        let began = Instant::now();
         let SceneCases {
             cases,
             failures,
@@ -67,7 +71,13 @@ fn measure_all(
         number += 1;
         run.read_back += read_back;
         run.failures.extend(failures);
-        let frame = scene.scene.id().frame;
+        let id = scene.scene.id();
+        let frame = id.frame;
+        let first = SceneId {
+            frame: 0,
+            ..id.clone()
+        };
+        *run.seconds.entry(first).or_default() += began.elapsed().as_secs_f64();
         if frame == 0 {
             run.cases.extend_from_slice(&cases);
             frames.clear();

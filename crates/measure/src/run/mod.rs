@@ -11,8 +11,11 @@ mod scaling;
 pub mod sequence;
 pub mod stored;
 
+use std::collections::BTreeMap;
+
 use filters::AdapterDescription;
 use frame::Alignment;
+use scene::SceneId;
 use serde::{Deserialize, Serialize};
 use tracer::RenderSettings;
 
@@ -62,6 +65,10 @@ pub struct Run {
     /// Number of cases that were measured before and read back; not in run.json.
     #[serde(skip)]
     pub read_back: usize,
+    /// Seconds that each scene took, with its truths and all frames; not in run.json, and empty for
+    /// a run that was read.
+    #[serde(skip)]
+    pub seconds: BTreeMap<SceneId, f64>,
 }
 
 impl Run {

@@ -119,7 +119,9 @@ fn means(means: &[MeanChange]) -> Markup {
     changed.sort_by_key(|mean| place(mean.metric));
     let caption = "Filters that changed. 95 % CI: over scenes, by Student's t";
     let bodies = html! {
-        @for changes in changed.chunk_by(|a, b| a.metric == b.metric) { (metric_means(changes)) }
+        @for changes in changed.chunk_by(|a, b| a.metric == b.metric) {
+            (metric_means(changes, largest_of_kind(&changed, changes[0].metric)))
+        }
     };
     html! {
         section {
@@ -133,14 +135,20 @@ fn means(means: &[MeanChange]) -> Markup {
     }
 }
 
-/// Writes the rows of one metric, all with one scale.
-fn metric_means(means: &[&MeanChange]) -> Markup {
+/// Returns the largest change of all scores of a metric's kind, which share a scale: those of its
+/// unit, or of a metric without a unit its own.
+fn largest_of_kind(means: &[&MeanChange], metric: Metric) -> f64 {
+    let is_of_kind = |other: Metric| {
+        other == metric || !metric.unit().is_empty() && other.unit() == metric.unit()
+    };
+    let means = means.iter().filter(|mean| is_of_kind(mean.metric));
+    let ends = means.flat_map(|mean| mean.interval.into_iter().chain([mean.worse]));
+    ends.map(f64::abs).fold(0.0, f64::max)
+}
+
+/// Writes the rows of one metric, on a scale up to `most`.
+fn metric_means(means: &[&MeanChange], most: f64) -> Markup {
     let metric = means[0].metric;
-    let ends = means
-        .iter()
-        .flat_map(|mean| mean.interval)
-        .chain(means.iter().map(|mean| mean.worse));
-    let most = ends.map(f64::abs).fold(0.0, f64::max);
     html! {
         tbody.group {
             tr {

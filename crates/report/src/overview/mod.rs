@@ -45,7 +45,7 @@ pub fn overview(view: &RunView) -> Markup {
             @if let Some(verdict) = view.verdict { (outcome(verdict, &required)) }
             (winners(table))
             (sequence_winners(table.run))
-            (counts(table, &Tally::of(findings(), Level::Report)))
+            (counts(table))
             (engines(table))
             @if let Some(note) = table.run.scaling_note() { p.note { (note) } }
             (broken_bounds(cases))
@@ -99,8 +99,8 @@ fn outcome(verdict: &Verdict, required: &Tally) -> Markup {
     }
 }
 
-/// Counts scenes, filters and missed targets.
-fn counts(table: &CaseTable, targets: &Tally) -> Markup {
+/// Counts scenes and filters.
+fn counts(table: &CaseTable) -> Markup {
     let filters = table
         .filters
         .iter()
@@ -110,7 +110,6 @@ fn counts(table: &CaseTable, targets: &Tally) -> Markup {
         p.note {
             (counted(table.scenes.len(), "scene")) ", " (counted(filters, "filter preset")) ". "
             "Click a score to see the pictures."
-            @if targets.all > 0 { " " (targets.broken) " of " (counted(targets.all, "target")) " missed; targets fail nothing." }
         }
     }
 }

@@ -1,6 +1,8 @@
 //! The best filters of every shutter.
 
-use judge::{RANKED_BY, RankedFilter, no_gain_text, rank_for_summary, rank_sequences};
+use judge::{
+    RANKED_BY, RankedFilter, inseparable_text, no_gain_text, rank_for_summary, rank_sequences,
+};
 use maud::{Markup, html};
 use measure::{FilterId, Run};
 use metrics::Metric;
@@ -32,7 +34,8 @@ pub fn winners(table: &CaseTable) -> Markup {
             @for group in &rank_for_summary(&table.run.cases) {
                 li {
                     (first_rank(group, "Best", "FLIP", number, link, weakest))
-                    @if let Some(last) = group.last().filter(|last| !last.may_be_best()) {
+                    @let last = group.iter().rfind(|filter| filter.is_ranked());
+                    @if let Some(last) = last.filter(|last| !last.may_be_best()) {
                         "; worst: " (link(last)) " (" (number(last.mean)) ")"
                     }
                     "."
@@ -40,6 +43,7 @@ pub fn winners(table: &CaseTable) -> Markup {
                 }
             }
         }
+        @if let Some(text) = inseparable_text(table.run) { p.note { (text) } }
     }
 }
 

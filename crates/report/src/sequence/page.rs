@@ -4,7 +4,7 @@ use std::path::Path;
 
 use judge::{Finding, RANKED_BY};
 use maud::{Markup, html};
-use measure::{CHANGE_PICTURE, RenderFile, Run, Sequence, SequenceFrame};
+use measure::{CHANGE_PICTURE, IDENTITY, RenderFile, Run, Sequence, SequenceFrame};
 use scene::SceneId;
 use serde_json::{Value, json};
 
@@ -73,8 +73,11 @@ pub fn sequences_page(run: &Run, findings: &[Finding]) -> Option<String> {
 
 /// Writes the controls, and the frames for the pictures.
 fn player(run: &Run) -> Markup {
-    let mut sequences = run.sequences.iter();
-    let first_filter = (sequences.position(|sequence| !sequence.is_reference)).unwrap_or(0);
+    // The page opens on a filter that blurs.
+    let blurs = |sequence: &Sequence| {
+        !sequence.is_reference && !sequence.name.starts_with(&format!("{IDENTITY}:"))
+    };
+    let first_filter = run.sequences.iter().position(blurs).unwrap_or(0);
     let rates = rates(run.frames.per_second);
     html! {
         div.toolbar #player data-rate=(run.frames.per_second) {

@@ -45,7 +45,7 @@ fn row(sequence: &RankedSequence, scenes: usize) -> Markup {
     let (scene, worst) = &ranked.worst;
     html! {
         tr {
-            th scope="row" { (ranked.rank_text()) " " (ranked.name) }
+            th scope="row" { (ranked.rank_text()) " " (ranked.shown_name()) }
             @for (metric, mean) in &sequence.means { td { (mean_text(*metric, mean.as_ref())) } }
             td {
                 (scene) " " (RANKED_BY.shown_text(*worst))

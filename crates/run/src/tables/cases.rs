@@ -4,7 +4,10 @@ use judge::lag_text;
 use measure::{Case, Failure, Run, printable_lines};
 use metrics::{Metric, Scores};
 
-use super::{Column, Missing, Table, bracket_name, legend_text, list_once, means_table};
+use super::{
+    Column, Missing, Ranks, Table, bracket_name, csv_number, csv_table, legend_text, list_once,
+    means_table,
+};
 use terminal::output::{Text, bad, heading, wrap_lines};
 
 const CASE_COLUMNS: [Column; 9] = [
@@ -25,11 +28,50 @@ const COMMON_FLIP: &str = "FLIP*";
 /// Makes the table of a run: cases, and means over the scenes. A score that does not apply is
 /// `n/a`, with a note that says why.
 pub fn run_table(run: &Run) -> Text {
+    let ranks = Ranks::of(run);
+    let (table, missing) = make_case_table(run, &ranks);
+    let legend = format!(
+        "FLIP* is against the {} shutter. {KEY}",
+        run.common_alignment
+    );
+    let lag = lag_text(&run.cases).map_or(Text::default(), |lag| legend_text(&lag));
+    table.text() + legend_text(&legend) + lag + missing.text() + means_table(&run.overall, &ranks)
+}
+
+/// Makes the table of cases as Markdown.
+pub fn cases_markdown(run: &Run) -> String {
+    make_case_table(run, &Ranks::of(run)).0.markdown()
+}
+
+/// Makes all scores as CSV: a row per case, a column per metric, empty where it does not apply.
+pub fn cases_csv(run: &Run) -> String {
+    let mut metrics = Metric::all();
+    metrics
+        .retain(|metric| (run.cases.iter()).any(|case| case.measured(*metric).value().is_some()));
+    let names: Vec<String> = metrics.iter().map(|metric| metric.name()).collect();
+    let titles = ["scene", "filter", "shutter", "is_reference"].into_iter();
+    let titles: Vec<&str> = titles.chain(names.iter().map(String::as_str)).collect();
+    let rows = run.cases.iter().map(|case| {
+        let mut row = vec![
+            case.scene.to_string(),
+            case.name(),
+            case.alignment.to_string(),
+            case.is_reference.to_string(),
+        ];
+        row.extend((metrics.iter()).map(|metric| csv_number(case.measured(*metric).value())));
+        row
+    });
+    csv_table(&titles, rows)
+}
+
+/// Makes the table of cases, and the reasons of missing scores.
+fn make_case_table(run: &Run, ranks: &Ranks) -> (Table, Missing) {
     let mut table = case_table("scene / filter", &["noise", COMMON_FLIP]);
     let mut missing = Missing::default();
-    for scene in list_once(run.cases.iter().map(|case| &case.scene)) {
+    let scenes = list_once(run.cases.iter().map(|case| &case.scene));
+    for scene in &scenes {
         let name = scene.to_string();
-        let of_scene = || run.cases.iter().filter(|case| case.scene == *scene);
+        let of_scene = || run.cases.iter().filter(|case| case.scene == **scene);
         for alignment in list_once(of_scene().map(|case| case.alignment)) {
             table.push_text(heading(&format!("{scene}, {alignment} shutter")));
             for case in of_scene().filter(|case| case.alignment == alignment) {
@@ -39,16 +81,17 @@ pub fn run_table(run: &Run) -> Text {
                 for (title, metric) in columns.chain([(COMMON_FLIP, Metric::CommonFlip)]) {
                     missing.note(title, &case.measured(metric), [&name, &row]);
                 }
+                // Ranks are over all scenes.
+                let row = if scenes.len() == 1 {
+                    ranks.name(&case.filter_id(), case.scene.rate)
+                } else {
+                    row
+                };
                 table.push_row(case.is_reference, row, case_cells(&case.scores).chain(more));
             }
         }
     }
-    let legend = format!(
-        "FLIP* is against the {} shutter. {KEY}",
-        run.common_alignment
-    );
-    let lag = lag_text(&run.cases).map_or(Text::default(), |lag| legend_text(&lag));
-    table.text() + legend_text(&legend) + lag + missing.text() + means_table(&run.overall)
+    (table, missing)
 }
 
 /// Meaning of titles and marks.

@@ -4,6 +4,7 @@ mod abreast;
 mod cases;
 mod missing;
 mod ranking;
+mod ranks;
 mod scene_means;
 mod sequence;
 
@@ -13,5 +14,6 @@ pub use self::abreast::*;
 pub use self::cases::*;
 pub use self::missing::*;
 pub use self::ranking::*;
+use self::ranks::Ranks;
 pub use self::scene_means::*;
 pub use self::sequence::*;

@@ -2,10 +2,10 @@
 
 use frame::Alignment;
 use judge::{
-    MAX_RANKED, RANK_RULE, RankedFilter, SIDE_EFFECTS_RULE, list_summarized, mean_lag,
-    no_gain_text, rank_for_summary,
+    MAX_RANKED, RANK_RULE, RankedFilter, SIDE_EFFECTS_RULE, few_scenes_text, inseparable_text,
+    list_summarized, mean_lag, no_gain_text, rank_for_summary,
 };
-use measure::Case;
+use measure::{Case, ReferencePicture, Run};
 use metrics::Metric;
 use scene::FrameRate;
 
@@ -18,19 +18,19 @@ use super::{
 
 /// Makes the summary of cases, in at most 40 lines: filters ranked within each shutter, then
 /// references.
-pub fn ranking_text(cases: &[Case]) -> Text {
+pub fn ranking_text(run: &Run) -> Text {
+    let cases = &run.cases;
     let mut groups = rank_for_summary(cases);
     if groups.is_empty() {
         return "no filter has a FLIP score: nothing moves in these scenes\n".into();
     }
-    let count = |groups: &[Vec<RankedFilter>]| groups.iter().map(Vec::len).sum::<usize>();
-    let presets: usize = groups.iter().flatten().map(|ranked| ranked.presets).sum();
-    let rows = count(&groups);
+    let presets: usize = ranked(&groups).map(|ranked| ranked.presets).sum();
+    let rows = ranked(&groups).count();
     if rows > MAX_RANKED {
         let each = (MAX_RANKED / groups.len()).max(1);
-        groups.iter_mut().for_each(|group| group.truncate(each));
+        groups.iter_mut().for_each(|group| shorten(group, each));
     }
-    let hidden = rows - count(&groups);
+    let hidden = rows - ranked(&groups).count();
     let mut text = Text::default();
     for group in &groups {
         if let Some(no_gain) = no_gain_text(group) {
@@ -38,13 +38,42 @@ pub fn ranking_text(cases: &[Case]) -> Text {
             push_wrapped(&mut text, 0, format!("{shutter}: {no_gain}"));
         }
     }
+    if let Some(inseparable) = inseparable_text(run) {
+        push_wrapped(&mut text, 0, inseparable);
+    }
     text += ranking_table(cases, &groups).text();
     text += references_text(cases, &groups);
     text += "\n";
     text += legend_text(&notes(&groups));
+    let scenes = list_once(list_summarized(cases).into_iter().map(|case| &case.scene));
+    let few = few_scenes_text(scenes.len()).filter(|_| rows > 1);
+    text += few.map_or(Text::default(), |few| legend_text(&few));
     text += hidden_text(presets, rows, hidden);
     text += twins_text(cases, &groups);
     text + input_forms_text(cases) + frame_rates_text(cases)
+}
+
+/// Keeps the first filters of a shutter, and no blur.
+fn shorten(group: &mut Vec<RankedFilter>, count: usize) {
+    let mut filters = 0;
+    group.retain(|ranked| {
+        filters += usize::from(ranked.is_ranked());
+        !ranked.is_ranked() || filters <= count
+    });
+}
+
+/// Goes through the filters that have a rank.
+fn ranked(groups: &[Vec<RankedFilter>]) -> impl Iterator<Item = &RankedFilter> {
+    groups.iter().flatten().filter(|ranked| ranked.is_ranked())
+}
+
+/// Makes the ranking as Markdown.
+pub fn ranking_markdown(cases: &[Case]) -> String {
+    let groups = rank_for_summary(cases);
+    if groups.is_empty() {
+        return String::new();
+    }
+    ranking_table(cases, &groups).markdown()
 }
 
 /// Says that filters are shown by their best of all presets, and that some of these rows are
@@ -99,9 +128,9 @@ fn ranking_table(cases: &[Case], groups: &[Vec<RankedFilter>]) -> Table {
     table
 }
 
-/// Formats a filter after its rank: ` 2-4 jimenez:hdrp`.
+/// Formats a filter after its rank: ` 2-4 jimenez:hdrp`. No blur has no rank.
 pub fn ranked_name(ranked: &RankedFilter) -> String {
-    format!("{:>4} {}", ranked.rank_text(), ranked.name)
+    format!("{:>4} {}", ranked.rank_text(), ranked.shown_name())
 }
 
 /// Returns the ranking mean, its interval, and the worst scene.
@@ -119,11 +148,12 @@ pub fn ranking_cells(
     [number(ranked.mean), interval, worst]
 }
 
-/// Makes the table of references: one row each, one column per shutter. The last row is the lag of
-/// the shutter's middle behind the frame.
+/// Makes the table of references other than no blur, which the ranking has: one row each, one
+/// column per shutter. The last row is the lag of the shutter's middle behind the frame.
 fn references_text(cases: &[Case], groups: &[Vec<RankedFilter>]) -> Text {
     let references = || (list_summarized(cases).into_iter()).filter(|case| case.is_reference);
-    let names = list_once(references().map(|case| case.name()));
+    let others = references().filter(|case| case.reference() != Some(ReferencePicture::Identity));
+    let names = list_once(others.map(|case| case.name()));
     if names.is_empty() {
         return Text::default();
     }

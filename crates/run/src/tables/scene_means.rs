@@ -4,7 +4,9 @@ use frame::Alignment;
 use measure::{Overall, rank_filters};
 use metrics::{Metric, SkillMetric};
 
-use super::{Column, Table, bracket_name, cell, legend_text, list_once, range_text, shutter_text};
+use super::{
+    Column, Ranks, Table, bracket_name, cell, legend_text, list_once, range_text, shutter_text,
+};
 use terminal::output::{Text, heading};
 
 /// FLIP, which ranks filters of one alignment, and the columns after it.
@@ -26,9 +28,9 @@ const BY_SKILL: [Column; 4] = [
     ("FLIP*", Metric::CommonFlip),
 ];
 
-/// Makes the tables of means, best first: by FLIP among filters of one shutter alignment, by skill
-/// among all. Empty for a single scene.
-pub fn means_table(overall: &[Overall]) -> Text {
+/// Makes the tables of means, best first: by FLIP among filters of one shutter alignment, with
+/// their ranks, and by skill among all. Empty for a single scene.
+pub fn means_table(overall: &[Overall], ranks: &Ranks) -> Text {
     let groups = rank_filters(overall, Metric::FLIP);
     if groups.is_empty() {
         return Text::default();
@@ -38,7 +40,8 @@ pub fn means_table(overall: &[Overall]) -> Text {
         let shutter = shutter_text(group[0].alignment, group[0].rate);
         by_flip.push_text(heading(&shutter));
         for row in group {
-            push_mean(&mut by_flip, overall, row, &BY_FLIP, None);
+            let name = ranks.name(&row.filter, row.rate);
+            push_mean(&mut by_flip, overall, (name, row), &BY_FLIP, None);
         }
     }
     let mut text = Text::from("\n") + by_flip.text();
@@ -49,7 +52,8 @@ pub fn means_table(overall: &[Overall]) -> Text {
         }
         for row in group {
             let last = Some(row.alignment.name());
-            push_mean(&mut by_skill, overall, row, &BY_SKILL, last);
+            let name = bracket_name(&row.name, row.is_reference);
+            push_mean(&mut by_skill, overall, (name, row), &BY_SKILL, last);
         }
         text += Text::from("\n") + by_skill.text();
         text += legend_text(
@@ -96,7 +100,7 @@ fn begin_means(overall: &[Overall], columns: &[Column], last: Option<&str>) -> T
 fn push_mean(
     table: &mut Table,
     overall: &[Overall],
-    row: &Overall,
+    (name, row): (String, &Overall),
     columns: &[Column],
     last: Option<&str>,
 ) {
@@ -109,6 +113,5 @@ fn push_mean(
         cells.push(cell(mean, |mean| metric.number(mean.mean)));
     }
     cells.extend(last.map(str::to_owned));
-    let name = bracket_name(&row.name, row.is_reference);
     table.push_row(row.is_reference, name, cells);
 }

@@ -24,15 +24,19 @@ pub enum Switch {
 #[derive(Clone, Debug, Args)]
 #[command(next_help_heading = "Scenes and files")]
 pub struct SceneArgs {
-    /// Scenes: names, folders or patterns such as 'rail*', each with an optional @variant or @all;
-    /// repeatable, or separated by commas [default: all].
-    #[arg(
-        long,
-        visible_alias = "scene",
-        value_delimiter = ',',
-        value_name = "SCENES"
-    )]
+    /// Scenes: names, folders or patterns such as 'rail*', each with an optional @variant or @all
+    /// [default: all].
+    #[arg(value_delimiter = ',', value_name = "SCENES", help_heading = None)]
     pub scenes: Vec<String>,
+    /// The same as an option: earlier commands, in run.json and in bounds.toml, have it.
+    #[arg(
+        long = "scenes",
+        alias = "scene",
+        hide = true,
+        value_delimiter = ',',
+        conflicts_with = "scenes"
+    )]
+    pub scenes_option: Vec<String>,
     /// Use the sealed variant SCENE@sealS of every scene. It has other speeds, directions, places,
     /// times and colours.
     #[arg(long, value_name = "S")]
@@ -76,6 +80,15 @@ pub struct SceneArgs {
 }
 
 impl SceneArgs {
+    /// Returns the scenes as written; none for all.
+    pub fn written(&self) -> &[String] {
+        if self.scenes_option.is_empty() {
+            &self.scenes
+        } else {
+            &self.scenes_option
+        }
+    }
+
     /// Names the scenes: sealed if --seal is given, and at the requested frame rates.
     pub fn names(&self) -> Result<Vec<String>, Error> {
         let names = self.rates.add_to(self.variant_names()?)?;
@@ -93,19 +106,19 @@ impl SceneArgs {
 
     fn variant_names(&self) -> Result<Vec<String>, Error> {
         let Some(seed) = self.seal else {
-            return Ok(self.scenes.clone());
+            return Ok(self.written().to_vec());
         };
         if let Some(name) =
-            (self.scenes.iter()).find(|name| !split_scene(name).1.choice().is_empty())
+            (self.written().iter()).find(|name| !split_scene(name).1.choice().is_empty())
         {
             refuse!(
                 "--seal: {name} is a variant; allowed: scenes in their default variant, which sealed ones are made of"
             );
         }
-        Ok(if self.scenes.is_empty() {
+        Ok(if self.written().is_empty() {
             vec![sealed("*", seed)]
         } else {
-            (self.scenes.iter().map(|name| sealed(name, seed))).collect()
+            (self.written().iter().map(|name| sealed(name, seed))).collect()
         })
     }
 

@@ -2,8 +2,9 @@
 
 use std::collections::BTreeSet;
 use std::io::{ErrorKind, IsTerminal, Write};
+use std::path::Path;
 
-use measure::{Error, printable, printable_lines};
+use measure::{Error, printable, printable_lines, printable_path};
 use scene::Scene;
 
 use super::{Text, wrap_lines};
@@ -52,6 +53,13 @@ fn print_wrapped(text: &str) {
 /// Writes a note to standard error: worth knowing, but nothing is wrong.
 pub fn print_note(text: &str) {
     print_wrapped(&format!("note: {}", printable(text)));
+}
+
+/// Opens a page in the browser. A machine without one gets a note.
+pub fn open_page(page: &Path) {
+    if let Err(error) = opener::open(page) {
+        print_note(&format!("cannot open {}: {error}", printable_path(page)));
+    }
 }
 
 /// Writes what the loader left out of scenes, each note once.

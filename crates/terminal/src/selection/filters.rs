@@ -1,6 +1,6 @@
 //! Selection of filters, their presets and overrides.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use filters::Filter;
 use measure::{Error, FilterChoice};
@@ -77,6 +77,20 @@ pub fn load_filters(name: &str) -> Result<Vec<Filter>, Error> {
         "--filter: no built-in filter is called \"{name}\"; {} A filter of your own is named by its folder, such as ./{name}",
         suggest_names(name, &known)
     )
+}
+
+/// Lists the folders among the names of filters.
+pub fn filter_folders(names: &[String]) -> Vec<PathBuf> {
+    let builtin = Filter::builtin_names();
+    let folders = names.iter().filter_map(|text| {
+        let name = match text.rsplit_once(':') {
+            Some((name, preset)) if !preset.contains(['/', '\\']) => name,
+            _ => text.as_str(),
+        };
+        let is_folder = !builtin.iter().any(|known| known == name) && Path::new(name).is_dir();
+        is_folder.then(|| PathBuf::from(name))
+    });
+    folders.collect()
 }
 
 /// Lists a filter's presets that match a name or a pattern, or all of them.

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use filters::Filter;
 use measure::{Error, IngestedScene};
 use scene::{Location, Scene, SceneId, list_scene, list_scenes, load_scene};
 
@@ -24,13 +25,13 @@ pub fn select_scenes(
     names: &[String],
 ) -> Result<Vec<SceneChoice>, Error> {
     let root = &root.into();
-    refuse_empty_names("--scenes", names)?;
+    refuse_empty_names("scenes", names)?;
     // If every scene is given by its path, `root` need not exist.
     let listings = match !names.is_empty() && names.iter().all(|name| is_path(name)) {
         true => Vec::new(),
         false if root.is_dir() => list_scenes(root)?,
         false => refuse!(
-            "{root}: there is no such folder of scenes; name one with --scenes-dir, or a scene by its path with --scenes"
+            "{root}: there is no such folder of scenes; name one with --scenes-dir, or give a scene by its path"
         ),
     };
     if names.is_empty() {
@@ -78,21 +79,35 @@ pub fn select_ingested_scenes(
 /// Finds the folders of a name, a pattern or a path. A scene of `root` has priority over a folder
 /// of the same name elsewhere.
 fn find_folders(root: &Location, name: &str, known: &[String]) -> Result<Vec<Location>, Error> {
-    if is_path(name) {
-        return Ok(vec![Path::new(name).into()]);
-    }
-    let matched = match_names("--scenes", name, known)?;
-    if !matched.is_empty() {
+    let matched = match_names("scenes", name, known)?;
+    if !matched.is_empty() && !is_path(name) {
         return Ok(matched.iter().map(|name| root.join(name)).collect());
     }
-    if Path::new(name).is_dir() {
+    if let Some(option) = other_option(name) {
+        refuse!("{name} is no scene; give it with {option} {name}");
+    }
+    if is_path(name) || Path::new(name).is_dir() {
         return Ok(vec![Path::new(name).into()]);
     }
     refuse!(
-        "--scenes: no scene \"{name}\" in {root}; {}{} A scene elsewhere is named by its path, such as ./{name}",
+        "no scene \"{name}\" in {root}; {}{} A scene elsewhere is named by its path, such as ./{name}",
         suggest_names(name, known),
         suggest_built_in(root, name)
     )
+}
+
+/// Finds the option for a filter or a finished run; none for other names.
+fn other_option(name: &str) -> Option<&'static str> {
+    let filter = name.rsplit_once(':').map_or(name, |(filter, _)| filter);
+    let is_built_in = (Filter::builtin_names().iter()).any(|known| known == filter);
+    let (path, filter) = (Path::new(name), Path::new(filter));
+    if is_built_in || filter.join("filter.toml").is_file() {
+        Some("--filter")
+    } else if path.join("run.json").is_file() || path.ends_with("run.json") {
+        Some("check --run")
+    } else {
+        None
+    }
 }
 
 /// Explains how to get a built-in scene that another folder of scenes hides.
@@ -126,7 +141,7 @@ const ALL: &str = "all";
 fn load_all_variants(folder: &Location, all: &SceneId) -> Result<Vec<SceneChoice>, Error> {
     let variants = list_scene(folder)?.variants;
     if variants.is_empty() {
-        refuse!("--scenes: {folder} has no variants for @all; name the scene without it");
+        refuse!("scenes: {folder} has no variants for @all; name the scene without it");
     }
     let of_variant = |variant| SceneId {
         variant: Some(variant),
@@ -143,7 +158,7 @@ fn refuse_twins<'a>(scenes: impl Iterator<Item = (&'a SceneId, Location)>) -> Re
     for (name, folder) in scenes {
         if let Some((_, other)) = known.iter().find(|(other, _)| *other == name) {
             refuse!(
-                "--scenes: {name} is named twice, as {other} and {folder}; allowed: each name once; rename one of the folders, or \
+                "scenes: {name} is named twice, as {other} and {folder}; allowed: each name once; rename one of the folders, or \
                  run them into two --out folders"
             );
         }
@@ -160,12 +175,12 @@ fn load_choice(folder: &Location, id: &SceneId) -> Result<SceneChoice, Error> {
         .to_string_lossy();
     if name.contains('@') {
         refuse!(
-            "--scenes: the folder {folder} cannot name a scene; allowed: names without @, which begins a variant; rename it"
+            "scenes: the folder {folder} cannot name a scene; allowed: names without @, which begins a variant; rename it"
         );
     }
     if folder.on_disk().is_some_and(IngestedScene::is_in) {
         refuse!(
-            "--scenes: {folder} holds what an engine drew, and nothing to render; `run` and `check` measure it"
+            "scenes: {folder} holds what an engine drew, and nothing to render; `run` and `check` measure it"
         );
     }
     Ok(SceneChoice {

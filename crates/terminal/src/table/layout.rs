@@ -1,5 +1,8 @@
 //! Layout of tables: columns as wide as their cells, rows that fit the terminal.
 
+use measure::escape_markdown;
+
+use super::markdown_table;
 use crate::output::{Text, bold, faint, terminal_columns};
 
 /// Spaces between two cells: the most that fit.
@@ -81,6 +84,22 @@ impl Table {
     /// Lays out the table. If a row does not fit the terminal, long names get a line of their own.
     pub fn text(&self) -> Text {
         self.text_in(terminal_columns())
+    }
+
+    /// Makes the table as Markdown; text outside the columns becomes a bold row.
+    pub fn markdown(&self) -> String {
+        let cell = |text: &Text| escape_markdown(&text.plain());
+        let titles: Vec<String> = self.titles.iter().map(cell).collect();
+        let titles: Vec<&str> = titles.iter().map(String::as_str).collect();
+        let row = |line: &Line| match line {
+            Line::Row { cells, .. } => cells.iter().map(cell).collect(),
+            Line::Text(text) => {
+                let mut cells = vec![String::new(); titles.len()];
+                cells[0] = format!("**{}**", cell(text));
+                cells
+            }
+        };
+        markdown_table(&titles, self.lines.iter().map(row))
     }
 
     fn text_in(&self, terminal: usize) -> Text {
@@ -177,6 +196,15 @@ fn make_row<T: Into<Text>>(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn markdown_has_groups_as_bold_rows_and_escapes_names() {
+        let mut table = Table::new("plate", ["FLIP", "grain"]);
+        table.push_text("centred shutter");
+        table.push(" 1-2 a|b", ["0.1", "0.2!"]);
+        let due = "| plate | FLIP | grain |\n|---|---|---|\n| **centred shutter** |  |  |\n| 1-2 a\\|b | 0.1 | 0.2! |\n";
+        assert_eq!(table.markdown(), due);
+    }
 
     #[test]
     fn a_name_that_does_not_fit_has_a_line_of_its_own() {

@@ -119,7 +119,7 @@ fn make_options(args: &SearchArgs, choice: FilterChoice) -> Result<TuneOptions, 
         words => load_scenes(&scene_args.root.scenes_dir, words, Some(args.held_out_size))?,
     };
     let mut open = candidate.load_scenes()?;
-    if scene_args.scenes.is_empty() {
+    if scene_args.written().is_empty() {
         // "All scenes" excludes the held-out ones.
         open.retain(|open| held_out.iter().all(|held| held.scene.id != open.scene.id));
     }

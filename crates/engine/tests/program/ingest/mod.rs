@@ -253,9 +253,9 @@ fn a_check_holds_an_engine_to_the_bounds_beside_its_own_scene() {
     let (code, told) = bound("limit = 0.2, level = \"required\"");
     assert_eq!(code, Some(1), "{told}");
     assert!(!told.contains("95 % CI"), "sub-frames are no samples");
-    let finished = sandbox.shuttertruth(&split("check out --scenes-dir out/engine"));
+    let finished = sandbox.shuttertruth(&split("check --run out --scenes-dir out/engine"));
     assert_eq!(finished.status.code(), Some(1), "{}", stdout(&finished));
-    sandbox.refuse("check out", &[NAME, "--scenes-dir"]);
+    sandbox.refuse("check --run out", &[NAME, "--scenes-dir"]);
     let (code, told) = bound("limit = 0.001");
     assert_eq!(code, Some(2));
     assert_contains(&told, &["capture more sub-frames than 16"]);

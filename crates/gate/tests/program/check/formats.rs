@@ -39,6 +39,15 @@ fn junit_has_a_case_for_every_bound() {
         "flip_moving broken\nlabel_tv kept\nmisplacement skipped\noccluder_contamination skipped\n";
     assert_eq!(cases.collect::<String>(), due, "{text}");
     assert_contains(&text, &["most like no_blur"]);
+    let broken = &suite.test_cases[0];
+    let picture = broken.system_out.as_ref().unwrap().as_str();
+    let picture = picture.strip_prefix("[[ATTACHMENT|").unwrap();
+    let picture = picture.strip_suffix("]]").unwrap();
+    assert_eq!(picture, "out/plate/identity_default/worst_flip_moving.png");
+    assert!(sandbox.path(picture).is_file());
+    assert!(suite.test_cases[1].system_out.is_none(), "{text}");
+    // The only scene takes all of the time, which is short: its case is read back.
+    assert!(suite.time.is_some() && report.time == suite.time, "{text}");
 }
 
 /// Checks filters with GitHub's reports; returns the lines of annotations.
@@ -64,7 +73,13 @@ fn github_gets_at_most_ten_annotations_and_a_full_summary() {
     sandbox.put("summary.md", "before\n");
     let few = annotations(&sandbox, "identity", "::error");
     assert_eq!(few.len(), 6, "{few:#?}");
-    let first = "::error title=plate / identity%3Adefault::BROKEN deficit 0.";
+    // The bounds have their table in line 1.
+    let lines = sandbox.text("scenes/plate/bounds.toml");
+    let line = lines.lines().position(|line| line.starts_with("deficit"));
+    let line = line.unwrap() + 1;
+    let first = &format!(
+        "::error file=scenes/plate/bounds.toml,line={line},title=plate / identity%3Adefault::BROKEN deficit 0."
+    );
     assert!(few[0].starts_with(first), "{}", few[0]);
     assert_contains(&few[0], &["95 %25 CI"]);
     let many = annotations(&sandbox, "identity,velocity_gather:fine", "::error");

@@ -95,7 +95,7 @@ fn a_limit_inside_the_interval_gives_exit_code_4_and_the_samples_to_decide() {
     let parts = [
         "UNDECIDED flip_moving",
         "1024 samples per pixel would settle it",
-        "raise the samples per pixel",
+        "what settles it is said above",
     ];
     check(&sandbox, "", 4, &parts);
     let value = finding["value"].as_f64().unwrap();
@@ -212,7 +212,7 @@ fn a_finished_run_is_judged_without_an_adapter() {
     let sandbox = make_bounded(0.2, "required");
     let broken = ["BROKEN flip_moving"];
     let made = check(&sandbox, "", 1, &broken);
-    let judge = |line: &str| sandbox.without_adapter(&split(&format!("check {line}")));
+    let judge = |line: &str| sandbox.without_adapter(&split(&format!("check --run {line}")));
     // The run wrote the page and its files already.
     let lines = made.split_inclusive('\n');
     let made: String = (lines.filter(|line| !line.starts_with("report: "))).collect();
@@ -248,7 +248,7 @@ fn a_finished_run_that_cannot_be_written_to_is_judged_all_the_same() {
         let place = sandbox.path("out/judgement.json");
         fs::remove_file(&place).unwrap();
         fs::create_dir(&place).unwrap();
-        let output = sandbox.without_adapter(&split("check out/run.json"));
+        let output = sandbox.without_adapter(&split("check --run out/run.json"));
         assert_ends(&output, code, &["1 required bound: 1"]);
         assert_contains(
             &stderr(&output),
@@ -266,7 +266,7 @@ fn a_judgement_of_another_run_is_refused() {
     let parts = [
         "judgement.json",
         "about another run.json",
-        "shuttertruth check out/run.json",
+        "shuttertruth check --run out/run.json",
     ];
     sandbox.refuse("report out --html page.html", &parts);
 }

@@ -76,9 +76,9 @@ fn a_check_judges_the_sequence_and_the_first_frame_as_without_it() {
     // The finished run is judged again, without an adapter; limits that it cannot judge are
     // refused.
     let judge = |line: &str| sandbox.without_adapter(&split(line));
-    assert_ends(&judge("check out"), 1, &[limit]);
+    assert_ends(&judge("check --run out"), 1, &[limit]);
     let parts = ["--frames", "cannot be used with", "RUN"];
-    assert_refused(&judge("check out --frames 3"), 2, &parts);
+    assert_refused(&judge("check --run out --frames 3"), 2, &parts);
     let other = sandbox.check(&split("--filters identity --frames 2"));
     let parts = [
         "bounds.toml:4: the limit on flicker holds for sequences of 3 frames, \
