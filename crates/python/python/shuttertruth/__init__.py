@@ -25,12 +25,12 @@ from ._native import Error, Render
 
 __all__ = ["Error", "Render", "Scores", "blur", "filters", "flip", "render", "run", "scenes", "score"]
 
-Path = Union[str, PathLike]
+Path = Union[str, "PathLike[str]"]
 
 _native.name_module(_native.__file__)
 
 
-class Scores(dict):
+class Scores(dict[str, float]):
     """Scores of a picture by name, such as `flip_moving`, `psnr_full`, `skill_flip`: numbers."""
 
     missing: dict[str, str]
@@ -38,7 +38,7 @@ class Scores(dict):
     notes: list[str]
     """What else to know of the scores, each a sentence."""
 
-    def __init__(self, values: Iterable, missing: Iterable, notes: list[str]) -> None:
+    def __init__(self, values: Iterable[tuple[str, float]], missing: Iterable[tuple[str, str]], notes: list[str]) -> None:
         super().__init__(values)
         self.missing = dict(missing)
         self.notes = notes
@@ -153,6 +153,7 @@ def score(
         raise Error("score needs a truth or a reference; allowed: one of the two")
     if truth is not None:
         return Scores(*_native.score(_picture("image", image), truth))
+    assert reference is not None
     return Scores(*_native.score_pair(*_pair("image", image, "reference", reference)))
 
 
@@ -173,7 +174,7 @@ def run(
 
     scenes, filters: names, patterns or folders; none means all.
     out: folder for pictures, truths and run.json. What is finished there is not measured again; `shuttertruth report` makes its page.
-    options: further options of the command, such as ["--frame-rate", "24"].
+    options: further options of the command, such as ["--frame-rate", "24"]. No shuttertruth.toml is read.
     """
     width, height = _size(size)
     words = ["--size", f"{width}x{height}", "--samples-per-pixel", str(samples), "--seed", str(seed), "--out", fspath(out)]
