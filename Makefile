@@ -51,11 +51,12 @@ test: software_vulkan python chromium node glslang
 WHEELS = $(TARGET_DIR)/wheels
 MODULE = $(TARGET_DIR)/module
 MATURIN = "$(PYTHON)" -m maturin build -q --locked --manifest-path crates/python/Cargo.toml --out
+FETCH = "$(PYTHON)" -m pip download -q --no-deps --dest "$(WHEELS)" numpy==2.4.6
 
 module: software_vulkan python
 	rm -rf "$(MODULE)" "$(WHEELS)"/shuttertruth-*
 	$(MATURIN) "$(WHEELS)"
-	ls "$(WHEELS)"/numpy-* >/dev/null 2>&1 || "$(PYTHON)" -m pip download -q --no-deps --dest "$(WHEELS)" numpy==2.4.6
+	$(FETCH) --no-index --find-links "$(WHEELS)" 2>/dev/null || $(FETCH)
 	"$(PYTHON)" -m venv --without-pip "$(MODULE)"
 	"$(PYTHON)" -m pip --python "$(MODULE)/bin/python3" install -q --no-index --find-links "$(WHEELS)" shuttertruth
 	cd crates/python/tests && $(SOFTWARE) "$(abspath $(MODULE))/bin/python3" -m unittest $(NAMES)
