@@ -45,7 +45,7 @@ pub struct Render {
 /// Lists the scenes of a folder, or the program's own.
 #[pyfunction]
 pub fn scene_names(scenes_dir: Option<&str>) -> PyResult<Vec<String>> {
-    let listings = list_scenes(&scenes_root(scenes_dir)).map_err(to_exception)?;
+    let listings = list_scenes(scenes_root(scenes_dir)).map_err(to_exception)?;
     Ok(listings.into_iter().map(|listing| listing.name).collect())
 }
 
@@ -181,8 +181,8 @@ impl Render {
         Ok(coverage)
     }
 
-    /// Sharp pictures at the middles of equal parts of the shutter, the earliest first; empty unless
-    /// `render` was asked for some.
+    /// Sharp pictures at the middles of equal parts of the shutter, the earliest first; empty
+    /// unless `render` was asked for some.
     #[getter]
     fn subframes<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyTuple>> {
         let subframes: &[Image] = &slf.get().scene.subframes;
