@@ -1,6 +1,7 @@
 # `make run` does the main job, and `make site` makes a site of its results. `make test` proves that the program is right, and
 # `make prove` repeats it at full breadth within an hour: CONTRIBUTING.md. `make archive` makes the release archive; `make action` and
-# `make image` try it in a bare Debian and in two images: docs/release.md.
+# `make image` try it in a bare Debian and in two images. `make wheel` makes the Python wheel, and `make try_wheel` tries it:
+# docs/release.md.
 #
 # All look for a Vulkan driver first and, on Debian and Ubuntu, install the software one where there is none. The tests need Python:
 # Optuna drives the tuning service, Snakemake runs the jobs of a plan, numpy and OpenEXR compare presets with their originals, and
@@ -50,11 +51,12 @@ test: software_vulkan python chromium node glslang
 WHEELS = $(TARGET_DIR)/wheels
 MODULE = $(TARGET_DIR)/module
 MATURIN = "$(PYTHON)" -m maturin build -q --locked --manifest-path crates/python/Cargo.toml --out
+FETCH = "$(PYTHON)" -m pip download -q --no-deps --dest "$(WHEELS)" numpy==2.4.6
 
 module: software_vulkan python
 	rm -rf "$(MODULE)" "$(WHEELS)"/shuttertruth-*
 	$(MATURIN) "$(WHEELS)"
-	ls "$(WHEELS)"/numpy-* >/dev/null 2>&1 || "$(PYTHON)" -m pip download -q --no-deps --dest "$(WHEELS)" numpy==2.4.6
+	$(FETCH) --no-index --find-links "$(WHEELS)" 2>/dev/null || $(FETCH)
 	"$(PYTHON)" -m venv --without-pip "$(MODULE)"
 	"$(PYTHON)" -m pip --python "$(MODULE)/bin/python3" install -q --no-index --find-links "$(WHEELS)" shuttertruth
 	cd crates/python/tests && $(SOFTWARE) "$(abspath $(MODULE))/bin/python3" -m unittest $(NAMES)

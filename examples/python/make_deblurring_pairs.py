@@ -50,12 +50,18 @@ def write_kitti(path: pathlib.Path, flow: np.ndarray) -> None:
 
 
 # %% The pairs
-size = tuple(map(int, arguments.size.split("x")))
+width, height = map(int, arguments.size.split("x"))
 began = time.monotonic()
 pairs = [(scene, frame) for scene in arguments.scenes for frame in range(arguments.frames)]
 for scene, frame in pairs:
     made = st.render(
-        scene, size, arguments.exposure, samples=64, noise=arguments.noise, velocity="previous_frame", at_frame=frame
+        scene,
+        (width, height),
+        arguments.exposure,
+        samples=64,
+        noise=arguments.noise,
+        velocity="previous_frame",
+        at_frame=frame,
     )
     folder = arguments.out / f"{made.scene.replace('/', '_')}"
     folder.mkdir(parents=True, exist_ok=True)

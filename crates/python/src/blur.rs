@@ -69,7 +69,8 @@ pub fn blur<'py>(
     Ok(give_image(py, blurred))
 }
 
-/// Refuses a filter that blurs for another shutter: its picture would be compared with a wrong truth.
+/// Refuses a filter that blurs for another shutter: its picture would be compared with a wrong
+/// truth.
 fn check_alignment(choice: &FilterChoice, rendered: Alignment) -> Result<(), Error> {
     let alignment = choice.filter.alignment;
     if alignment == rendered {

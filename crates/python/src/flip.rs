@@ -1,7 +1,8 @@
 //! FLIP of two pictures.
 
 use frame::{Display, decode_srgb};
-use metrics::{Viewing, flip_ldr};
+use measure::Error;
+use metrics::flip_ldr;
 use numpy::PyReadonlyArray3;
 use pyo3::prelude::*;
 
@@ -26,11 +27,16 @@ pub fn flip<'py>(
     };
     let (reference, image) = (take_image(&reference)?, take_image(&image)?);
     let map = work(py, || {
-        let viewing = Viewing::from(Display {
+        let display = Display {
             stops,
             ..Display::default()
-        });
-        Ok(flip_ldr(&decode(reference), &decode(image), &viewing))
+        };
+        display.check_stops().map_err(Error::Refused)?;
+        Ok(flip_ldr(
+            &decode(reference),
+            &decode(image),
+            &display.into(),
+        ))
     })?;
     Ok(give_plane(py, map))
 }

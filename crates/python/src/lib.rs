@@ -30,5 +30,5 @@ mod _native {
     #[pymodule_export]
     use crate::render::{Render, render, scene_names};
     #[pymodule_export]
-    use crate::score::score;
+    use crate::score::{score, score_pair};
 }

@@ -45,7 +45,7 @@ pub struct Render {
 /// Lists the scenes of a folder, or the program's own.
 #[pyfunction]
 pub fn scene_names(scenes_dir: Option<&str>) -> PyResult<Vec<String>> {
-    let listings = list_scenes(&scenes_root(scenes_dir)).map_err(to_exception)?;
+    let listings = list_scenes(scenes_root(scenes_dir)).map_err(to_exception)?;
     Ok(listings.into_iter().map(|listing| listing.name).collect())
 }
 
@@ -82,7 +82,17 @@ fn scenes_root(folder: Option<&str>) -> Location {
 
 fn load(name: String, options: &RenderOptions) -> Result<Scene, Error> {
     let root = scenes_root(options.scenes_dir.as_deref());
-    let mut choices = select_scenes(root, &[name])?;
+    let mut choices = select_scenes(root, std::slice::from_ref(&name))?;
+    if choices.len() > 1 {
+        let names: Vec<String> = (choices.iter())
+            .map(|choice| choice.scene.id.to_string())
+            .collect();
+        return Err(Error::Refused(format!(
+            "scene \"{name}\" names {} scenes; allowed: one, such as {}",
+            names.len(),
+            names.join(", ")
+        )));
+    }
     Ok(choices.remove(0).scene.at_frame(options.at_frame))
 }
 
@@ -171,8 +181,8 @@ impl Render {
         Ok(coverage)
     }
 
-    /// Sharp pictures at the middles of equal parts of the shutter, the earliest first; empty unless
-    /// `render` was asked for some.
+    /// Sharp pictures at the middles of equal parts of the shutter, the earliest first; empty
+    /// unless `render` was asked for some.
     #[getter]
     fn subframes<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyTuple>> {
         let subframes: &[Image] = &slf.get().scene.subframes;

@@ -1,13 +1,17 @@
 //! Scores of pictures.
 
+use frame::Display;
 use measure::{FinishedPicture, Scored, missing_scores, score as score_finished};
-use metrics::{Metric, Scores};
+use metrics::{ImageMetric, Metric, Region, Scores, flip_ldr, psnr};
 use numpy::PyReadonlyArray3;
 use pyo3::prelude::*;
 
 use crate::arrays::take_image;
 use crate::render::Render;
 use crate::work::work;
+
+const NEEDS_TRUTH: &str =
+    "it needs to know what moves: score against a render, score(image, truth)";
 
 /// Scores by name, the others' reasons by name, and notes.
 type Named = (Vec<(String, f64)>, Vec<(String, String)>, Vec<String>);
@@ -32,6 +36,44 @@ pub fn score(py: Python, image: PyReadonlyArray3<f32>, render: &Render) -> PyRes
         let missing = missing_scores(&scores);
         Ok(name_scores(&scores, missing, notes))
     })
+}
+
+/// Scores a picture against another of the same size: what the two alone tell.
+#[pyfunction]
+pub fn score_pair(
+    py: Python,
+    image: PyReadonlyArray3<f32>,
+    reference: PyReadonlyArray3<f32>,
+) -> PyResult<Named> {
+    let (image, reference) = (take_image(&image)?, take_image(&reference)?);
+    work(py, || {
+        let flip = flip_ldr(&reference, &image, &Display::default().into());
+        let flip = flip.pixels.iter().map(|error| f64::from(*error));
+        let values = image.pixels.as_flattened().iter();
+        let pairs = values.zip(reference.pixels.as_flattened());
+        let squared = mean(pairs.map(|(a, b)| (f64::from(*a) - f64::from(*b)).powi(2)));
+        let scores = [
+            (ImageMetric::Flip, mean(flip)),
+            (ImageMetric::Mse, squared),
+            (ImageMetric::Psnr, psnr(squared, 0.0)),
+        ];
+        let scores = scores.map(|(metric, value)| (Metric::Image(metric, Region::Full), value));
+        let others = Metric::all().into_iter();
+        let others = others.filter(|metric| scores.iter().all(|(known, _)| known != metric));
+        Ok((
+            scores.map(|(metric, value)| (metric.name(), value)).into(),
+            others
+                .map(|metric| (metric.name(), NEEDS_TRUTH.to_owned()))
+                .collect(),
+            Vec::new(),
+        ))
+    })
+}
+
+/// Averages numbers, of which there are some.
+fn mean(values: impl ExactSizeIterator<Item = f64>) -> f64 {
+    let count = values.len() as f64;
+    values.sum::<f64>() / count
 }
 
 fn name_scores(scores: &Scores, missing: Vec<(String, Vec<Metric>)>, notes: Vec<String>) -> Named {

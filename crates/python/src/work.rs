@@ -1,5 +1,6 @@
 //! Long work without Python's lock, which Ctrl-C ends.
 
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
@@ -11,6 +12,9 @@ use crate::error::to_exception;
 
 /// True while work ends because of a signal. Threads that work at the same time end, too.
 static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+
+/// The process that first worked.
+static PROCESS: OnceLock<u32> = OnceLock::new();
 
 /// Time between two checks for signals.
 const BETWEEN_LOOKS: Duration = Duration::from_millis(50);
@@ -24,6 +28,7 @@ pub const MONITOR: Monitor = Monitor {
 /// Does long work on a thread of its own, and handles signals meanwhile. A signal's exception ends
 /// the work, and is raised when it has ended.
 pub fn work<T: Send>(py: Python, job: impl FnOnce() -> Result<T, Error> + Send) -> PyResult<T> {
+    check_process().map_err(to_exception)?;
     let (outcome, signal) = py.detach(|| {
         std::thread::scope(|scope| {
             let (ended, end) = channel::<()>();
@@ -52,4 +57,17 @@ pub fn work<T: Send>(py: Python, job: impl FnOnce() -> Result<T, Error> + Send) 
         Ok(done) => done.map_err(to_exception),
         Err(panic) => std::panic::resume_unwind(panic),
     }
+}
+
+/// Refuses a process that was forked from one that has worked: it lacks the threads that work.
+fn check_process() -> Result<(), Error> {
+    let now = std::process::id();
+    if *PROCESS.get_or_init(|| now) == now {
+        return Ok(());
+    }
+    Err(Error::Refused(
+        "this process was forked from one that has used shuttertruth, and its threads are not here; start processes with \
+         multiprocessing.get_context(\"spawn\"), or use shuttertruth in them alone"
+            .to_owned(),
+    ))
 }

@@ -1,5 +1,7 @@
 """Tests of `examples/python`, small."""
 
+import contextlib
+import io
 import pathlib
 import struct
 import subprocess
@@ -47,6 +49,15 @@ def read_kitti(path):
 
 
 class Examples(unittest.TestCase):
+    def test_the_code_of_the_page_runs(self):
+        page = (EXAMPLES.parents[1] / "crates/python/README.md").read_text()
+        [code] = [block.split("```")[0] for block in page.split("```python")[1:]]
+        self.assertIn("size=(320, 180)", code)
+        with contextlib.redirect_stdout(io.StringIO()) as said:
+            exec(code.replace("size=(320, 180)", "size=(96, 54)"), {})
+        flip, skill = map(float, said.getvalue().split())
+        self.assertTrue(0.0 < flip < 1.0 and skill < 1.0, said.getvalue())
+
     def test_my_filter_beats_no_blur(self):
         said = run("score_my_filter.py", "two_spheres", "--size", "96x54")
         ranked = [line.split("FLIP")[0].strip() for line in said.splitlines()[1:]]

@@ -103,7 +103,12 @@ class Render(unittest.TestCase):
             ("did you mean sliding_panel?", {"scene": "sliding_pannel"}),
             ("such as 64", {"samples": 65}),
             ("allowed: trailing, centred, leading", {"alignment": "ahead"}),
-            ("16", {"size": (0, 36)}),
+            ("from 16 to 16384", {"size": (8, 36)}),
+            ("from 16 to 16384", {"size": (64.5, 36)}),
+            ("from 16 to 16384", {"size": 64}),
+            ("samples is -8", {"samples": -8}),
+            ("seed is 0.5", {"seed": 0.5}),
+            ("allowed: one, such as", {"scene": "pan*"}),
             ("exposure", {"exposure": -1.0}),
             ("noise is 0; allowed: numbers above 0", {"noise": 0.0}),
             ("allow more noise", {"noise": 1e-9}),
@@ -157,6 +162,21 @@ class Score(unittest.TestCase):
         with self.assertRaises(st.Error):
             st.score(made.frame)
 
+    def test_two_pictures_alone_have_scores_of_the_whole_picture(self):
+        made = render()
+        scores = st.score(made.frame, reference=made.blurred)
+        error = np.mean((made.frame.astype(float) - made.blurred) ** 2)
+        self.assertAlmostEqual(scores["mse_full"], error, delta=1e-9)
+        self.assertAlmostEqual(scores["psnr_full"], -10 * np.log10(error), places=6)
+        self.assertAlmostEqual(scores["flip_full"], st.flip(made.blurred, made.frame).mean(), places=6)
+        with self.assertRaises(st.Error) as caught:
+            scores["flip_moving"]
+        self.assertIn("score(image, truth)", str(caught.exception))
+        for text, image in [("one size", made.frame[1:]), ("row 0", np.full_like(made.frame, np.inf))]:
+            with self.assertRaises(st.Error) as caught:
+                st.score(image, reference=made.blurred)
+            self.assertIn(text, str(caught.exception))
+
     def test_flip_is_zero_for_equal_pictures_and_one_at_most(self):
         made = render()
         self.assertEqual(st.flip(made.blurred, made.blurred).max(), 0.0)
@@ -169,6 +189,8 @@ class Score(unittest.TestCase):
         self.assertEqual(errors.shape, (43, 61))
         with self.assertRaises(st.Error):
             st.flip(made.frame, made.frame[1:])
+        with self.assertRaises(st.Error):
+            st.flip(made.frame, made.frame, stops=1000)
 
     def test_flip_of_srgb_is_flip_of_its_light(self):
         srgb = np.random.default_rng(1).random((2, 32, 32, 3))
@@ -265,6 +287,20 @@ class Threads(unittest.TestCase):
         # Two busy cores end a row of 8192 samples before they look.
         self.assertLess(time.monotonic() - began, 60)
         self.assertEqual(st.render("sliding_panel", **SETTINGS).size, SIZE)
+
+
+    @unittest.skipUnless(hasattr(os, "fork"), "processes of Unix")
+    def test_a_forked_process_is_refused_and_does_not_hang(self):
+        render()
+        child = os.fork()
+        if child == 0:
+            signal.alarm(60)
+            try:
+                st.render("sliding_panel", **SETTINGS)
+            except st.Error as error:
+                os._exit(0 if "spawn" in str(error) else 1)
+            os._exit(2)
+        self.assertEqual(os.waitpid(child, 0)[1], 0)
 
 
 class Program(unittest.TestCase):

@@ -27,8 +27,8 @@ pub struct MemoryRender<'a> {
     pub settings: RenderSettings,
     /// Shutter of the truth.
     pub alignment: Alignment,
-    /// Upper limit on the noise of truth and frame, a root mean square of radiance; they are rendered
-    /// with more samples until both reach it. None means the samples of the settings.
+    /// Upper limit on the noise of truth and frame, a root mean square of radiance. They are
+    /// rendered with more samples until both reach it. None means the samples of the settings.
     pub noise: Option<f64>,
     /// Sharp pictures to render over the shutter; each takes as long as the frame.
     pub subframes: u32,
@@ -58,7 +58,7 @@ impl MemoryRender<'_> {
     /// The settings do not fit the scene, memory does not suffice, the noise cannot be reached, or
     /// the monitor interrupted.
     pub fn render(&self) -> Result<RenderedScene, Error> {
-        if let Some(noise) = self.noise.filter(|noise| !(*noise > 0.0)) {
+        if let Some(noise) = self.noise.filter(|noise| noise.is_nan() || *noise <= 0.0) {
             return Err(Error::Refused(format!(
                 "noise is {noise}; allowed: numbers above 0, such as 0.002"
             )));

@@ -13,6 +13,7 @@ processor alone; `blur` and `run` need a Vulkan driver.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from numbers import Integral
 from os import PathLike, fspath
 from typing import Any, Optional, Union
 
@@ -24,12 +25,12 @@ from ._native import Error, Render
 
 __all__ = ["Error", "Render", "Scores", "blur", "filters", "flip", "render", "run", "scenes", "score"]
 
-Path = Union[str, PathLike]
+Path = Union[str, "PathLike[str]"]
 
 _native.name_module(_native.__file__)
 
 
-class Scores(dict):
+class Scores(dict[str, float]):
     """Scores of a picture by name, such as `flip_moving`, `psnr_full`, `skill_flip`: numbers."""
 
     missing: dict[str, str]
@@ -37,7 +38,7 @@ class Scores(dict):
     notes: list[str]
     """What else to know of the scores, each a sentence."""
 
-    def __init__(self, values: Iterable, missing: Iterable, notes: list[str]) -> None:
+    def __init__(self, values: Iterable[tuple[str, float]], missing: Iterable[tuple[str, str]], notes: list[str]) -> None:
         super().__init__(values)
         self.missing = dict(missing)
         self.notes = notes
@@ -91,12 +92,12 @@ def render(
     options = {
         "size": _size(size),
         "exposure": exposure,
-        "samples": samples,
-        "seed": seed,
-        "subframes": subframes,
+        "samples": _count("samples", samples),
+        "seed": _count("seed", seed, 2**64),
+        "subframes": _count("subframes", subframes),
         "alignment": alignment,
         "velocity": velocity,
-        "at_frame": at_frame,
+        "at_frame": _count("at_frame", at_frame),
         "noise": noise,
         "scenes_dir": _path(scenes_dir),
     }
@@ -128,7 +129,7 @@ def blur(
     options = {
         "set": {name: _text(value) for name, value in set.items()},
         "as_written": as_written,
-        "frame_index": frame_index,
+        "frame_index": _count("frame_index", frame_index),
         "adapter": adapter,
         "allow_commands": allow_commands,
     }
@@ -146,14 +147,14 @@ def score(
 
     image: scene-linear radiance, a float array of shape (height, width, 3) and of the truth's size.
     truth: the render of the frame that the picture was made from.
-    reference: what the picture should be, if there is no render; scored where the two pictures alone allow.
+    reference: what the picture should be, if there is no render: FLIP, squared error and PSNR of the whole picture.
     """
     if (truth is None) == (reference is None):
         raise Error("score needs a truth or a reference; allowed: one of the two")
-    image = _picture("image", image)
     if truth is not None:
-        return Scores(*_native.score(image, truth))
-    return Scores(*_native.score_pair(image, _picture("reference", reference)))
+        return Scores(*_native.score(_picture("image", image), truth))
+    assert reference is not None
+    return Scores(*_native.score_pair(*_pair("image", image, "reference", reference)))
 
 
 def run(
@@ -173,7 +174,7 @@ def run(
 
     scenes, filters: names, patterns or folders; none means all.
     out: folder for pictures, truths and run.json. What is finished there is not measured again; `shuttertruth report` makes its page.
-    options: further options of the command, such as ["--frame-rate", "24"].
+    options: further options of the command, such as ["--frame-rate", "24"]. No shuttertruth.toml is read.
     """
     width, height = _size(size)
     words = ["--size", f"{width}x{height}", "--samples-per-pixel", str(samples), "--seed", str(seed), "--out", fspath(out)]
@@ -190,10 +191,7 @@ def flip(a: ArrayLike, b: ArrayLike, *, stops: float = 0.0, srgb: bool = False) 
     stops: exposure at which scene-linear pictures are shown: radiance times 2**stops is 1 at display white.
     srgb: True if the pictures are sRGB values in 0 to 1, such as a PNG's divided by 255.
     """
-    a, b = _picture("a", a), _picture("b", b)
-    if a.shape != b.shape:
-        raise Error(f"a has the shape {a.shape}, b has {b.shape}; FLIP compares pictures of one size")
-    return _native.flip(a, b, stops, srgb)
+    return _native.flip(*_pair("a", a, "b", b), stops, srgb)
 
 
 def _path(path: Optional[Path]) -> Optional[str]:
@@ -204,9 +202,19 @@ def _text(value: Any) -> str:
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 
+def _count(what: str, number: int, limit: int = 2**32) -> int:
+    """Returns a whole number; refuses others."""
+    if not isinstance(number, Integral) or not 0 <= number < limit:
+        raise Error(f"{what} is {number!r}; allowed: whole numbers from 0 to {limit - 1}")
+    return int(number)
+
+
 def _size(size: tuple[int, int]) -> list[int]:
-    width, height = size
-    return [int(width), int(height)]
+    """Returns columns and rows; refuses what is not two of them."""
+    sides = list(size) if isinstance(size, Iterable) else [size]
+    if len(sides) != 2 or not all(isinstance(side, Integral) and 16 <= side <= 16384 for side in sides):
+        raise Error(f"size is {size!r}; allowed: columns and rows from 16 to 16384, such as (640, 360)")
+    return [int(side) for side in sides]
 
 
 def _picture(what: str, pixels: ArrayLike) -> NDArray[np.float32]:
@@ -218,3 +226,17 @@ def _picture(what: str, pixels: ArrayLike) -> NDArray[np.float32]:
             "divide 8-bit values by 255 and decode sRGB first, and move channels to the end with numpy.moveaxis(array, 0, -1)"
         )
     return np.ascontiguousarray(array, dtype=np.float32)
+
+
+def _pair(
+    what: str, pixels: ArrayLike, other: str, other_pixels: ArrayLike
+) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Converts two pictures; refuses two sizes, and what is no number."""
+    pair = _picture(what, pixels), _picture(other, other_pixels)
+    if pair[0].shape != pair[1].shape:
+        raise Error(f"{what} has the shape {pair[0].shape}, {other} has {pair[1].shape}; allowed: pictures of one size")
+    for name, array in zip((what, other), pair):
+        if not np.isfinite(array).all():
+            y, x, _ = np.argwhere(~np.isfinite(array))[0]
+            raise Error(f"{name} holds {array[y, x]} at column {x}, row {y}; allowed: finite numbers")
+    return pair
