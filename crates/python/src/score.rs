@@ -1,8 +1,10 @@
 //! Scores of pictures.
 
 use frame::Display;
-use measure::{FinishedPicture, Scored, missing_scores, score as score_finished};
-use metrics::{ImageMetric, Metric, Region, Scores, flip_ldr, psnr};
+use measure::{
+    FinishedPicture, PicturePair, Scored, compare_pictures, missing_scores, score as score_finished,
+};
+use metrics::{Metric, Scores};
 use numpy::PyReadonlyArray3;
 use pyo3::prelude::*;
 
@@ -27,7 +29,7 @@ pub fn score(py: Python, image: PyReadonlyArray3<f32>, render: &Render) -> PyRes
     };
     let rendered = &render.scene;
     work(py, || {
-        let Scored { scores, notes } = score_finished(
+        let Scored { scores, notes, .. } = score_finished(
             &finished,
             &rendered.frame.frame,
             &rendered.truth,
@@ -47,33 +49,22 @@ pub fn score_pair(
 ) -> PyResult<Named> {
     let (image, reference) = (take_image(&image)?, take_image(&reference)?);
     work(py, || {
-        let flip = flip_ldr(&reference, &image, &Display::default().into());
-        let flip = flip.pixels.iter().map(|error| f64::from(*error));
-        let values = image.pixels.as_flattened().iter();
-        let pairs = values.zip(reference.pixels.as_flattened());
-        let squared = mean(pairs.map(|(a, b)| (f64::from(*a) - f64::from(*b)).powi(2)));
-        let scores = [
-            (ImageMetric::Flip, mean(flip)),
-            (ImageMetric::Mse, squared),
-            (ImageMetric::Psnr, psnr(squared, 0.0)),
-        ];
-        let scores = scores.map(|(metric, value)| (Metric::Image(metric, Region::Full), value));
-        let others = Metric::all().into_iter();
-        let others = others.filter(|metric| scores.iter().all(|(known, _)| known != metric));
-        Ok((
-            scores.map(|(metric, value)| (metric.name(), value)).into(),
-            others
-                .map(|metric| (metric.name(), NEEDS_TRUTH.to_owned()))
-                .collect(),
-            Vec::new(),
-        ))
+        let compared = compare_pictures(&PicturePair {
+            reference: &reference,
+            image: &image,
+            frame: None,
+            moving: None,
+            mattes: None,
+            display: Display::default(),
+            display_referred: false,
+        })?;
+        let scores = &compared.measurement.scores;
+        let missing = (Metric::all().into_iter())
+            .filter(|metric| scores.get(*metric).value().is_none())
+            .collect();
+        let reasons = vec![(NEEDS_TRUTH.to_owned(), missing)];
+        Ok(name_scores(scores, reasons, Vec::new()))
     })
-}
-
-/// Averages numbers, of which there are some.
-fn mean(values: impl ExactSizeIterator<Item = f64>) -> f64 {
-    let count = values.len() as f64;
-    values.sum::<f64>() / count
 }
 
 fn name_scores(scores: &Scores, missing: Vec<(String, Vec<Metric>)>, notes: Vec<String>) -> Named {

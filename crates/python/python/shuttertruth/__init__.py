@@ -147,7 +147,7 @@ def score(
 
     image: scene-linear radiance, a float array of shape (height, width, 3) and of the truth's size.
     truth: the render of the frame that the picture was made from.
-    reference: what the picture should be, if there is no render: FLIP, squared error and PSNR of the whole picture.
+    reference: what the picture should be, if there is no render: scores of the whole picture, such as `flip_full` and `ssim_full`.
     """
     if (truth is None) == (reference is None):
         raise Error("score needs a truth or a reference; allowed: one of the two")
