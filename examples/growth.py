@@ -44,7 +44,7 @@ def main():
     size = (merged / "run.json").stat().st_size
     print(f"run.json: {size / 1e6:.1f} MB, {size / count / 1e3:.1f} kB a case")
     # Changes of up to 20 % break some limits.
-    measure("check", [arguments.program, "check", merged, "--scenes-dir", out / "scenes"], [0, 1])
+    measure("check", [arguments.program, "check", "--run", merged, "--scenes-dir", out / "scenes"], [0, 1])
     measure("report", [arguments.program, "report", merged], [0])
     page = (merged / "report.html").stat().st_size
     beside = sum(file.stat().st_size for file in merged.glob("report_files/*"))

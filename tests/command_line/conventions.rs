@@ -128,7 +128,7 @@ fn a_picture_of_exposed_colours_has_the_scores_of_its_radiance() {
     assert_contains(&text, &["colours divided by color_scale = 4"]);
     let png = "score --truth r/plate/truth_trailing.exr --frame r/plate/frame.exr --image r/plate/frame.png \
                --convention engine.toml";
-    sandbox.refuse(png, &["frame.png: is a PNG", "OpenEXR"]);
+    sandbox.refuse(png, &["frame.png: has colours of a display", "OpenEXR"]);
 }
 
 /// Files with a convention, and parts of the message.

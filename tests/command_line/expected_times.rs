@@ -17,12 +17,17 @@ fn read_expected(sandbox: &Sandbox, line: &str) -> String {
     command.stdout(Stdio::null()).stderr(Stdio::piped());
     let mut child = command.spawn().unwrap();
     let lines = BufReader::new(child.stderr.take().unwrap()).lines();
-    let said: Vec<String> = lines
-        .map_while(Result::ok)
-        .scan(false, |is_said, line| {
-            (!std::mem::replace(is_said, line.starts_with("expected: "))).then_some(line)
-        })
-        .collect();
+    let mut said = Vec::new();
+    // The next line may take minutes.
+    for line in lines.map_while(Result::ok) {
+        said.push(line);
+        if said
+            .last()
+            .is_some_and(|line| line.starts_with("expected: "))
+        {
+            break;
+        }
+    }
     _ = child.kill();
     _ = child.wait();
     let last = said.last().map_or("", String::as_str);
