@@ -54,7 +54,7 @@ pub fn execute(args: &NewArgs) -> Result<(), Error> {
     print(format!("written: {shown}, from {}\n", args.from))?;
     list_filter(&folder)?;
     print(format!(
-        "next: shuttertruth run sliding_panel fan railing --filter {shown},identity --size 160x90 --open\n"
+        "next: shuttertruth run sliding_panel fan railing --filter {shown} --size 160x90 --open\n"
     ))
 }
 
