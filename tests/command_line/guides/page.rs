@@ -1,7 +1,7 @@
 //! Commands and files of a page.
 
 /// Programs that begin a page's commands.
-const PROGRAMS: &str = "shuttertruth cargo cat make cp pip python3";
+const PROGRAMS: &str = "shuttertruth cargo cat for make cp pip python3";
 
 /// A step that the reader of a page takes.
 pub enum Step {

@@ -104,6 +104,7 @@ fn assert_printed(path: &Path, find_rows: fn(&str) -> Vec<&str>, least: usize) {
     for step in find_steps(&page) {
         if let Step::Run(command) = step
             && [
+                "shuttertruth new",
                 "shuttertruth run",
                 "shuttertruth list",
                 "shuttertruth compare",
