@@ -46,7 +46,13 @@ fn the_ranking_of_the_readme_has_the_means_of_the_results() {
         // A preset, its mean, change of what stands still, grain, the interval.
         if let [preset, mean, still, grain, low, "to", high] = *row {
             let grain = grain.trim_end_matches('!');
-            let row = format!(" {preset} {mean} {low} to {high} {still} {grain} ");
+            // No blur is a reference in the tables of all scores.
+            let name = if preset == "blur" {
+                "[identity]"
+            } else {
+                preset
+            };
+            let row = format!(" {name} {mean} {low} to {high} {still} {grain} ");
             assert!(results.contains(&row), "no table has \"{row}\"");
             count += 1;
         }

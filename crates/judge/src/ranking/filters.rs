@@ -34,7 +34,7 @@ pub struct RankedFilter {
     pub scenes: usize,
     /// Scene with the largest score, and that score.
     pub worst: (SceneId, f64),
-    /// Number of ranked presets of the filter, including this one.
+    /// Number of measured presets of the filter, including this one; 0 for a reference picture.
     pub presets: usize,
     /// What it changes besides, in the mean.
     pub side_effects: SideEffects,
@@ -168,10 +168,17 @@ fn rank_group(
 ) -> Vec<RankedFilter> {
     // No blur has a row in every shutter, from its reference picture where no filter is it.
     let is_measured = |scores: &Vec<&RankedScore>| scores[0].filter == IDENTITY;
-    let reference =
-        (!no_blur.is_empty() && !filters.iter().any(is_measured)).then(|| no_blur.to_vec());
-    let entries = filters.into_iter().chain(reference);
-    let mut group: Vec<Entry> = entries.map(|scores| (summarize(&scores), scores)).collect();
+    let reference = (!no_blur.is_empty() && !filters.iter().any(is_measured)).then(|| {
+        let picture = RankedFilter {
+            presets: 0,
+            ..summarize(no_blur)
+        };
+        (picture, no_blur.to_vec())
+    });
+    let entries = filters
+        .into_iter()
+        .map(|scores| (summarize(&scores), scores));
+    let mut group: Vec<Entry> = entries.chain(reference).collect();
     let ruins_still = |filter: &RankedFilter| filter.side_effects.ruins_still();
     group.sort_by(|(a, _), (b, _)| {
         let by_mean = || a.mean.total_cmp(&b.mean);
@@ -266,7 +273,7 @@ fn summarize(scores: &[&RankedScore]) -> RankedFilter {
 fn keep_best_presets(group: Vec<Entry>) -> Vec<Entry> {
     let filters = group_by(group, |(filter, _)| filter.filter.clone()).into_iter();
     let best = filters.map(|mut presets| {
-        presets[0].0.presets = presets.len();
+        presets[0].0.presets = presets.iter().map(|(filter, _)| filter.presets).sum();
         presets.swap_remove(0)
     });
     best.collect()

@@ -24,7 +24,7 @@ pub fn ranking_text(run: &Run) -> Text {
     if groups.is_empty() {
         return "no filter has a FLIP score: nothing moves in these scenes\n".into();
     }
-    let presets: usize = ranked(&groups).map(|ranked| ranked.presets).sum();
+    let presets: Vec<usize> = groups.iter().flatten().map(|row| row.presets).collect();
     let rows = ranked(&groups).count();
     if rows > MAX_RANKED {
         let each = (MAX_RANKED / groups.len()).max(1);
@@ -48,7 +48,7 @@ pub fn ranking_text(run: &Run) -> Text {
     let scenes = list_once(list_summarized(cases).into_iter().map(|case| &case.scene));
     let few = few_scenes_text(scenes.len()).filter(|_| rows > 1);
     text += few.map_or(Text::default(), |few| legend_text(&few));
-    text += hidden_text(presets, rows, hidden);
+    text += hidden_text(&presets, hidden);
     text += twins_text(cases, &groups);
     text + input_forms_text(cases) + frame_rates_text(cases)
 }
@@ -76,10 +76,12 @@ pub fn ranking_markdown(cases: &[Case]) -> String {
     ranking_table(cases, &groups).markdown()
 }
 
-/// Says that filters are shown by their best of all presets, and that some of these rows are
-/// hidden; empty if neither is so.
-fn hidden_text(presets: usize, rows: usize, hidden: usize) -> Text {
-    let note = match (presets > rows, hidden > 0) {
+/// Says that filters are shown by the best of their `presets`, a number per filter, and that some
+/// are hidden; empty if neither is so.
+fn hidden_text(presets: &[usize], hidden: usize) -> Text {
+    let are_best = presets.iter().any(|of_filter| *of_filter > 1);
+    let presets: usize = presets.iter().sum();
+    let note = match (are_best, hidden > 0) {
         (true, true) => {
             format!(
                 "Each filter by its best preset; {hidden} filters are left out: --table shows all {presets} presets."
