@@ -28,8 +28,9 @@ fn each_example_becomes_a_filter_of_the_user_s_name_that_runs() {
     for example in EXAMPLES {
         let name = format!("my_{example}");
         let printed = sandbox.done(&format!("new mine/{name} --from {example}"));
-        let next =
-            format!("next: shuttertruth run sliding_panel fan railing --filter ./mine/{name},");
+        let next = format!(
+            "next: shuttertruth run sliding_panel fan railing --filter ./mine/{name} --size"
+        );
         let listed = format!("\n  {name}  (shutter: trailing)\n");
         let written = format!("written: ./mine/{name}, from {example}\n");
         assert_contains(&printed, &[&written, &listed, &next]);

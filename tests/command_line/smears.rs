@@ -2,7 +2,7 @@
 
 use frame::Alignment;
 use metrics::{Smear, SmearDirection};
-use tests::text::assert_contains;
+use tests::text::{assert_contains, squeeze};
 
 use crate::sandbox::Sandbox;
 
@@ -137,21 +137,29 @@ const MISTAKES: [Mistake; 10] = [
 #[test]
 fn every_wrong_length_side_and_direction_has_its_verdict() {
     let sandbox = Sandbox::of(&Vec::new());
-    for ([first, last], turned, alignment, verdict) in MISTAKES {
-        let name = write_blur(&sandbox, alignment);
-        let set = [
-            ("first", first),
-            ("last", last),
-            ("turned", f64::from(turned)),
-        ];
-        let set = set
-            .map(|(key, value)| format!("--set {name}.{key}={value:?}"))
-            .join(" ");
-        let text = sandbox.done(&format!(
-            "{RUN} --scenes sliding_panel --filter ./{name} {set}"
-        ));
-        let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
-        assert_contains(&words, &["smear over the exposure", verdict]);
+    let mut names = Vec::new();
+    for (number, ([first, last], turned, alignment, _)) in MISTAKES.into_iter().enumerate() {
+        let name = format!("blur_{number}");
+        let head = format!("name = \"{name}\"\nalignment = \"{alignment}\"\n");
+        let mut parts = MANIFEST.split("\ndefault = ");
+        let mut manifest = head + parts.next().unwrap();
+        for (part, value) in parts.zip([first, last, f64::from(turned)]) {
+            let (_, rest) = part.split_once('\n').unwrap();
+            manifest += &format!("\ndefault = {value:?}\n{rest}");
+        }
+        sandbox.write_filter(&name, &manifest, KERNEL);
+        names.push(format!("./{name}"));
+    }
+    let filters = names.join(",");
+    let text = sandbox.done(&format!("{RUN} --scenes sliding_panel --filter {filters}"));
+    let (_, smears) = text.split_once("smear over the exposure").unwrap();
+    let words = squeeze(smears);
+    for (number, (.., verdict)) in MISTAKES.into_iter().enumerate() {
+        let (_, row) = words
+            .split_once(&format!("blur_{number}:default "))
+            .unwrap();
+        let row = row.split(":default").next().unwrap();
+        assert_contains(row, &[verdict]);
     }
 }
 
@@ -183,7 +191,7 @@ fn a_right_blur_of_three_passes_is_not_halved() {
             folder.display()
         );
         let text = sandbox.done(&format!("{RUN} --scenes sliding_panel --filter {filter}"));
-        let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+        let words = squeeze(&text);
         assert_contains(&words, &[verdict]);
     }
 }
