@@ -232,7 +232,7 @@ fn with_scores(run: &Run, lost: impl Fn(&str, f64) -> f64, floor: f64) -> Run {
 fn sequences_are_ranked_by_means_over_scenes_with_intervals_and_ties() {
     let sandbox = Sandbox::two_scenes();
     let filters = "velocity_gather:coarse,velocity_gather:fine,velocity_gather:departure";
-    let words = format!("--filters {filters} --frames 2 --jitter-frames 0");
+    let words = format!("--filters identity,{filters} --frames 2 --jitter-frames 0");
     let output = sandbox.run(&split(&words));
     assert_done(&output);
     let run = sandbox.read_run();
@@ -274,6 +274,9 @@ fn sequences_are_ranked_by_means_over_scenes_with_intervals_and_ties() {
     }
     // The page has the same ranking, and every scene its own.
     let page = sandbox.text("out/sequences.html");
+    let opened = page.split(" selected>").nth(1).unwrap();
+    let opened = opened.split('<').next().unwrap();
+    assert!(opened.contains("velocity_gather"), "{opened}");
     let first = &names(&ranking)[0];
     assert_contains(&page, &["Means over 2 scenes, ranked by jod", first]);
     assert_ties(&run);

@@ -1,14 +1,12 @@
 //! Runs with few scenes, whose means say little.
 
-/// Fewest scenes for which the interval of a mean is of use: with two, the 95 % CI is 7 times as
-/// wide as with five of the same scatter.
-const ENOUGH_SCENES: usize = 5;
+use measure::MIN_SCENES;
 
 /// Says that means are over few scenes; none for one scene, which has no mean, or for enough.
 pub fn few_scenes_text(scenes: usize) -> Option<String> {
-    (2..ENOUGH_SCENES).contains(&scenes).then(|| {
+    (2..MIN_SCENES).contains(&scenes).then(|| {
         format!(
-            "Few scenes: a mean over {scenes} is uncertain. Add scenes, five at least, to tell close filters apart."
+            "Few scenes: a mean over {scenes} is uncertain. {MIN_SCENES} or more tell close filters apart better."
         )
     })
 }

@@ -42,7 +42,7 @@ pub use ranking::filters::{
 };
 pub use ranking::lag::{lag_text, mean_lag};
 pub use ranking::no_blur::no_gain_text;
-pub use ranking::separation::{Inseparable, inseparable_text, list_inseparable};
+pub use ranking::separation::inseparable_text;
 pub use ranking::sequence_ranking::{RANKED_BY, RankedSequence, rank_sequences, rank_sequences_on};
 pub use ranking::side_effects::{SIDE_EFFECTS_RULE, SideEffects};
 pub use results::{ResultScores, Results};

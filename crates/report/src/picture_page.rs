@@ -8,23 +8,15 @@ use metrics::{ImageMetric, Maps, Metric, Regions, Scores};
 
 use crate::case::legend::colors;
 use crate::case::profile::worst_pixel;
-use crate::case::viewer::viewer;
+use crate::case::viewer::{VIEWER_SCRIPTS, viewer};
 use crate::document::{Document, Siblings, script_data};
 use crate::pixels::layer::Layer;
 use crate::pixels::planes::Planes;
 use crate::table::Column::Plain;
 use crate::table::grouped_table;
 
-/// Scripts in the order in which they run.
-const SCRIPTS: [&str; 7] = [
-    include_str!("assets/planes.js"),
-    include_str!("assets/paint.js"),
-    include_str!("assets/pictures.js"),
-    include_str!("assets/viewer.js"),
-    include_str!("assets/readout.js"),
-    include_str!("assets/keys.js"),
-    include_str!("assets/one_picture.js"),
-];
+/// Script that runs after the viewer's.
+const SCRIPT: &str = include_str!("assets/one_picture.js");
 
 /// A picture of the page, with the name that readers know it by.
 pub struct NamedPicture<'a> {
@@ -87,7 +79,7 @@ pub fn picture_page(page: &PicturePage) -> String {
             }
             (script_data("colors", &colors()))
         },
-        scripts: &SCRIPTS,
+        scripts: &[&VIEWER_SCRIPTS[..], &[SCRIPT]].concat(),
         siblings: Siblings::None,
     };
     document.render()

@@ -6,19 +6,13 @@ use maud::{Markup, PreEscaped, html};
 use measure::Run;
 
 use crate::case::legend::colors;
-use crate::case::viewer::{case_words, viewer};
+use crate::case::viewer::{VIEWER_SCRIPTS, case_words, viewer};
 use crate::document::{Document, Siblings, script_data};
 use crate::pixels::report_files::{Place, folder_name};
 use crate::sequence::SEQUENCES_PAGE;
 
-/// Scripts in the order in which they run.
-const SCRIPTS: [&str; 14] = [
-    include_str!("assets/planes.js"),
-    include_str!("assets/paint.js"),
-    include_str!("assets/pictures.js"),
-    include_str!("assets/viewer.js"),
-    include_str!("assets/readout.js"),
-    include_str!("assets/keys.js"),
+/// Scripts that run after the viewer's, in their order.
+const SCRIPTS: [&str; 8] = [
     include_str!("assets/live_run.js"),
     include_str!("assets/live_bench.js"),
     include_str!("assets/live_flip.js"),
@@ -82,7 +76,7 @@ pub fn run_page(run: &Run, content: &PageContent, html: &Path) -> String {
             (scene_numbers(content, html))
             (script_data("colors", &colors()))
         },
-        scripts: &SCRIPTS,
+        scripts: &[&VIEWER_SCRIPTS[..], &SCRIPTS].concat(),
         siblings: if content.has_siblings() {
             Siblings::Scripts
         } else {

@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use filters::Convention;
-use frame::{Display, ExrFile, FlipExposures, Image, Plane, Raster, Size, read_passes};
+use frame::{
+    Display, ExrFile, FlipExposures, Image, Plane, Raster, Size, find_broken, read_passes,
+};
 use measure::{
     ComparedPictures, Error, Mattes, PictureFile, PicturePair, bright_note, compare_pictures,
     missing_in_pair, read_picture, reference_shutter, shorten_names,
@@ -147,10 +149,10 @@ fn read_inputs(args: &ScoreArgs, reference: &Path) -> Result<Inputs, Error> {
 
 /// Refuses a picture with NaN or infinity, and names the pixel.
 fn check_finite(path: &Path, color: &Image) -> Result<(), Error> {
-    let is_broken = |pixel: &[f32; 3]| pixel.iter().any(|value| !value.is_finite());
-    let Some(at) = color.pixels.iter().position(is_broken) else {
+    let Some(at) = find_broken(color.pixels.as_flattened(), f32::NEG_INFINITY) else {
         return Ok(());
     };
+    let at = at / 3;
     let (x, y) = (at % color.width as usize, at / color.width as usize);
     refuse!(
         "{}: holds {:?} at pixel ({x}, {y}); every number must be finite",

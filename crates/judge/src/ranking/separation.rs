@@ -8,21 +8,18 @@ use scene::SceneId;
 use crate::finding::{MAX_SAMPLES, settling_samples};
 
 /// A scene and shutter on which no filter could be told from no blur.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Inseparable {
-    /// The scene.
-    pub scene: SceneId,
-    /// The shutter.
-    pub alignment: Alignment,
+struct Inseparable {
+    scene: SceneId,
+    alignment: Alignment,
     /// Samples per pixel at which the best reference picture would be clearly better than no blur;
     /// none if no allowed number is enough.
-    pub samples: Option<u64>,
+    samples: Option<u64>,
 }
 
 /// Lists the scenes of a run on which the best reference picture is not clearly better than no
 /// blur, by the rule of the ranking on one scene. Scenes that an engine drew are left out, because
 /// samples would not mend them.
-pub fn list_inseparable(run: &Run) -> Vec<Inseparable> {
+fn list_inseparable(run: &Run) -> Vec<Inseparable> {
     let references = || run.cases.iter().filter(|case| case.is_reference);
     let no_blur = references().filter(|case| {
         case.reference() == Some(ReferencePicture::Identity) && case.drawn.is_none()
@@ -60,8 +57,8 @@ pub fn inseparable_text(run: &Run) -> Option<String> {
     let names: Vec<String> = scenes.iter().map(Inseparable::text).collect();
     (!names.is_empty()).then(|| {
         format!(
-            "At {} samples per pixel these scenes cannot separate filters, because no blur is within the noise of the best \
-             picture: {}. Raise --samples-per-pixel, or make something move further.",
+            "At {} samples per pixel these scenes cannot separate filters, because all that a blur could gain there is within the \
+             noise: {}. Raise --samples-per-pixel, or make something move further.",
             run.render.samples_per_pixel,
             names.join("; ")
         )

@@ -43,6 +43,8 @@ const OTHER_SHUTTER: &str = "the engine drew no truth of the run's common shutte
 pub(crate) struct CaseContext<'a> {
     pub scene: &'a SceneContext<'a>,
     pub frame: &'a Frame,
+    /// The frame without its guard band.
+    pub cropped: &'a Frame,
     /// The frame in the forms that filters get.
     pub stored_frames: &'a [StoredFrame],
     /// Pass after filters that run before depth of field; none if no case has one.
@@ -100,7 +102,7 @@ impl CaseContext<'_> {
     pub fn measure(&self, planned: &PlannedCase) -> Result<(Case, Vec<String>), Error> {
         let measured = match &planned.source {
             PictureSource::Reference(ReferencePicture::Identity) => {
-                self.measure_reference(self.frame.cropped().picture())?
+                self.measure_reference(self.cropped.picture())?
             }
             PictureSource::Reference(ReferencePicture::ScatterOracle) => {
                 self.measure_reference(self.references.oracle.clone())?
@@ -141,7 +143,7 @@ impl CaseContext<'_> {
         let mut measurement = self.references.reference.measure(&picture)?;
         measurement.scores.take_out_mattes(NO_MATTES);
         Ok(MeasuredPicture {
-            smear: measure_smear(&self.frame.cropped(), &picture.color),
+            smear: measure_smear(self.cropped, &picture.color),
             ..MeasuredPicture::new(picture, measurement)
         })
     }
@@ -172,7 +174,7 @@ impl CaseContext<'_> {
             |reference, picture| measure_output(reference, picture, &output)
         })?;
         Ok(MeasuredPicture {
-            smear: measure_smear(&self.frame.cropped(), &output.picture.color),
+            smear: measure_smear(self.cropped, &output.picture.color),
             intervals,
             nonlinearity: Some(output.nonlinearity),
             picture: output.picture,

@@ -35,6 +35,7 @@ impl SceneContext<'_> {
         let replicates = read_replicates(self.plan, self.scene)?;
         let stored_frames = store_frames(self.plan, self.scene, &inputs, frame, &replicates)?;
         let depth_of_field = self.prepare_passes(&inputs, frame)?;
+        let cropped = frame.cropped();
         let common_alignment = self.plan.common_alignment();
         let has_others = (missing.iter()).any(|case| case.id.alignment != common_alignment);
         let mut common: Option<ColorReference> = None;
@@ -52,7 +53,7 @@ impl SceneContext<'_> {
             if group.is_empty() {
                 // Only FLIP is measured against it, which needs no ladder and no oracle.
                 let viewing = frame.display.into();
-                common = Some(Reference::new(&frame.cropped(), &truth, None, &viewing)?.into());
+                common = Some(Reference::new(&cropped, &truth, None, &viewing)?.into());
                 continue;
             }
             let parts = self.truth_parts(alignment, &group, &replicates)?;
@@ -60,6 +61,7 @@ impl SceneContext<'_> {
             let context = CaseContext {
                 scene: self,
                 frame,
+                cropped: &cropped,
                 stored_frames: &stored_frames,
                 depth_of_field: depth_of_field.as_ref(),
                 references: &references,

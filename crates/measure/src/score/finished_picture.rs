@@ -25,8 +25,8 @@ pub struct FinishedPicture {
 /// JPEG, by its name's ending.
 ///
 /// Reads scene-linear colours by the convention. Decodes those of a display from sRGB and undoes
-/// the frame's display exposure. Crops a picture with the frame's guard band. Refuses a file that says it was
-/// made for another shutter.
+/// the frame's display exposure. Crops a picture with the frame's guard band. Refuses a file that
+/// says it was made for another shutter.
 pub fn read_finished_picture(
     path: &Path,
     convention: &Convention,

@@ -6,7 +6,7 @@ use crate::object::nearest::find_nearest;
 
 /// Least displacement over the shutter, in pixels; less counts as none, because it cannot be
 /// measured.
-pub const LEAST_DISPLACEMENT: f64 = 0.1;
+const LEAST_DISPLACEMENT: f64 = 0.1;
 
 /// Largest deviation of a translation: the root mean square by which its pixels' displacements
 /// deviate from their mean, over that mean. A sphere that passes at five radii deviates by a
@@ -22,6 +22,43 @@ pub struct Mover {
     pub deviation: f64,
     /// Outline of the object at the instant.
     pub silhouette: Silhouette,
+}
+
+/// Motion of an object's visible pixels over the exposure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Displacement {
+    /// Mean, in pixels; +x right, +y down.
+    pub mean: [f64; 2],
+    /// Root mean square of the deviation from it, in pixels.
+    pub deviation: f64,
+}
+
+impl Displacement {
+    /// Measures object `id` of the frame. The error is the reason why it has none.
+    pub fn new(frame: &Frame, id: u32) -> Result<Self, &'static str> {
+        let pixels = frame.object_id.pixels.iter().zip(&frame.velocity.pixels);
+        let vectors: Vec<[f64; 2]> = pixels
+            .filter(|(object, _)| **object == id)
+            .map(|(_, v)| v.map(|component| f64::from(component) * frame.exposure))
+            .collect();
+        if vectors.is_empty() {
+            return Err("is not visible at the instant");
+        }
+        if vectors.iter().all(|d| length(*d) < LEAST_DISPLACEMENT) {
+            return Err("does not move");
+        }
+        let mean = mean(&vectors);
+        let squares = vectors
+            .iter()
+            .map(|d| length([d[0] - mean[0], d[1] - mean[1]]).powi(2));
+        let deviation = (squares.sum::<f64>() / vectors.len() as f64).sqrt();
+        Ok(Self { mean, deviation })
+    }
+
+    /// Returns whether all pixels go nearly as far, and in one direction.
+    pub fn is_translation(&self) -> bool {
+        self.deviation <= LARGEST_DEVIATION * length(self.mean)
+    }
 }
 
 /// Unit vector along which the nearest visible pixel of an object moves, per pixel; zero if that
@@ -44,29 +81,16 @@ impl Mover {
     /// separately: they take more memory than the rest of an object, and only its sides depend on
     /// them. The error is the reason why it has no matte scores.
     pub fn new(frame: &Frame, id: u32) -> Result<(Self, Directions), &'static str> {
+        let Displacement { mean, deviation } = Displacement::new(frame, id)?;
         let seen = frame.object_id.map(|object| *object == id);
         let sources = find_nearest(&seen).ok_or("is not visible at the instant")?;
-        let displacements = frame
-            .velocity
-            .map(|v| v.map(|component| f64::from(component) * frame.exposure));
-        let vectors: Vec<[f64; 2]> = seen
-            .pixels
-            .iter()
-            .zip(&displacements.pixels)
-            .filter_map(|(seen, displacement)| seen.then_some(*displacement))
-            .collect();
-        if vectors.iter().all(|d| length(*d) < LEAST_DISPLACEMENT) {
-            return Err("does not move");
-        }
-        let displacement = mean(&vectors);
-        let squares = vectors
-            .iter()
-            .map(|d| length([d[0] - displacement[0], d[1] - displacement[1]]).powi(2));
-        let deviation = (squares.sum::<f64>() / vectors.len() as f64).sqrt();
-        let directions = sources.map(|[x, y]| unit(*displacements.at(*x, *y)));
+        let directions = sources.map(|[x, y]| {
+            let velocity = frame.velocity.at(*x, *y);
+            unit(velocity.map(|component| f64::from(component) * frame.exposure))
+        });
         let silhouette = Silhouette::new(&frame.coverage[id as usize], &directions);
         let mover = Self {
-            displacement,
+            displacement: mean,
             deviation,
             silhouette,
         };
@@ -81,7 +105,11 @@ impl Mover {
                 "does not translate: its pixels move, but their mean displacement is {distance:.2} px"
             ));
         }
-        if self.deviation > LARGEST_DEVIATION * distance {
+        let motion = Displacement {
+            mean: self.displacement,
+            deviation: self.deviation,
+        };
+        if !motion.is_translation() {
             return Err(format!(
                 "does not translate: over the object the displacement deviates by {:.2} px from its mean of {distance:.2} px",
                 self.deviation

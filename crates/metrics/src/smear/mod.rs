@@ -8,7 +8,7 @@ use frame::{Frame, Image};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::object::mover::{LARGEST_DEVIATION, LEAST_DISPLACEMENT};
+use crate::object::mover::Displacement;
 
 /// Least motion over the exposure, in pixels: a shorter smear has no length to measure.
 const LEAST_MOTION: f64 = 2.0;
@@ -24,6 +24,7 @@ const FINE: usize = 64;
 /// Part of the error of the best smear along the motion that one in another direction must stay
 /// below: a real one leaves a small part.
 const CLEARLY_BETTER: f64 = 0.5;
+
 /// Direction of a smear.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -107,40 +108,17 @@ pub fn measure_smear(frame: &Frame, picture: &Image) -> Option<Smear> {
     best.map(|(_, smear)| smear)
 }
 
-/// Sums over the pixels of an object of their displacements over the exposure.
-#[derive(Clone, Copy, Default)]
-struct Displacements {
-    count: f64,
-    sum: [f64; 2],
-    squares: f64,
-    /// Largest one.
-    most: f64,
-}
-
 /// Finds the only object that moves, and its displacement over the exposure. None if several move,
 /// or if that one does not translate, as scores of objects decide it.
 fn only_mover(frame: &Frame) -> Option<(u32, [f64; 2])> {
-    let mut objects = vec![Displacements::default(); frame.objects.len()];
-    for (id, velocity) in frame.object_id.pixels.iter().zip(&frame.velocity.pixels) {
-        let object = objects.get_mut(*id as usize)?;
-        let [x, y] = velocity.map(|part| f64::from(part) * frame.exposure);
-        object.count += 1.0;
-        object.sum = [object.sum[0] + x, object.sum[1] + y];
-        object.squares += x * x + y * y;
-        object.most = object.most.max(x.hypot(y));
-    }
-    let mut movers = (0_u32..)
-        .zip(&objects)
-        .filter(|(_, object)| object.most >= LEAST_DISPLACEMENT);
-    let (id, object) = movers.next()?;
-    if id == 0 || movers.next().is_some() {
+    let ids = 0..frame.objects.len() as u32;
+    let mut movers = ids.filter_map(|id| Some((id, Displacement::new(frame, id).ok()?)));
+    let (id, motion) = movers.next()?;
+    if id == 0 || movers.next().is_some() || !motion.is_translation() {
         return None;
     }
-    let mean = object.sum.map(|sum| sum / object.count);
-    let square = mean[0] * mean[0] + mean[1] * mean[1];
-    let deviation = (object.squares / object.count - square).max(0.0).sqrt();
-    let translates = deviation <= LARGEST_DEVIATION * square.sqrt();
-    (translates && square.sqrt() >= LEAST_MOTION).then_some((id, mean))
+    let [x, y] = motion.mean;
+    (x.hypot(y) >= LEAST_MOTION).then_some((id, motion.mean))
 }
 
 /// Picks pixels of the mover, evenly over its area; none if it has too few, or if a smear of `reach`

@@ -9,6 +9,16 @@ use super::legend::draw_legends;
 use crate::document::script_data;
 use crate::pixels::layer::Layer;
 
+/// Scripts of the viewer, in the order in which they run.
+pub const VIEWER_SCRIPTS: [&str; 6] = [
+    include_str!("../assets/planes.js"),
+    include_str!("../assets/paint.js"),
+    include_str!("../assets/pictures.js"),
+    include_str!("../assets/viewer.js"),
+    include_str!("../assets/readout.js"),
+    include_str!("../assets/keys.js"),
+];
+
 /// Modes of comparing two pictures: the script's word, the name, and the key.
 const MODES: [(&str, &str, &str); 5] = [
     ("slide", "Slide", "1"),

@@ -275,3 +275,28 @@ fn change_strip(mean: &MeanChange, most: f64) -> Markup {
         (strip.mark(mean.worse, class))
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scores_of_one_unit_share_a_scale() {
+        let change = |metric: Metric, worse: f64| MeanChange {
+            filter: "blur:default".to_owned(),
+            metric,
+            scenes: 5,
+            better_worse: [0, 0],
+            first: 0.0,
+            second: worse,
+            worse,
+            interval: [worse - 0.25, worse],
+            kind: ChangeKind::Worse,
+        };
+        let (growth, loss) = (change(Metric::GROWTH, 0.5), change(Metric::LOSS, 2.0));
+        let (flip, psnr) = (change(Metric::FLIP, 0.125), change(Metric::PSNR, 9.0));
+        let all = [&growth, &loss, &flip, &psnr];
+        let scales = all.map(|mean| largest_of_kind(&all, mean.metric));
+        assert_eq!(scales, [2.0, 2.0, 0.125, 9.0]);
+    }
+}
