@@ -30,8 +30,7 @@ impl SceneContext<'_> {
         if missing.is_empty() {
             return Ok(Vec::new());
         }
-        let is_needed = |input: &&InputFormat| missing.iter().any(|case| case.id.input == **input);
-        let inputs: Vec<InputFormat> = self.plan.inputs.iter().filter(is_needed).copied().collect();
+        let inputs = self.list_inputs(missing);
         let replicates = read_replicates(self.plan, self.scene)?;
         let stored_frames = store_frames(self.plan, self.scene, &inputs, frame, &replicates)?;
         let depth_of_field = self.prepare_passes(&inputs, frame)?;
@@ -81,6 +80,12 @@ impl SceneContext<'_> {
             }
         }
         Ok(cases.into_values().collect())
+    }
+
+    /// Lists the forms of the input that some cases need, in the plan's order.
+    fn list_inputs(&self, cases: &[&PlannedCase]) -> Vec<InputFormat> {
+        let is_needed = |input: &&InputFormat| cases.iter().any(|case| case.id.input == **input);
+        self.plan.inputs.iter().filter(is_needed).copied().collect()
     }
 
     /// Returns the alignments of the scene's truths; the common one comes first, since its colours
