@@ -42,7 +42,11 @@ pictures: software_vulkan chromium
 SOFTWARE = VK_DRIVER_FILES="$${VK_DRIVER_FILES:-$$(ls /usr/share/vulkan/icd.d/lvp_icd*.json 2>/dev/null | head -n 1)}"
 TEST = $(SOFTWARE) cargo test --locked
 
-test: software_vulkan python chromium node glslang
+# Tools are installed while cargo compiles: one waits for the network, the other for the processors.
+test: software_vulkan
+	@$(MAKE) --no-print-directory python chromium node glslang & tools=$$!; \
+	$(TEST) --no-run; compiled=$$?; \
+	wait $$tools && exit $$compiled
 	$(TEST)
 	$(MAKE) --no-print-directory module
 

@@ -38,6 +38,8 @@ mod kept_cases;
 mod links;
 #[cfg(target_os = "linux")]
 mod look;
+#[path = "../../crates/merge/tests/program/mod.rs"]
+mod merge;
 mod new;
 mod own_filter;
 mod pictures;
@@ -49,11 +51,11 @@ mod report;
 mod results;
 mod sandbox;
 mod scene_notes;
+#[path = "../../crates/score/tests/program/mod.rs"]
 mod score;
 mod sequences;
 mod set_up;
 mod settings;
-mod shared_runs;
 mod shipped_files;
 mod smears;
 #[cfg(target_os = "linux")]
@@ -64,7 +66,6 @@ mod summary;
 mod terminal;
 #[path = "../../crates/tune/tests/program/mod.rs"]
 mod tune;
-mod two_pictures;
 mod variants;
 mod written_files;
 

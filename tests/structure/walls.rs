@@ -7,7 +7,7 @@ use std::path::Path;
 use toml::Table;
 
 /// Crates that one capability fills: the program names each once, and can do without it.
-const CAPABILITIES: [&str; 5] = ["bench", "engine", "gate", "merge", "tune"];
+const CAPABILITIES: [&str; 6] = ["bench", "engine", "gate", "merge", "score", "tune"];
 
 /// Crates, and what each imports of the others.
 type Imports = BTreeMap<String, BTreeSet<String>>;

@@ -4,7 +4,6 @@ mod commands;
 #[cfg(test)]
 mod guides;
 mod program;
-mod tables;
 
 use std::ffi::OsString;
 
@@ -20,8 +19,7 @@ use terminal::settings::Settings;
 use tracer::TraceError;
 
 pub use gate::{annotations, check_text, junit, summary};
-pub use run::{ranking_text, run_table, score_table};
-pub use tables::compare_table;
+pub use run::{compare_table, ranking_text, run_table, score_table};
 pub use terminal::selection::{Programs, SceneChoice, select_filters, select_scenes};
 pub use terminal::table::{list_once, markdown_table, range_text};
 

@@ -7,7 +7,7 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use measure::Error;
 
 use crate::commands::*;
-use engine::command::{audit, export, import, ingest};
+use engine::command::{audit, blur, export, import, ingest};
 use terminal::output::{OutputArgs, print_note};
 use terminal::result::Ending;
 use terminal::settings::{FromFile, Settings};
@@ -83,11 +83,11 @@ pub enum Command {
     /// Run, and compare every score with its bound: pass or fail
     Check(gate::CheckArgs),
     /// Measure a finished picture from any source
-    Score(score_args::ScoreArgs),
+    Score(score::ScoreArgs),
     /// Write a finished run or tuning as one HTML page
     Report(report::ReportArgs),
     /// Compare two runs: which scores changed by more than noise
-    Compare(compare::CompareArgs),
+    Compare(run::CompareArgs),
     /// List scenes, filters, parameters, presets, inputs and adapters
     List(list::ListArgs),
     /// Time filters pass by pass, and against their blur length
@@ -133,7 +133,7 @@ pub enum EngineCommand {
 #[derive(Debug, Subcommand)]
 pub enum TruthsCommand {
     /// Render frames and truths only, or some replicates of them
-    Render(render::RenderArgs),
+    Render(run::RenderArgs),
     /// Join what several machines made: replicates of truths, or runs of some of the cases
     Merge(merge::MergeArgs),
 }
@@ -228,13 +228,9 @@ pub fn execute(program: &Cli) -> Result<Ending, Error> {
         Command::New(args) => new::execute(args),
         Command::Run(args) => run::execute(args, &report::ADDITIONS),
         Command::Check(args) => return gate::execute_check(args, &report::ADDITIONS),
-        Command::Score(args) => match &args.reference {
-            Some(reference) => score_pair::execute(args, reference),
-            None if args.frames > 1 => score_sequence::execute(args),
-            None => score::execute(args),
-        },
+        Command::Score(args) => score::execute(args),
         Command::Report(args) => report::execute(args),
-        Command::Compare(args) => compare::execute(args),
+        Command::Compare(args) => run::execute_compare(args),
         Command::List(args) => list::execute(args, &program.settings),
         Command::Bench(args) => bench::execute(args),
         Command::Tune(command) => tune::execute(command),
@@ -243,7 +239,7 @@ pub fn execute(program: &Cli) -> Result<Ending, Error> {
         Command::Engine(EngineCommand::Ingest(args)) => ingest::execute(args),
         Command::Engine(EngineCommand::Audit(args)) => return audit::execute(args),
         Command::Engine(EngineCommand::Blur(args)) => blur::execute(args),
-        Command::Truths(TruthsCommand::Render(args)) => render::execute(args),
+        Command::Truths(TruthsCommand::Render(args)) => run::execute_render(args),
         Command::Truths(TruthsCommand::Merge(args)) => merge::execute(args),
         Command::Limits(LimitsCommand::Accept(args)) => gate::execute_accept(args),
         Command::Limits(LimitsCommand::Calibrate(args)) => gate::execute_calibrate(args),

@@ -10,8 +10,6 @@ mod ingest;
 mod statistics;
 
 pub use audit::{Buffer, CaptureAudit, Cause, Defect, audit_capture};
-pub use capture::buffers::read_motion;
 pub use capture::description::CaptureDescription;
 pub use capture::folder::Capture;
 pub use export::{FRAMES_PER_SECOND, Timeline, export_gltf};
-pub use ingest::moving::mark_reached;

@@ -21,6 +21,7 @@ mod text;
 
 pub use colors::{magma, velocity_wheel};
 pub use error::Error;
+pub use files::channels::{check_finite, check_values, find_channel, read_motion, take_velocity};
 pub use files::clear::clear_scene;
 pub use files::folder::{is_below, refuse_long_names, refuse_scene, scene_folder};
 pub use files::folder_lock::{FolderLock, Sharing, lock_folder};
@@ -80,9 +81,11 @@ pub use run::sequence::{Frames, MAX_FRAMES, Sequence, SequenceFrame, worst_frame
 pub use run::stored::StoredRun;
 pub use run::{FORMAT, Run};
 pub use runner::{Runner, open_adapter, open_gpu};
+pub use score::convention::read_convention;
 pub use score::finished_picture::{FinishedPicture, bright_note, read_finished_picture};
 pub use score::numbered::{find_numbered, numbered_file};
 pub use score::picture_file::{PictureFile, PictureKind, read_picture};
+pub use score::reached::{LEAST_MOTION, mark_reached};
 pub use score::reference::{
     ComparedPictures, Mattes, PicturePair, compare_pictures, missing_in_pair, reference_shutter,
 };

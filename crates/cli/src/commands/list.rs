@@ -10,7 +10,7 @@ use scene::{SceneListing, list_scenes, load_scene};
 use tracer::find_coincident_surfaces;
 
 use super::copy::copy_scenes;
-use crate::tables::{details_text, filter_json, filters_text, inputs_text, scenes_text};
+use super::listing::{details_text, filter_json, filters_text, inputs_text, scenes_text};
 use terminal::arguments::{AdapterArgs, RootArgs, filter_names, listed_names};
 use terminal::output::{Text, make_monitor, print, print_json, print_note, print_scene_notes};
 use terminal::selection::{is_pattern, load_filters, match_names, suggest_names};

@@ -1,16 +1,8 @@
 //! One file per command, and their shared work.
 
-pub mod blur;
-pub mod compare;
-mod convention;
 mod copy;
 pub mod description;
 pub mod list;
+mod listing;
 pub mod new;
-pub mod render;
 pub mod report;
-pub mod score;
-pub mod score_args;
-pub mod score_pair;
-pub mod score_sequence;
-mod show_texture;

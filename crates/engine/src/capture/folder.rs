@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use filters::{Convention, DepthKind, EXCLUSION, VelocityTime};
 use frame::{Alignment, FAR_DEPTH, FileError, Image, Plane, Raster, Vectors};
-use measure::{Error, read_text};
+use measure::Error;
 
 use crate::capture::buffers::{
     COLOR_ENDINGS, Color, check_size, find_buffer, find_picture, read_color, read_depth,
@@ -251,7 +251,7 @@ fn read_convention(folder: &Path, path: Option<&Path>, needed: bool) -> Result<C
         );
     }
     let path = path.unwrap_or(&default);
-    Ok(Convention::parse(path, &read_text(path)?)?)
+    measure::read_convention(Some(path))
 }
 
 /// Finds the exposure for converting velocity; any will do if velocity does not depend on it.

@@ -9,7 +9,7 @@ use frame::{
 };
 use measure::{
     BLURRED, EXCLUSION_FILE, Error, INGESTED_FORMAT, IngestedScene, MAX_TAKEN_BYTES, PROGRAM,
-    RenderFile, Sharing, engine_name, ladder_folder, lock_folder, name_in_one_word,
+    RenderFile, Sharing, engine_name, ladder_folder, lock_folder, mark_reached, name_in_one_word,
     refuse_long_names, refuse_scene, velocity_wheel,
 };
 use scene::SceneId;
@@ -17,7 +17,7 @@ use tracer::Watch;
 
 use crate::capture::folder::Capture;
 use crate::ingest::engine_truth::{EngineTruth, NOT_TRACED, average_subframes, part_of};
-use crate::ingest::moving::{mark_reached, usual_top_speed};
+use crate::ingest::moving::usual_top_speed;
 use crate::ingest::objects::{draw_coverage, name_objects};
 use crate::statistics::median;
 

@@ -5,12 +5,12 @@ use frame::{
     Accumulation, Alignment, AtInstant, Ladder, Picture, Plane, Provenance, Raster, Replicate,
     Shutter, ShutterProfile, Size, Support, Truth,
 };
-use measure::{Error, LADDER};
+use measure::{Error, LADDER, mark_reached};
 use tracer::{Progress, Watch};
 
 use crate::capture::description::CAPTURE_FILE;
 use crate::capture::folder::{Capture, SUBFRAMES};
-use crate::ingest::moving::{ColorRange, mark_reached};
+use crate::ingest::moving::ColorRange;
 use crate::ingest::objects::draw_coverage;
 
 /// Smallest number of sub-frames.

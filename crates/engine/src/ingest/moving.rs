@@ -1,14 +1,11 @@
-//! Pixels where anything moves while an engine's shutter is open, judged by its colours and its
-//! velocity.
+//! Pixels that change their colour while an engine's shutter is open, and how fast they move.
 
-use frame::{Image, Raster, Shutter, Size, Vectors};
+use frame::{Image, Raster, Size, Vectors};
+use measure::LEAST_MOTION;
 
 /// Smallest change of a displayed colour between sub-frames that counts as motion: two steps of 8
 /// bits.
 const LEAST_CHANGE: f32 = 2.0 / 255.0;
-/// Smallest motion while the shutter is open, in pixels.
-const LEAST_MOTION: f32 = 0.1;
-
 /// Share of the moving pixels that are no faster than the usual top speed.
 const TOP_SHARE: f64 = 0.99;
 
@@ -49,29 +46,6 @@ impl ColorRange {
     }
 }
 
-/// Marks the pixels that the frame's surfaces cross while the shutter is open, by their velocity.
-pub fn mark_reached(velocity: &Vectors, shutter: Shutter) -> Raster<bool> {
-    let (width, height) = (velocity.width, velocity.height);
-    let mut reached = velocity.map(|_| false);
-    for (at, motion) in (0_u32..).zip(&velocity.pixels) {
-        let length = motion[0].hypot(motion[1]) * shutter.exposure() as f32;
-        if length < LEAST_MOTION {
-            continue;
-        }
-        // Two steps per pixel miss none; beyond twice the picture nothing is visible.
-        let steps = (2.0 * length.min(2.0 * (width + height) as f32)).ceil() as u32;
-        for step in 0..=steps {
-            let time = shutter.at(f64::from(step) / f64::from(steps)) as f32;
-            let x = ((at % width) as f32 + 0.5 + motion[0] * time).floor();
-            let y = ((at / width) as f32 + 0.5 + motion[1] * time).floor();
-            if x >= 0.0 && y >= 0.0 && x < width as f32 && y < height as f32 {
-                reached.pixels[y as usize * width as usize + x as usize] = true;
-            }
-        }
-    }
-    reached
-}
-
 /// Encodes radiance about as a display does, without clipping at white.
 fn encode(radiance: f32, stops: f32) -> f32 {
     (radiance.max(0.0) * stops.exp2()).powf(1.0 / 2.2)
@@ -90,8 +64,6 @@ pub fn usual_top_speed(velocity: &Vectors) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use frame::Alignment;
-
     use super::*;
 
     #[test]
@@ -107,21 +79,16 @@ mod tests {
     }
 
     #[test]
-    fn what_changes_and_what_velocity_reaches_is_marked() {
+    fn what_changes_is_marked() {
         let mut range = ColorRange::new(Size::new(8, 1), 0.0);
         let color =
             |changed: f32| Raster::from_fn(8, 1, |x, _| [if x == 7 { changed } else { 0.5 }; 3]);
         range.add(&color(0.5));
         range.add(&color(0.6));
-        // Two pixels to the right per frame, with the shutter open for one frame before the
-        // instant.
-        let velocity = Raster::from_fn(8, 1, |x, _| [if x == 4 { 2.0 } else { 0.0 }, 0.0]);
-        let shutter = Alignment::Trailing.shutter(1.0).unwrap();
         let marks = |marks: Raster<bool>| -> String {
             let signs = marks.pixels.iter().map(|is| if *is { 'x' } else { '.' });
             signs.collect()
         };
         assert_eq!(marks(range.mark_changed()), ".......x");
-        assert_eq!(marks(mark_reached(&velocity, shutter)), "..xxx...");
     }
 }

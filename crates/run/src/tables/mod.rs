@@ -2,6 +2,7 @@
 
 mod abreast;
 mod cases;
+mod comparison;
 mod missing;
 mod ranking;
 mod ranks;
@@ -13,6 +14,7 @@ pub use terminal::table::*;
 
 pub use self::abreast::*;
 pub use self::cases::*;
+pub use self::comparison::*;
 pub use self::missing::*;
 pub use self::ranking::*;
 use self::ranks::Ranks;

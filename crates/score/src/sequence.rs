@@ -3,15 +3,14 @@
 use frame::{Frame, Image, Truth};
 use measure::{
     Error, Frames, SequenceTruth, file_at_frame, find_numbered, printable, printable_path,
-    read_finished_picture, score_sequence, worst_frames,
+    read_convention, read_finished_picture, score_sequence, worst_frames,
 };
 use metrics::{Measured, SequenceMeasurement, SequenceMetric};
 use scene::Scene;
 use terminal::refuse;
 
-use super::convention::read_convention;
-use super::score::{check_scene, scored_json, truth_text};
-use super::score_args::ScoreArgs;
+use crate::args::ScoreArgs;
+use crate::picture::{check_scene, scored_json, truth_text};
 use run::score_sequence_table;
 use terminal::output::{Text, print, print_json};
 use terminal::selection::select_scenes;

@@ -7,6 +7,7 @@ use frame::MAX_STOPS;
 use measure::{Frames, printable};
 use terminal::arguments::{RootArgs, above_zero, frame_count};
 
+/// Arguments of `score`.
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("against").required(true).args(["truth", "reference"]))]
 pub struct ScoreArgs {
@@ -70,6 +71,7 @@ pub struct ScoreArgs {
     /// a frame rate is shown at that rate.
     #[arg(help_heading = "Sequences", long, value_name = "F", default_value_t = Frames::default().per_second, value_parser = above_zero(1000.0))]
     pub fps: f64,
+    /// Folder of scenes.
     #[command(flatten, next_help_heading = "Sequences")]
     pub root: RootArgs,
     /// HTML page to write: both pictures and the error map, under a slider or blinking.

@@ -19,8 +19,10 @@ use terminal::expected::print_expected_time;
 use terminal::output::{count_text, make_monitor, print, print_scene_notes};
 use terminal::selection::select_scenes;
 
+/// Arguments of `truths render`.
 #[derive(Debug, Args)]
 pub struct RenderArgs {
+    /// Scenes.
     #[command(flatten)]
     pub scenes: SceneArgs,
     /// Picture size in pixels [default: each scene's own].

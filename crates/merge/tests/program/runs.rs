@@ -1,6 +1,4 @@
-//! Runs shared by several processes, and the merge of their results.
-
-mod same_bytes;
+//! Runs of some of the cases, joined.
 
 use std::fs;
 
@@ -11,7 +9,7 @@ pub const QUICK: &str = "--quiet --size 64x32 --samples-per-pixel 16 --jitter-fr
 
 /// Measures two scenes in one folder each, with one filter and the references; and another filter
 /// without them.
-fn parts() -> Sandbox {
+pub fn parts() -> Sandbox {
     Sandbox::once(|sandbox| {
         sandbox.add_slow_scene();
         for line in [

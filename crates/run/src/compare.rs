@@ -7,15 +7,17 @@ use judge::{compare_runs, pair_cases};
 use measure::{Error, StoredRun, estimate_case_seconds};
 use report::compare_page;
 
+use crate::pages::write_page;
+use crate::plan::read_margins;
+use crate::previous::PREVIOUS;
 use crate::tables::{compare_csv, compare_markdown, compare_table};
-use run::write_page;
-use run::{PREVIOUS, read_margins};
 use terminal::arguments::RootArgs;
 use terminal::expected::print_expected_time;
 use terminal::output::{count_text, make_monitor, open_page, print, print_json};
 use terminal::refuse;
 use terminal::table::TableArgs;
 
+/// Arguments of `compare`.
 #[derive(Debug, Args)]
 pub struct CompareArgs {
     /// Folder of a run, or its run.json; alone, what changed since the run before it in the same
@@ -31,11 +33,13 @@ pub struct CompareArgs {
     /// Open the page in the browser [default page: compare.html next to the second run.json].
     #[arg(long)]
     pub open: bool,
+    /// Folder of scenes.
     #[command(flatten)]
     pub root: RootArgs,
     /// Print all changes as JSON instead of the table.
     #[arg(help_heading = "Output", long)]
     pub json: bool,
+    /// Other forms of the table.
     #[command(flatten)]
     pub tables: TableArgs,
 }

@@ -6,12 +6,11 @@ use terminal::refuse;
 use frame::{Frame, Image, Ladder, Provenance, Truth};
 use measure::{
     Error, IngestedScene, NO_VELOCITY, Scored, engine_name, missing_scores, printable,
-    read_finished_picture, score,
+    read_convention, read_finished_picture, score,
 };
 use metrics::{Metric, Smear};
 
-use super::convention::read_convention;
-use super::score_args::{ScoreArgs, name_file};
+use crate::args::{ScoreArgs, name_file};
 use report::{NamedPicture, PicturePage, picture_page};
 use run::{page_lines, refuse_folder, score_table, shows_smears, write_page};
 use terminal::output::{Text, print, print_json};

@@ -11,14 +11,15 @@ use frame::{
 };
 use measure::{
     Error, FilterChoice, Runner, file_at_frame, numbered_file, open_gpu, printable_path,
+    read_convention,
 };
 
-use super::convention::read_convention;
 use super::show_texture::{check_shown, show_texture};
 use terminal::arguments::{AdapterArgs, ProgramArgs, frame_count, parse_exposure};
 use terminal::output::{make_monitor, print};
 use terminal::selection::select_filters;
 
+/// Arguments of `engine blur`.
 #[derive(Debug, Args)]
 pub struct BlurArgs {
     /// Filter: a name or a folder, with an optional :preset.
@@ -62,8 +63,10 @@ pub struct BlurArgs {
     /// filter's own, color, velocity, depth or output. Repeatable, or separated by commas.
     #[arg(long, value_name = "TEXTURES", value_delimiter = ',')]
     pub show: Vec<String>,
+    /// Filters that are programs.
     #[command(flatten)]
     pub programs: ProgramArgs,
+    /// Graphics card.
     #[command(flatten)]
     pub adapter: AdapterArgs,
 }

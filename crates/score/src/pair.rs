@@ -8,7 +8,8 @@ use frame::{
 };
 use measure::{
     ComparedPictures, Error, Mattes, PictureFile, PicturePair, bright_note, compare_pictures,
-    missing_in_pair, read_picture, reference_shutter, shorten_names,
+    mark_reached, missing_in_pair, read_convention, read_motion, read_picture, reference_shutter,
+    shorten_names,
 };
 use metrics::{ImageMetric, Metric, Region, Scores};
 use report::{NamedPicture, PicturePage, picture_page};
@@ -17,8 +18,7 @@ use terminal::output::{Text, heading, print, print_json, push_wrapped};
 use terminal::refuse;
 use terminal::table::{Table, legend_text};
 
-use super::convention::read_convention;
-use super::score_args::{ScoreArgs, name_file};
+use crate::args::{ScoreArgs, name_file};
 
 /// FLIP over the whole picture, as other programs compute it.
 const WHOLE: Metric = Metric::Image(ImageMetric::Flip, Region::Full);
@@ -180,9 +180,9 @@ fn read_moving(
     convention: &Convention,
     expected: (&Path, Size),
 ) -> Result<Raster<bool>, Error> {
-    let velocity = engine::read_motion(path, convention, EXPOSURE)?;
+    let velocity = read_motion(path, convention, EXPOSURE)?;
     check_size(path, velocity.size(), expected)?;
-    Ok(engine::mark_reached(&velocity, reference_shutter()))
+    Ok(mark_reached(&velocity, reference_shutter()))
 }
 
 /// Reads the mattes of the reference and of the picture; none if no files are named.

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use super::{QUICK, parts};
+use super::runs::{QUICK, parts};
 use crate::sandbox::{Files, Sandbox, assert_same_files, read_below};
 
 /// Reads all files of a run except the jobs' own, its judgement, and pages.

@@ -1,0 +1,5 @@
+//! `truths merge` as its user sees it.
+
+mod runs;
+mod same_bytes;
+mod truths;

@@ -1,0 +1,4 @@
+//! `score` as its user sees it.
+
+mod truth;
+mod two_pictures;
