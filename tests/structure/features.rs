@@ -38,7 +38,6 @@ fn list_features(arguments: &[&str]) -> Features {
     cargo.args([
         "tree",
         "--locked",
-        "--offline",
         "--prefix",
         "none",
         "--format",
@@ -50,6 +49,11 @@ fn list_features(arguments: &[&str]) -> Features {
         .arg(root)
         .output())
     .expect("cargo");
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
     let text = String::from_utf8(output.stdout).expect("text");
     let mut features = Features::new();
     for line in text.lines() {
