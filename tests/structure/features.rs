@@ -36,12 +36,7 @@ fn list_features(arguments: &[&str]) -> Features {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../Cargo.toml");
     let mut cargo = Command::new(env!("CARGO"));
     cargo.args([
-        "tree",
-        "--locked",
-        "--prefix",
-        "none",
-        "--format",
-        "{p} {f}",
+        "tree", "--locked", "--prefix", "none", "--format", "{p} {f}",
     ]);
     let output = (cargo
         .args(arguments)
