@@ -7,6 +7,7 @@ mod compare;
 mod ingested_scenes;
 mod kept_truths;
 mod measured;
+mod noise;
 mod pages;
 mod plan;
 mod previous;
@@ -17,6 +18,7 @@ mod watch;
 pub use self::command::{RunArgs, execute};
 pub use self::compare::{CompareArgs, execute as execute_compare};
 pub use self::measured::{MeasuredRun, measure};
+pub use self::noise::choose_samples;
 pub use self::pages::{
     WrittenFile, page_lines, page_path, refuse_folder, write_judgement, write_page, write_run,
     write_run_page,

@@ -5,6 +5,7 @@ use measure::{
     EarlierCases, Error, FolderLock, Run, RunPlan, estimate_run, folder_for_size, measure_scenes,
 };
 
+use crate::noise::choose_samples;
 use crate::plan::lock_out;
 use crate::previous::keep_aside;
 use terminal::expected::print_expected;
@@ -26,6 +27,7 @@ pub fn measure(plan: &mut RunPlan, gpu: Option<&Gpu>) -> Result<MeasuredRun, Err
     choose_folder(plan)?;
     let lock = lock_out(plan)?;
     keep_aside(plan)?;
+    choose_samples(plan)?;
     let earlier = EarlierCases::find(plan, gpu.map(|gpu| &gpu.adapter)).map_err(name_options)?;
     if !is_quiet() {
         print_expected(&estimate_run(plan, gpu), &plan.out);

@@ -11,6 +11,7 @@ use tracer::RenderSettings;
 
 use crate::ingested_scenes::{leave_out_filters, read_ingested_bounds, refuse_render_options};
 use crate::kept_truths::check_truths;
+use crate::noise::choose_noise;
 use terminal::arguments::{MeasureArgs, RunOptions};
 use terminal::output::make_monitor;
 use terminal::selection::{load_scenes, read_scene_bounds, select_filters, select_ingested_scenes};
@@ -59,7 +60,8 @@ pub fn make_plan(args: &MeasureArgs, out: PathBuf) -> Result<(RunPlan, RunBounds
     if let Some(truths) = &plan.truths {
         check_truths(truths)?;
     }
-    Ok((plan, bounds))
+    let noise = choose_noise(args, &plan.scenes);
+    Ok((RunPlan { noise, ..plan }, bounds))
 }
 
 /// Applies frames, intervals and the common shutter to a plan.

@@ -13,7 +13,7 @@ use metrics::Metric;
 use tracer::{Progress, Watch};
 
 use run::write_run;
-use run::{lock_out, make_plan};
+use run::{choose_samples, lock_out, make_plan};
 use terminal::arguments::{MeasureArgs, SequenceArgs, within};
 use terminal::expected::print_expected_time;
 use terminal::output::print;
@@ -134,6 +134,7 @@ fn run_all(
     let total = adapters.len() as u64 * u64::from(args.runs);
     let seeds = list_seeds(plan.render.seed, args.runs)?;
     let mut runs: Vec<Run> = Vec::new();
+    choose_samples(plan)?;
     for adapter in adapters {
         let gpu = open_gpu(&plan.filters, *adapter, plan.monitor)?;
         for seed in seeds.clone() {

@@ -36,6 +36,8 @@ pub struct RunPlan {
     pub frames: Frames,
     /// Settings of frames and truths.
     pub render: RenderSettings,
+    /// Noise that the samples of the settings are raised or lowered to; none to leave them.
+    pub noise: Option<f64>,
     /// Folder for all files.
     pub out: PathBuf,
     /// True if filters' scores get intervals, which bounds are judged by. Needs a few more
@@ -72,6 +74,7 @@ impl Default for RunPlan {
             jitter_frames: 0,
             frames: Frames::default(),
             render: RenderSettings::default(),
+            noise: None,
             out: "out".into(),
             intervals: false,
             ladders: true,

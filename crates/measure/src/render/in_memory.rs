@@ -82,16 +82,14 @@ impl MemoryRender<'_> {
     /// Traces truth and frame, with more samples until both reach the noise; returns what rendered
     /// them, too.
     fn trace_until_clean(self) -> Result<(Self, Truth, TracedFrame), Error> {
-        let truth = self.trace_truth()?;
-        let traced = self.trace_frame(self.scene)?;
-        let (_, floor) = deciding_floor(&truth);
-        let worst = floor.max(estimate_frame_noise(&traced.replicates));
+        let (truth, traced) = (self.trace_truth()?, self.trace_frame(self.scene)?);
+        let worst = worst_noise(&truth, &traced);
         let excess = worst / self.noise.unwrap_or(f64::INFINITY);
         if excess <= 1.0 {
             return Ok((self, truth, traced));
         }
         let samples = f64::from(self.settings.samples_per_pixel);
-        let needed = samples * MARGIN * excess.powf(1.0 / DECAY);
+        let needed = self.predict(excess);
         let settings = share_samples(self.settings, needed).ok_or_else(|| {
             Error::TooNoisy(format!(
                 "{} {}: the noise is {worst:.2e} with {samples} samples per pixel, and about {needed:.0} are needed for {:e}; \
@@ -103,6 +101,18 @@ impl MemoryRender<'_> {
             ))
         })?;
         Self { settings, ..self }.trace_until_clean()
+    }
+
+    /// Predicts from a render with the samples of the settings how many per pixel the noise takes.
+    pub(super) fn predict_samples(&self) -> Result<f64, Error> {
+        let (truth, traced) = (self.trace_truth()?, self.trace_frame(self.scene)?);
+        let worst = worst_noise(&truth, &traced);
+        Ok(self.predict(worst / self.noise.unwrap_or(f64::INFINITY)))
+    }
+
+    /// Predicts the samples per pixel that lower the noise by the factor `excess`.
+    fn predict(&self, excess: f64) -> f64 {
+        f64::from(self.settings.samples_per_pixel) * MARGIN * excess.powf(1.0 / DECAY)
     }
 
     fn trace_truth(&self) -> Result<Truth, Error> {
@@ -147,6 +157,12 @@ impl MemoryRender<'_> {
         };
         middles.map(trace).collect()
     }
+}
+
+/// Returns the noise of truth or frame, whichever is noisier.
+fn worst_noise(truth: &Truth, traced: &TracedFrame) -> f64 {
+    let (_, floor) = deciding_floor(truth);
+    floor.max(estimate_frame_noise(&traced.replicates))
 }
 
 /// Shares at least `needed` samples per pixel out to few replicates; none if that is too many.

@@ -5,7 +5,9 @@ use std::path::PathBuf;
 use clap::Args;
 use frame::Size;
 
-use super::{InputFormArgs, ProgramArgs, SceneArgs, filter_names, parse_even, parse_size, within};
+use super::{
+    InputFormArgs, ProgramArgs, SceneArgs, above_zero, filter_names, parse_even, parse_size, within,
+};
 
 /// Choice of scenes, filters and inputs to measure.
 #[derive(Clone, Debug, Args)]
@@ -40,6 +42,10 @@ pub struct MeasureArgs {
     /// at].
     #[arg(help_heading = "Scenes and files", long, value_name = "WxH", value_parser = parse_size)]
     pub size: Option<Size>,
+    /// Noise of truth and frame, a root mean square of radiance where anything moves: a small
+    /// render tells how many samples per pixel the noisiest of the scenes takes for it.
+    #[arg(help_heading = "Scenes and files", long, value_name = "TARGET", value_parser = above_zero(f64::MAX), conflicts_with = "samples_per_pixel")]
+    pub noise: Option<f64>,
     /// Independent renders per truth, an even number; each has an eighth of --samples-per-pixel.
     #[arg(
         help_heading = "Scenes and files",

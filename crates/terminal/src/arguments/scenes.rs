@@ -48,9 +48,10 @@ pub struct SceneArgs {
     #[command(flatten)]
     pub root: RootArgs,
     /// Mean samples per pixel of a truth with 8 replicates, 8 times a power of two. Noisy parts of
-    /// the picture get more, quiet ones fewer.
-    #[arg(long, value_name = "N", default_value_t = RenderSettings::default().samples_per_pixel, value_parser = parse_samples)]
-    pub samples_per_pixel: u32,
+    /// the picture get more, quiet ones fewer [default: 256; for `run` and `check`, of scenes that
+    /// are not built in as many as --noise 0.005 takes].
+    #[arg(long, value_name = "N", value_parser = parse_samples)]
+    pub samples_per_pixel: Option<u32>,
     /// Exposure in frames; 0.5 is a shutter of 180 degrees [default: each scene's own].
     #[arg(long, value_name = "E", value_parser = parse_exposure)]
     pub exposure: Option<f64>,
@@ -128,7 +129,8 @@ impl SceneArgs {
             exposure: self.exposure,
             options: self.frame_options(),
             guard_band: self.guard_band,
-            samples_per_pixel: self.samples_per_pixel,
+            samples_per_pixel: (self.samples_per_pixel)
+                .unwrap_or(RenderSettings::default().samples_per_pixel),
             seed: self.seed,
             ..RenderSettings::default()
         }

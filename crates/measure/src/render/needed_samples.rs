@@ -1,0 +1,102 @@
+//! How many samples per pixel a scene needs for a noise.
+
+use serde::Serialize;
+use tracer::{MAX_SAMPLES, RenderSettings};
+
+use super::in_memory::MemoryRender;
+use super::run_scene::RunScene;
+use crate::{Error, RenderFile, RunPlan, hash_inputs, look_up, put};
+
+/// Samples per pixel of the render that the noise is measured on.
+const PILOT: u32 = 64;
+/// File with the number of samples, next to the frame.
+const RECORD: &str = "samples.json";
+
+/// Everything that determines the number of samples of a scene.
+#[derive(Serialize)]
+struct Inputs {
+    /// Hash of the truth that the noise is measured on.
+    truth: String,
+    noise: f64,
+}
+
+impl RunPlan {
+    /// Finds the samples per pixel that bring truth and frame of each scene to the noise `target`,
+    /// a root mean square of radiance where anything moves. A small render of every scene tells
+    /// it; the folder keeps the number. Engines' scenes have the samples that they have.
+    ///
+    /// # Errors
+    /// More samples than allowed would be needed, a scene cannot be rendered with the plan's
+    /// settings, or the monitor interrupted.
+    pub fn find_needed_samples(&self, target: f64) -> Result<Vec<u32>, Error> {
+        let alignment = self.alignments()[0];
+        let scenes = self.scenes.iter();
+        let needed = scenes.map(|scene| {
+            let settings = self.pilot();
+            let render = MemoryRender {
+                scene,
+                settings,
+                alignment,
+                noise: Some(target),
+                subframes: 0,
+                monitor: self.monitor,
+            };
+            let truth = RenderFile::Truth(alignment);
+            let inputs = hash_inputs(&Inputs {
+                truth: RunScene::from(scene).content_hash(truth, &settings),
+                noise: target,
+            });
+            let path = self.out.join(scene.id.folder()).join(RECORD);
+            if let Some(samples) = look_up(&path, &inputs) {
+                return Ok(samples);
+            }
+            let samples = round_up(render.predict_samples()?, settings.replicates)
+                .ok_or_else(|| too_many(&scene.id.to_string(), target))?;
+            put(&path, inputs, &[], &samples)?;
+            Ok(samples)
+        });
+        needed.collect()
+    }
+
+    /// Returns the settings of the renders that [`RunPlan::find_needed_samples`] makes.
+    pub fn pilot(&self) -> RenderSettings {
+        RenderSettings {
+            samples_per_pixel: PILOT,
+            replicates: RenderSettings::default().replicates,
+            ..self.render
+        }
+        .with_replicates(self.render.replicates)
+    }
+}
+
+/// Rounds up to samples that every replicate has a power of two of; none if they are too many.
+fn round_up(needed: f64, replicates: u32) -> Option<u32> {
+    let each = (needed / f64::from(replicates))
+        .max(1.0)
+        .log2()
+        .ceil()
+        .exp2();
+    (each * f64::from(replicates) <= f64::from(MAX_SAMPLES)).then_some(each as u32 * replicates)
+}
+
+fn too_many(scene: &str, target: f64) -> Error {
+    Error::TooNoisy(format!(
+        "{scene}: a noise of {target:e} takes more than {MAX_SAMPLES} samples per pixel; allow more noise with --noise, or \
+         remove what makes the scene noisy: small bright lights, and glossy surfaces that reflect them"
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_replicate_has_a_power_of_two() {
+        assert_eq!(round_up(3.0, 8), Some(8));
+        assert_eq!(round_up(64.0, 8), Some(64));
+        assert_eq!(round_up(64.1, 8), Some(128));
+        assert_eq!(round_up(65.0, 10), Some(80));
+        assert_eq!(round_up(f64::from(MAX_SAMPLES), 8), Some(MAX_SAMPLES));
+        assert_eq!(round_up(f64::from(MAX_SAMPLES) + 1.0, 8), None);
+    }
+}
