@@ -41,6 +41,7 @@ mod look;
 #[path = "../../crates/merge/tests/program/mod.rs"]
 mod merge;
 mod new;
+mod noise;
 mod own_filter;
 mod pictures;
 mod previous;

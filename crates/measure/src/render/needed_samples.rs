@@ -69,7 +69,8 @@ impl RunPlan {
     }
 }
 
-/// Rounds up to samples that every replicate has a power of two of; none if they are too many.
+/// Rounds up to samples that every replicate has a power of two of, no fewer than the small render
+/// had; none if they are too many.
 fn round_up(needed: f64, replicates: u32) -> Option<u32> {
     let each = (needed / f64::from(replicates))
         .max(1.0)
@@ -92,10 +93,10 @@ mod tests {
 
     #[test]
     fn each_replicate_has_a_power_of_two() {
-        assert_eq!(round_up(3.0, 8), Some(8));
+        assert_eq!(round_up(3.0, 8), Some(PILOT));
         assert_eq!(round_up(64.0, 8), Some(64));
         assert_eq!(round_up(64.1, 8), Some(128));
-        assert_eq!(round_up(65.0, 10), Some(80));
+        assert_eq!(round_up(81.0, 10), Some(160));
         assert_eq!(round_up(f64::from(MAX_SAMPLES), 8), Some(MAX_SAMPLES));
         assert_eq!(round_up(f64::from(MAX_SAMPLES) + 1.0, 8), None);
     }
