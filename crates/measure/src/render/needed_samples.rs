@@ -77,7 +77,7 @@ fn round_up(needed: f64, replicates: u32) -> Option<u32> {
         .log2()
         .ceil()
         .exp2();
-    (each * f64::from(replicates) <= f64::from(MAX_SAMPLES)).then_some(each as u32 * replicates)
+    (each * f64::from(replicates) <= f64::from(MAX_SAMPLES)).then(|| each as u32 * replicates)
 }
 
 fn too_many(scene: &str, target: f64) -> Error {
