@@ -26,6 +26,11 @@ SETTINGS = {"size": SIZE, "samples": 64, "seed": 1}
 _kept = {}
 
 
+def setUpModule():
+    # A shell's job in the background ignores Ctrl-C, and so would these tests and their children.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
 def render(scene="sliding_panel", **options):
     """Renders once what several tests look at."""
     key = (scene, *sorted(options.items()))

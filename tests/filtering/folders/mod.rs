@@ -19,5 +19,5 @@ pub fn example(language: &str) -> &'static str {
 pub fn documented() -> FilterFiles {
     FilterFiles::default()
         .with("filter.toml", example("toml"))
-        .with("centre_blur.wgsl", example("rust"))
+        .with("centre_blur.wgsl", example("c"))
 }
