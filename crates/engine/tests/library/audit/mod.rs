@@ -4,6 +4,7 @@
 
 mod numbers;
 mod picture;
+mod planted;
 mod structure;
 
 use std::path::PathBuf;
@@ -266,7 +267,11 @@ fn a_wrong_sign_is_named_together_with_another_cause() {
                     names(finding, |named| *named == cause),
                     "{turn:?}: {finding:#?}"
                 );
-                assert_eq!(finding.explanation.turned, Some(turn), "{finding:#?}");
+                assert_eq!(
+                    finding.explanation.turned.as_ref(),
+                    Some(&turn),
+                    "{finding:#?}"
+                );
             }
         }
     }

@@ -48,7 +48,7 @@ fn expect_each(audit: &CaptureAudit, objects: &[&str], is_cause: impl Fn(&Cause)
 }
 
 /// The moving scene, in which the disc is the car's child.
-fn with_child() -> Scene {
+pub(super) fn with_child() -> Scene {
     let mut scene = load_moving();
     let [disc, car] = ["disc", "car"].map(|name| id_of(&scene, name) as usize - 1);
     // A parent comes before its children.
@@ -68,7 +68,7 @@ fn with_child() -> Scene {
 
 /// The moving scene, in which the disc changes its shape like a bone that bends: its upper half
 /// leans over.
-fn with_shapes() -> Scene {
+pub(super) fn with_shapes() -> Scene {
     let mut scene = load_moving();
     let disc = &scene.objects[id_of(&scene, "disc") as usize - 1];
     let mesh = &mut scene.meshes[disc.mesh];
