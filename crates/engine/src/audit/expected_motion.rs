@@ -5,22 +5,21 @@ use scene::Scene;
 use tracer::{PointLayers, PointMotion, RenderSettings, TraceError, trace_motion};
 
 use crate::audit::cause::Cause;
-use crate::export::FRAMES_PER_SECOND;
-
-/// Clock rates of engines, in frames per second.
-const CLOCK_RATES: [f64; 3] = [60.0, 30.0, 120.0];
+use crate::audit::structure::WrongDraws;
 
 /// Layers of the instant with the correct velocity, and velocities caused by known mistakes.
-pub struct ExpectedMotion {
+pub struct ExpectedMotion<'a> {
     /// Correct: the motion since the previous frame.
     pub right: PointLayers,
     /// Each mistake that shows other motion, with that motion; the simplest first.
     pub mistaken: Vec<(Cause, Vectors)>,
+    /// The engine's draw calls, for mistakes of single objects.
+    pub draws: WrongDraws<'a>,
 }
 
-impl ExpectedMotion {
-    /// Traces all of them, with a dozen rays per pixel.
-    pub fn trace(scene: &Scene, size: Size) -> Result<Self, TraceError> {
+impl<'a> ExpectedMotion<'a> {
+    /// Traces all of them, with a few rays per pixel.
+    pub fn trace(scene: &'a Scene, size: Size) -> Result<Self, TraceError> {
         let mut since_last = RenderSettings::default().with_size(size);
         since_last.options.velocity = VelocityKind::PreviousFrame;
         let trace = |motion: PointMotion| trace_motion(scene, &since_last, &motion);
@@ -33,35 +32,28 @@ impl ExpectedMotion {
             Cause::SwappedAxes,
         ];
         for turn in turns {
-            mistaken.push((turn, right.velocity.map(|vector| turn.apply(*vector))));
+            let velocity = right.velocity.map(|vector| turn.apply(*vector));
+            mistaken.push((turn, velocity));
         }
-        let motions = [
-            (Cause::ObjectMotionMissing, PointMotion::WITHOUT_OBJECTS),
-            (Cause::OwnMotionMissing, PointMotion::WITHOUT_OWN),
-            (Cause::DeformationMissing, PointMotion::WITHOUT_SHAPES),
-            (Cause::CameraMotionMissing, PointMotion::WITHOUT_CAMERA),
-            (Cause::FrameLate, PointMotion::FRAME_LATE),
+        let draws = WrongDraws::trace(scene, &right)?;
+        mistaken.extend(draws.list_of_all());
+        let of_last_points = [
             (Cause::PreviousBuffer, PointMotion::PREVIOUS_BUFFER),
             (Cause::PreviousPixel, PointMotion::PREVIOUS_PIXEL),
-            (Cause::FrameEarly, PointMotion::FRAME_EARLY),
-            (Cause::MatrixNeverSet, PointMotion::MATRIX_NEVER_SET),
         ];
-        for (cause, motion) in motions {
+        for (cause, motion) in of_last_points {
             mistaken.push((cause, trace(motion)?.velocity));
-        }
-        for rate in CLOCK_RATES {
-            let motion = PointMotion {
-                over: FRAMES_PER_SECOND / rate,
-                ..PointMotion::RIGHT
-            };
-            mistaken.push((Cause::MotionOver(rate), trace(motion)?.velocity));
         }
         mistaken.push((Cause::UpsideDown, upside_down(&right.velocity)));
         let mut instantaneous = since_last;
         instantaneous.options.velocity = VelocityKind::Instantaneous;
         let derivative = trace_motion(scene, &instantaneous, &PointMotion::RIGHT)?;
         mistaken.push((Cause::HalfFrameOff, derivative.velocity));
-        Ok(Self { right, mistaken })
+        Ok(Self {
+            right,
+            mistaken,
+            draws,
+        })
     }
 }
 

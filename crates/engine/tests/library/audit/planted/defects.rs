@@ -18,6 +18,8 @@ pub struct Case {
     /// Name in the table.
     pub name: &'static str,
     pub scene: Scene,
+    /// Width of the picture, in which every object has pixels enough.
+    pub width: u32,
     /// Object of defects of one object.
     pub target: &'static str,
     /// Object whose previous matrix it takes.
@@ -217,7 +219,7 @@ impl Memory {
                 .shape_times()
                 .next()
                 .unwrap_or(0.0),
-            way: distance * WAY,
+            way: distance.max(1.0) * WAY,
         }
     }
 }

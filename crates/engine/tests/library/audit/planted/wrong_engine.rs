@@ -57,16 +57,13 @@ impl<'a> WrongEngine<'a> {
         }
     }
 
-    /// Draws the velocity; `else_from` is for points that were behind the camera.
-    pub fn draw(&self, else_from: &Vectors) -> Vectors {
+    /// Draws the velocity.
+    pub fn draw(&self) -> Vectors {
         let Size { width, height } = self.size;
-        Raster::from_fn(width, height, |x, y| {
-            let velocity = self.velocity_at(x, y);
-            velocity.unwrap_or(*else_from.at(x, y))
-        })
+        Raster::from_fn(width, height, |x, y| self.velocity_at(x, y))
     }
 
-    fn velocity_at(&self, x: u32, y: u32) -> Option<[f32; 2]> {
+    fn velocity_at(&self, x: u32, y: u32) -> [f32; 2] {
         let hit = self.hits.at(x, y);
         let draw = &self.draws[hit.map_or(0, |hit| hit.object + 1)];
         let project = |frame: usize| match hit {
@@ -77,11 +74,11 @@ impl<'a> WrongEngine<'a> {
                 self.to_picture(draw, frame, seen)
             }
         };
-        let [last, this] = [project(LAST)?, project(THIS)?];
-        Some([0, 1].map(|axis| (this[axis] - last[axis]) as f32))
+        let [last, this] = [project(LAST), project(THIS)];
+        [0, 1].map(|axis| (this[axis] - last[axis]) as f32)
     }
 
-    fn project_point(&self, draw: &Draw, frame: usize, hit: &Hit) -> Option<[f64; 2]> {
+    fn project_point(&self, draw: &Draw, frame: usize, hit: &Hit) -> [f64; 2] {
         let mesh = &self.scene.meshes[self.scene.objects[hit.object].mesh];
         let [a, b, c] =
             mesh.triangles[hit.triangle as usize].map(|vertex| draw.shapes[frame][vertex as usize]);
@@ -91,15 +88,16 @@ impl<'a> WrongEngine<'a> {
         self.to_picture(draw, frame, seen)
     }
 
-    fn to_picture(&self, draw: &Draw, frame: usize, seen: DVec3) -> Option<[f64; 2]> {
+    /// Divides as engines do, without a look at the sign of points behind the camera.
+    fn to_picture(&self, draw: &Draw, frame: usize, seen: DVec3) -> [f64; 2] {
         let [width, height] = [self.size.width, self.size.height].map(f64::from);
         let focal = 0.5 * height / (0.5 * draw.fields_of_view[frame]).tan();
         let [right, up] = [seen.x, seen.y].map(|part| focal * part / -seen.z);
         let jitter = draw.jitter[frame];
-        (seen.z < 0.0).then_some([
+        [
             0.5 * width + right + jitter[0],
             0.5 * height - up + jitter[1],
-        ])
+        ]
     }
 }
 
