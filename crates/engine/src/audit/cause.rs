@@ -50,14 +50,18 @@ pub enum Cause {
     FrameEarly,
     /// The object's last matrix was the identity.
     MatrixNeverSet,
-    /// The object's last matrix is that of other objects, as named.
-    MatrixOf(String),
-    /// The object's last matrix is that of other instances of its mesh, as named.
-    MatrixOfInstance(String),
+    /// The object's last matrix is that of one of these objects, which have the same.
+    MatrixOf(Vec<String>),
+    /// The object's last matrix is that of one of these instances of its mesh, which have the same.
+    MatrixOfInstance(Vec<String>),
+    /// The object's last shape is the key shape at this time, in frames.
+    OtherPose(f64),
     /// The object's last place is this far from the right one, in metres of the world.
     Teleport([f64; 3]),
     /// The motion at the instant, half a frame later than the mean motion since the previous frame.
     HalfFrameOff,
+    /// Blocks of so many pixels on each side share a vector.
+    LowResolution(u32),
     /// A factor on both axes.
     Scale(f64),
     /// A factor on each axis.
@@ -113,6 +117,8 @@ pub(super) enum Family {
     Late,
     /// The last frame is an older one.
     Older,
+    /// The buffer is smaller than the picture.
+    LowResolution,
 }
 
 impl Cause {
@@ -153,6 +159,7 @@ impl Cause {
             Self::CameraMotionMissing | Self::ViewMissing => Some(Family::StillCamera),
             Self::FrameLate | Self::LateMatrix => Some(Family::Late),
             Self::TwoFrames | Self::OlderMatrix => Some(Family::Older),
+            Self::LowResolution(_) => Some(Family::LowResolution),
             _ => None,
         }
     }

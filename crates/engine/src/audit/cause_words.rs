@@ -3,6 +3,9 @@
 use crate::audit::cause::Cause;
 use crate::export::FRAMES_PER_SECOND;
 
+/// Upper limit on the objects that a cause lists.
+const MOST_NAMED: usize = 3;
+
 impl Cause {
     /// Describes the mistake, as the continuation of a sentence.
     pub fn name(&self) -> String {
@@ -79,9 +82,18 @@ impl Cause {
     /// Describes a mistake of velocity with a number or a name; none for another buffer.
     fn name_number(&self) -> Option<String> {
         Some(match self {
-            Self::MatrixOf(names) => format!("comes from the last matrix of {names}"),
-            Self::MatrixOfInstance(names) => {
-                format!("comes from the last matrix of {names}, an instance of the same mesh")
+            Self::MatrixOf(names) => {
+                format!("comes from the last matrix of {}", list_names(names))
+            }
+            Self::MatrixOfInstance(names) => format!(
+                "comes from the last matrix of {}, an instance of the same mesh",
+                list_names(names)
+            ),
+            Self::OtherPose(time) => format!(
+                "comes from its key shape at {time:+} frames, not from the shape of the frame before"
+            ),
+            Self::LowResolution(side) => {
+                format!("has 1/{side} of the resolution: {side}x{side} pixels share a vector")
             }
             Self::Teleport([x, y, z]) => format!(
                 "comes from elsewhere: its last place is off by ({x:+.3}, {y:+.3}, {z:+.3}) m, where no key has it"
@@ -167,7 +179,7 @@ impl Cause {
             Self::ParentMotionMissing | Self::ParentMissing => {
                 "keep the object's matrix to the world, with its parents in it"
             }
-            Self::RestPose => {
+            Self::RestPose | Self::OtherPose(_) => {
                 "keep the bones, morph weights or vertices that the frame before was drawn with"
             }
             Self::CameraMotionMissing => {
@@ -192,12 +204,24 @@ impl Cause {
             Self::MotionOver(_) => {
                 "draw the time `previous` of manifest.json first, then `instant`, and do not play the animation"
             }
+            Self::LowResolution(_) => "write velocity in the size of the picture",
             Self::UpsideDown => "write the top row first",
             Self::DrawnLate(_) | Self::DrawnEarly(_) => "draw the time `instant` of manifest.json",
             Self::OtherView => "check camera, size, time and object ids before the vectors",
             _ => return None,
         })
     }
+}
+
+/// Lists objects with one matrix.
+fn list_names(names: &[String]) -> String {
+    let quoted = names.iter().take(MOST_NAMED);
+    let quoted: Vec<String> = quoted.map(|name| format!("`{name}`")).collect();
+    let further = names.len() - quoted.len();
+    if further > 0 {
+        return format!("{} or {further} more", quoted.join(", "));
+    }
+    quoted.join(" or ")
 }
 
 fn frames(count: u32) -> String {

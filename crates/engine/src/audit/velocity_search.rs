@@ -132,7 +132,7 @@ impl Search<'_> {
             let buffer = turn_back(self.buffer, turn.as_ref());
             let mut shares = self.try_structures(&buffer, some);
             if turn.is_none() {
-                shares.extend(self.try_matrices_and_jitter(&buffer, some));
+                shares.extend(self.try_draws_and_jitter(&buffer, some));
             }
             if tried == Tried::All {
                 shares.extend(self.try_numbers(&buffer, some, part.is_none()));
@@ -166,15 +166,18 @@ impl Search<'_> {
             .collect()
     }
 
-    /// Tries the matrices of other objects, and jitter in the pass of this one.
-    fn try_matrices_and_jitter(&self, buffer: &Vectors, region: &ClearPixels) -> Vec<Share> {
+    /// Tries other key shapes, the matrices of other objects, and jitter in the pass of this one.
+    fn try_draws_and_jitter(&self, buffer: &Vectors, region: &ClearPixels) -> Vec<Share> {
         let right = &self.expected.right.velocity;
         let object = (region.object as usize).checked_sub(1);
         let draws = &self.expected.draws;
-        let matrices = object.map(|object| draws.list_matrices_of_others(object, &region.pixels));
+        let of_draws = object.map(|object| {
+            let poses = draws.list_poses(object, &region.pixels);
+            poses.chain(draws.list_matrices_of_others(object, &region.pixels))
+        });
         let jitter = find_offset(buffer, right, &region.pixels);
         let jitter = Some(jitter).filter(|(cause, _)| cause.is_of_jitter());
-        let each = matrices.into_iter().flatten().chain(jitter);
+        let each = of_draws.into_iter().flatten().chain(jitter);
         each.map(|candidate| measure(&candidate, buffer, region))
             .collect()
     }

@@ -16,10 +16,8 @@ const CLOCK_RATES: [f64; 3] = [60.0, 30.0, 120.0];
 /// Upper limit on the difference of two matrices of one place, per number, relative to the largest
 /// number of the two.
 const SAME_MATRIX: f64 = 1e-9;
-/// Upper limit on the objects whose matrices are tried.
+/// Upper limit on the objects whose matrices are tried, and on the key shapes.
 const MOST_OTHERS: usize = 256;
-/// Upper limit on the objects that a cause names.
-const MOST_NAMED: usize = 3;
 
 /// A draw call in this frame and in the last one.
 #[derive(Clone, Copy, Debug)]
@@ -98,38 +96,52 @@ impl<'a> WrongDraws<'a> {
         object: usize,
         pixels: &[usize],
     ) -> impl Iterator<Item = Candidate> {
+        let objects = &self.scene.objects;
         let own = self.matrix(object, -1.0);
-        let mesh = |other: usize| self.scene.objects[other].mesh;
-        let (instances, others): (Vec<usize>, Vec<usize>) = (0..self.scene.objects.len())
+        let is_instance = |other: &usize| objects[*other].mesh == objects[object].mesh;
+        let (instances, others): (Vec<usize>, Vec<usize>) = (0..objects.len())
             .filter(|other| *other != object)
-            .partition(|other| mesh(*other) == mesh(object));
-        let mut listed: Vec<(DAffine3, Vec<&str>)> = Vec::new();
+            .partition(is_instance);
+        let mut listed: Vec<(DAffine3, Cause)> = Vec::new();
         for other in instances.iter().chain(&others).take(MOST_OTHERS) {
             let matrix = self.matrix(*other, -1.0);
-            let name = self.scene.objects[*other].name.as_str();
+            let name = objects[*other].name.clone();
             let known = (listed.iter_mut()).find(|(known, _)| is_same(known, &matrix));
             match known {
-                Some((_, names)) => names.push(name),
-                None if is_same(&matrix, &own) => {}
-                None => listed.push((matrix, vec![name])),
+                Some((_, Cause::MatrixOf(names) | Cause::MatrixOfInstance(names))) => {
+                    names.push(name);
+                }
+                _ if is_same(&matrix, &own) => {}
+                _ if is_instance(other) => {
+                    listed.push((matrix, Cause::MatrixOfInstance(vec![name])));
+                }
+                _ => listed.push((matrix, Cause::MatrixOf(vec![name]))),
             }
         }
-        let draw = move |matrix: DAffine3| {
-            let mut draw = self.draw_rightly(Some(object));
-            draw.last.to_world = matrix;
-            draw
-        };
-        let is_instance = move |matrix: &DAffine3| {
-            (instances.iter()).any(|other| is_same(&self.matrix(*other, -1.0), matrix))
-        };
-        listed.into_iter().map(move |(matrix, names)| {
-            let velocity = self.velocity(pixels, &|_| draw(matrix));
-            let cause = if is_instance(&matrix) {
-                Cause::MatrixOfInstance(word_names(&names))
-            } else {
-                Cause::MatrixOf(word_names(&names))
+        let draw = self.draw_rightly(Some(object));
+        listed.into_iter().map(move |(to_world, cause)| {
+            let last = Drawn {
+                to_world,
+                ..draw.last
             };
-            (cause, velocity)
+            (cause, self.velocity(pixels, &|_| Draw { last, ..draw }))
+        })
+    }
+
+    /// Lists key shapes of a deforming object, except its first one, that it may come from instead
+    /// of its last shape, with its velocity at some pixels.
+    pub fn list_poses(&self, object: usize, pixels: &[usize]) -> impl Iterator<Item = Candidate> {
+        let draw = self.draw_rightly(Some(object));
+        let mesh = &self.scene.meshes[self.scene.objects[object].mesh];
+        let times = mesh.shape_times().skip(1).take(MOST_OTHERS);
+        let others = times.filter(|time| ![-1.0, 0.0].contains(time));
+        others.map(move |shape_at| {
+            let last = Drawn {
+                shape_at,
+                ..draw.last
+            };
+            let velocity = self.velocity(pixels, &|_| Draw { last, ..draw });
+            (Cause::OtherPose(shape_at), velocity)
         })
     }
 
@@ -264,15 +276,4 @@ fn is_same(a: &DAffine3, b: &DAffine3) -> bool {
     a.iter()
         .zip(&b)
         .all(|(a, b)| (a - b).abs() <= SAME_MATRIX * largest)
-}
-
-/// Lists the names of objects with one matrix.
-fn word_names(names: &[&str]) -> String {
-    let mut quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
-    let further = quoted.len().saturating_sub(MOST_NAMED);
-    if further > 0 {
-        quoted.truncate(MOST_NAMED);
-        return format!("{} or {further} more", quoted.join(", "));
-    }
-    quoted.join(" or ")
 }
