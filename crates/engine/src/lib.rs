@@ -9,7 +9,7 @@ mod import;
 mod ingest;
 mod statistics;
 
-pub use audit::{Buffer, CaptureAudit, Cause, Defect, audit_capture};
+pub use audit::{AuditedScene, Buffer, CaptureAudit, Cause, Defect, audit_capture};
 pub use capture::description::CaptureDescription;
 pub use capture::folder::Capture;
 pub use export::{FRAMES_PER_SECOND, Timeline, export_gltf};

@@ -13,7 +13,7 @@ use crate::audit::depth_audit::{DepthAudit, DepthPair};
 use crate::audit::expected_motion::ExpectedMotion;
 use crate::audit::shown::{LEAST_SHOWN, ObjectShown, Shown};
 use crate::audit::velocity_audit::{ObjectAudit, audit_velocity};
-use crate::audit::views::find_other_views;
+use crate::audit::views::Views;
 use crate::capture::description::CAPTURE_FILE;
 use crate::capture::folder::Capture;
 use crate::files::refuse;
@@ -48,69 +48,128 @@ pub struct CaptureAudit {
     pub findings: Vec<Defect>,
 }
 
+/// A scene as engines should draw it, prepared for audits of captures.
+pub struct AuditedScene<'a> {
+    scene: &'a Scene,
+    /// Correct velocity, and what known mistakes make of it.
+    pub expected: ExpectedMotion<'a>,
+    views: Views,
+}
+
+impl<'a> AuditedScene<'a> {
+    /// Traces the scene in the size of the captures.
+    ///
+    /// # Errors
+    /// The scene's motion cannot be traced.
+    pub fn trace(scene: &'a Scene, size: Size) -> Result<Self, Error> {
+        Ok(Self {
+            scene,
+            expected: ExpectedMotion::trace(scene, size)?,
+            views: Views::trace(scene, size)?,
+        })
+    }
+
+    /// Compares a capture with the scene.
+    ///
+    /// # Errors
+    /// The capture is of another instant.
+    pub fn audit(&self, capture: &Capture) -> Result<CaptureAudit, Error> {
+        check_instant(capture)?;
+        let right = &self.expected.right;
+        let names = self.scene.object_names();
+        let pair = DepthPair::of(capture, right);
+        let ids = capture.object_id.as_ref();
+        let is_same =
+            |at: usize| ids.is_none_or(|ids| ids.pixels[at] == right.object_id.pixels[at]);
+        let clear = select_clear_pixels(right, names.len(), &is_same);
+        let (wrong_depth, known) = pair.explain(&clear, &names, self.scene);
+        let shows = |from: usize, at: usize| match ids {
+            Some(ids) => ids.pixels[from] == right.object_id.pixels[at],
+            None if from == at => known.pixels[at],
+            None => pair.is_close(capture.depth.pixels[from], right.depth.pixels[at]),
+        };
+        let shown = Shown::compare(right, ids, &names, &shows);
+        let regions = &shown.regions;
+        let (velocity, wrong_velocity) =
+            audit_velocity(&capture.velocity, &self.expected, regions, &names);
+        let subject = self.find_subject(capture, &pair, &shown);
+        let mut wrong = Vec::new();
+        if subject.is_compared {
+            wrong.extend(wrong_velocity);
+            if !subject.is_view(Buffer::Depth) {
+                let word = |defect| word_depth(defect, &shown, ids.is_some());
+                wrong.extend(wrong_depth.into_iter().filter_map(word));
+            }
+            if !subject.is_view(Buffer::Color) {
+                wrong.extend(audit_color(&capture.color, self.scene, regions, &names)?);
+            }
+        }
+        Ok(CaptureAudit {
+            scene: self.scene.id.to_string(),
+            engine: capture.description.engine.clone(),
+            size: capture.color.size(),
+            has_ids: ids.is_some(),
+            alike: shown.alike,
+            shows_scene: subject.is_scene,
+            velocity,
+            depth: pair.compare(regions),
+            compares_color: self.scene.is_unlit(),
+            findings: [subject.missed, subject.views, wrong].concat(),
+            objects: shown.objects,
+        })
+    }
+
+    /// Finds out whether a capture shows another view or subject.
+    fn find_subject(&self, capture: &Capture, pair: &DepthPair, shown: &Shown) -> Subject {
+        let has_ids = capture.object_id.is_some();
+        let mut subject = Subject {
+            views: self.views.find_others(capture, pair),
+            ..Subject::default()
+        };
+        let shows_other_view = subject.is_view(Buffer::Picture)
+            || subject.is_view(Buffer::ObjectId)
+            || subject.is_view(Buffer::Depth) && !has_ids;
+        if !shows_other_view {
+            subject.missed = word_missed(shown, has_ids);
+        }
+        subject.is_scene = !shows_other_view && subject.missed.is_empty();
+        // All other differences follow from another view or another subject.
+        let mut missed = subject.missed.iter();
+        subject.is_compared = !shows_other_view && missed.all(|finding| finding.object.is_some());
+        subject
+    }
+}
+
+/// What a capture shows instead of the scene.
+#[derive(Default)]
+struct Subject {
+    /// Objects that are missing, or the whole scene.
+    missed: Vec<Defect>,
+    /// Buffers of other frames, or upside down.
+    views: Vec<Defect>,
+    /// True if it shows the scene.
+    is_scene: bool,
+    /// True if it can be compared.
+    is_compared: bool,
+}
+
+impl Subject {
+    fn is_view(&self, buffer: Buffer) -> bool {
+        self.views.iter().any(|finding| finding.buffer == buffer)
+    }
+}
+
 /// Compares a capture with its scene; also returns the scene's correct velocity.
 ///
 /// # Errors
 /// The capture is of another instant, or the scene's motion cannot be traced.
-pub fn audit_capture(
+pub fn audit_capture<'a>(
     capture: &Capture,
-    scene: &Scene,
-) -> Result<(CaptureAudit, ExpectedMotion), Error> {
+    scene: &'a Scene,
+) -> Result<(CaptureAudit, ExpectedMotion<'a>), Error> {
     check_instant(capture)?;
-    let size = capture.color.size();
-    let expected = ExpectedMotion::trace(scene, size)?;
-    let right = &expected.right;
-    let names = scene.object_names();
-    let pair = DepthPair::of(capture, right);
-    let ids = capture.object_id.as_ref();
-    let is_same = |at: usize| ids.is_none_or(|ids| ids.pixels[at] == right.object_id.pixels[at]);
-    let clear = select_clear_pixels(right, names.len(), &is_same);
-    let (wrong_depth, known) = pair.explain(&clear, &names, scene);
-    let shows = |from: usize, at: usize| match ids {
-        Some(ids) => ids.pixels[from] == right.object_id.pixels[at],
-        None if from == at => known.pixels[at],
-        None => pair.is_close(capture.depth.pixels[from], right.depth.pixels[at]),
-    };
-    let shown = Shown::compare(right, ids, &names, &shows);
-    let regions = &shown.regions;
-    let (velocity, wrong_velocity) = audit_velocity(&capture.velocity, &expected, regions, &names);
-
-    let views = find_other_views(capture, &pair, scene)?;
-    let is_view = |buffer: Buffer| views.iter().any(|finding| finding.buffer == buffer);
-    let shows_other_view = is_view(Buffer::Picture)
-        || is_view(Buffer::ObjectId)
-        || is_view(Buffer::Depth) && ids.is_none();
-    let missed = if shows_other_view {
-        Vec::new()
-    } else {
-        word_missed(&shown, ids.is_some())
-    };
-    let mut wrong = Vec::new();
-    // All other differences follow from another view or another subject.
-    if !shows_other_view && missed.iter().all(|finding| finding.object.is_some()) {
-        wrong.extend(wrong_velocity);
-        if !is_view(Buffer::Depth) {
-            let word = |defect| word_depth(defect, &shown, ids.is_some());
-            wrong.extend(wrong_depth.into_iter().filter_map(word));
-        }
-        if !is_view(Buffer::Color) {
-            wrong.extend(audit_color(&capture.color, scene, regions, &names)?);
-        }
-    }
-    let audit = CaptureAudit {
-        scene: scene.id.to_string(),
-        engine: capture.description.engine.clone(),
-        size,
-        has_ids: ids.is_some(),
-        alike: shown.alike,
-        shows_scene: !shows_other_view && missed.is_empty(),
-        velocity,
-        depth: pair.compare(regions),
-        compares_color: scene.is_unlit(),
-        findings: [missed, views, wrong].concat(),
-        objects: shown.objects,
-    };
-    Ok((audit, expected))
+    let audited = AuditedScene::trace(scene, capture.color.size())?;
+    Ok((audited.audit(capture)?, audited.expected))
 }
 
 /// Refuses a capture of another instant than the scene's.

@@ -1,11 +1,9 @@
-//! Causes of wrong pictures, in words.
+//! Causes of wrong pictures: structures, conventions and fitted numbers.
 
 use serde::Serialize;
 
-use crate::export::FRAMES_PER_SECOND;
-
 /// Known cause of a wrong picture.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Cause {
     /// Zero despite motion.
@@ -24,10 +22,26 @@ pub enum Cause {
     OwnMotionMissing,
     /// The motion without changes of shape.
     DeformationMissing,
+    /// The object's own motion, without its parents'.
+    ParentMotionMissing,
+    /// The object's last matrix lacks its parents'.
+    ParentMissing,
+    /// The last place has the rest pose.
+    RestPose,
     /// The objects' motion alone.
     CameraMotionMissing,
+    /// The objects' motion and the camera's zoom, without the camera's own motion.
+    ViewMissing,
+    /// All but the camera's zoom.
+    ZoomMissing,
+    /// The motion since two frames ago.
+    TwoFrames,
+    /// The objects' motion since two frames ago, with the camera's since the last frame.
+    OlderMatrix,
     /// The motion from two frames ago to one frame ago.
     FrameLate,
+    /// The objects' motion from two frames ago to one frame ago, with the camera's of now.
+    LateMatrix,
     /// The whole buffer of the previous frame.
     PreviousBuffer,
     /// Stored where the previous frame showed the point.
@@ -36,8 +50,18 @@ pub enum Cause {
     FrameEarly,
     /// The object's last matrix was the identity.
     MatrixNeverSet,
+    /// The object's last matrix is that of one of these objects, which have the same.
+    MatrixOf(Vec<String>),
+    /// The object's last matrix is that of one of these instances of its mesh, which have the same.
+    MatrixOfInstance(Vec<String>),
+    /// The object's last shape is the key shape at this time, in frames.
+    OtherPose(f64),
+    /// The object's last place is this far from the right one, in metres of the world.
+    Teleport([f64; 3]),
     /// The motion at the instant, half a frame later than the mean motion since the previous frame.
     HalfFrameOff,
+    /// Blocks of so many pixels on each side share a vector.
+    LowResolution(u32),
     /// A factor on both axes.
     Scale(f64),
     /// A factor on each axis.
@@ -78,117 +102,82 @@ pub enum Cause {
     Unknown,
 }
 
+/// Largest offset that jitter makes, in pixels on each axis: the places of two frames differ by up
+/// to a pixel.
+const LARGEST_JITTER: f64 = 1.0;
+
+/// Causes that are variants of one mistake. Where they look the same, one of them is enough.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Family {
+    /// A motion of objects is missing, in whole or in part.
+    MissingMotion,
+    /// The camera stands still.
+    StillCamera,
+    /// The motion is one frame late.
+    Late,
+    /// The last frame is an older one.
+    Older,
+    /// The buffer is smaller than the picture.
+    LowResolution,
+}
+
 impl Cause {
     /// Applies a wrong sign, axis or unit to a vector; leaves it as it is for another cause.
-    pub(super) fn apply(self, [x, y]: [f32; 2]) -> [f32; 2] {
+    pub(super) fn apply(&self, [x, y]: [f32; 2]) -> [f32; 2] {
         let scaled = |part: f32, scale: f64| (f64::from(part) * scale) as f32;
         match self {
             Self::WrongSign => [-x, -y],
             Self::FlippedY => [x, -y],
             Self::FlippedX => [-x, y],
             Self::SwappedAxes => [y, x],
-            Self::Scale(scale) => [scaled(x, scale), scaled(y, scale)],
+            Self::Scale(scale) => [scaled(x, *scale), scaled(y, *scale)],
             Self::ScaleOfAxes(scales) => [scaled(x, scales[0]), scaled(y, scales[1])],
             _ => [x, y],
         }
     }
 
-    /// Describes the mistake, as the continuation of a sentence.
-    pub fn name(self) -> String {
-        match self {
-            Self::Zero => "is zero".to_owned(),
-            Self::WrongSign => "has the wrong sign".to_owned(),
-            Self::FlippedY => "has y flipped".to_owned(),
-            Self::FlippedX => "has x flipped".to_owned(),
-            Self::SwappedAxes => "has x and y swapped".to_owned(),
-            Self::ObjectMotionMissing => "lacks the motion of objects".to_owned(),
-            Self::OwnMotionMissing => "lacks its own motion".to_owned(),
-            Self::DeformationMissing => "lacks the deformation".to_owned(),
-            Self::CameraMotionMissing => "lacks the motion of the camera".to_owned(),
-            Self::FrameLate => "is one frame late".to_owned(),
-            Self::PreviousBuffer => "is the whole buffer of the frame before".to_owned(),
-            Self::PreviousPixel => "is taken at the previous pixel".to_owned(),
-            Self::FrameEarly => "is one frame early".to_owned(),
-            Self::MatrixNeverSet => "comes from a last matrix that was never set".to_owned(),
-            Self::HalfFrameOff => {
-                "is half a frame off: the motion at the instant, not since the frame before"
-                    .to_owned()
-            }
-            Self::Scale(scale) if (scale - 2.0).abs() < 0.02 => "is twice too long".to_owned(),
-            Self::Scale(scale) if (scale - 0.5).abs() < 0.005 => "is half as long".to_owned(),
-            Self::Scale(scale) => format!("is {scale:.3} times as long"),
-            Self::ScaleOfAxes([x, y]) => format!("is {x:.3} times as long in x, {y:.3} times in y"),
-            Self::Offset([x, y]) => {
-                format!("is off by ({x:+.3}, {y:+.3}) px everywhere: jitter is left in")
-            }
-            Self::Clipped(limit) => format!("is clipped at {limit:.1} px"),
-            Self::ClippedAxes(limit) => format!("is clipped at {limit:.1} px on each axis"),
-            Self::Steps(step) => format!("comes in steps of {step:.3} px, as of few bits"),
-            Self::MotionOver(per_second) => format!(
-                "is the motion over 1/{per_second} s, not over a frame, which is 1/{FRAMES_PER_SECOND} s of the exported animation"
-            ),
-            Self::UpsideDown => "has its rows upside down".to_owned(),
-            Self::DrawnLate(count) => format!("is drawn {} late", frames(count)),
-            Self::DrawnEarly(count) => format!("is drawn {} early", frames(count)),
-            Self::Brightness(scale) => format!("is {scale:.3} times as bright"),
-            Self::OtherColor(mean, right) => {
-                let [mean, right] = [mean, right]
-                    .map(|[red, green, blue]| format!("({red:.3}, {green:.3}, {blue:.3})"));
-                format!("is {mean} in the mean, not {right}")
-            }
-            Self::DepthScale(scale) => format!("is {scale:.4} times as large"),
-            Self::DepthAlongRay => {
-                "is the distance along the ray, not along the view axis".to_owned()
-            }
-            Self::DepthPlanes(factor) => {
-                format!("fits a near plane that is {factor:.4} times as far as the convention's")
-            }
-            Self::DepthOfBackground(metres) => format!("of the background is {metres:.4} m"),
-            Self::OtherView => "shows other things, or shows them elsewhere".to_owned(),
-            Self::Unknown => "is wrong in no known way".to_owned(),
-        }
-    }
-
-    /// Describes the mistake of one object, while others are right.
-    pub(super) fn name_on_object(self) -> String {
-        match self {
-            Self::ObjectMotionMissing => "lacks its motion and that of its parents".to_owned(),
-            Self::Offset([x, y]) => {
-                format!("is off by ({x:+.3}, {y:+.3}) px, as of jitter in the pass that draws it")
-            }
-            _ => self.name(),
-        }
-    }
-
     /// Returns whether the cause would be wrong on every object that moves: a unit, a sign or an
     /// axis.
-    pub(super) fn is_of_convention(self) -> bool {
+    pub(super) fn is_of_convention(&self) -> bool {
+        self.is_turn() || matches!(self, Self::Scale(_) | Self::ScaleOfAxes(_))
+    }
+
+    /// Returns whether the cause is a sign or an axis.
+    pub(super) fn is_turn(&self) -> bool {
         matches!(
             self,
-            Self::WrongSign
-                | Self::FlippedY
-                | Self::FlippedX
-                | Self::SwappedAxes
-                | Self::Scale(_)
-                | Self::ScaleOfAxes(_)
+            Self::WrongSign | Self::FlippedY | Self::FlippedX | Self::SwappedAxes
         )
     }
 
-    /// Returns whether a motion of objects is missing, in whole or in part.
-    pub(super) fn is_missing_motion(self) -> bool {
+    /// Returns the mistake that this one is a variant of, if there are several.
+    pub(super) fn family(&self) -> Option<Family> {
+        match self {
+            Self::ObjectMotionMissing | Self::OwnMotionMissing | Self::ParentMotionMissing => {
+                Some(Family::MissingMotion)
+            }
+            Self::CameraMotionMissing | Self::ViewMissing => Some(Family::StillCamera),
+            Self::FrameLate | Self::LateMatrix => Some(Family::Late),
+            Self::TwoFrames | Self::OlderMatrix => Some(Family::Older),
+            Self::LowResolution(_) => Some(Family::LowResolution),
+            _ => None,
+        }
+    }
+
+    /// Returns whether the cause is an offset as small as jitter.
+    pub(super) fn is_of_jitter(&self) -> bool {
+        matches!(self, Self::Offset(offset) if offset.iter().all(|part| part.abs() <= LARGEST_JITTER))
+    }
+
+    /// Returns whether the cause is the unit of coordinates from -1 to 1 where it is of those from
+    /// 0 to 1, or the reverse.
+    pub(super) fn is_unit_of_two(&self) -> bool {
+        matches!(self, Self::Scale(scale) if (scale - 2.0).abs() < 0.02 || (scale - 0.5).abs() < 0.005)
+    }
+
+    /// Returns whether the cause is a number that was fitted to the vectors, not a structure.
+    pub(super) fn is_fitted(&self) -> bool {
         matches!(
-            self,
-            Self::ObjectMotionMissing | Self::OwnMotionMissing | Self::DeformationMissing
-        )
-    }
-
-    pub(super) fn is_offset(self) -> bool {
-        matches!(self, Self::Offset(_))
-    }
-
-    /// Returns whether the cause is a word, without a fitted number.
-    pub(super) fn is_word(self) -> bool {
-        !matches!(
             self,
             Self::Scale(_)
                 | Self::ScaleOfAxes(_)
@@ -197,59 +186,5 @@ impl Cause {
                 | Self::ClippedAxes(_)
                 | Self::Steps(_)
         )
-    }
-
-    /// Suggests a remedy, for one object or for the whole picture.
-    pub(super) fn advice(self, is_of_object: bool) -> Option<String> {
-        let key = |text: &str| {
-            Some(format!(
-                "if all of it is so, the convention may be wrong: {text}"
-            ))
-        };
-        match self {
-            Self::WrongSign => key("reverse `velocity_sign`"),
-            Self::FlippedY => key("reverse `velocity_y`"),
-            Self::Scale(scale) => key(&format!(
-                "`velocity_scale` {:.3} times what it is would fit, or another unit in `velocity` or `velocity_per`",
-                scale
-            )),
-            Self::ScaleOfAxes(_) => key("another unit in `velocity` may fit: pixels, uv or ndc"),
-            Self::DepthScale(_) if is_of_object => None,
-            Self::DepthScale(_) => key("depth is in metres"),
-            Self::Brightness(scale) => key(&format!(
-                "`color_scale` {scale:.3} times what it is would fit"
-            )),
-            Self::OwnMotionMissing => Some(
-                "keep the matrix of each object, and of each instance, for the frame after".to_owned(),
-            ),
-            Self::DeformationMissing => Some(
-                "keep bones, morph weights or vertices for the frame after".to_owned(),
-            ),
-            Self::OtherColor(..) => {
-                Some("check its materials and textures in the engine".to_owned())
-            }
-            Self::MotionOver(_) => Some(
-                "draw the time `previous` of manifest.json first, then `instant`, and do not play the animation".to_owned(),
-            ),
-            Self::UpsideDown => Some("write the top row first".to_owned()),
-            Self::DrawnLate(_) | Self::DrawnEarly(_) => {
-                Some("draw the time `instant` of manifest.json".to_owned())
-            }
-            Self::DepthPlanes(_) => key("give the camera's own `near` and `far`"),
-            Self::DepthOfBackground(_) => key(
-                "leave `far` out if the engine's far plane is at infinity, or give the engine's own; linear depth of nothing is infinite",
-            ),
-            Self::OtherView => {
-                Some("check camera, size, time and object ids before the vectors".to_owned())
-            }
-            _ => None,
-        }
-    }
-}
-
-fn frames(count: u32) -> String {
-    match count {
-        1 => "one frame".to_owned(),
-        _ => format!("{count} frames"),
     }
 }

@@ -48,6 +48,23 @@ impl Explanation {
             convention_holds: false,
         }
     }
+
+    /// Words remedies, and whether the convention is among what may be wrong.
+    fn advise(&self, is_of_object: bool) -> String {
+        // Another unit may be what looks like a structure.
+        let units = self
+            .looks_like
+            .iter()
+            .filter(|cause| cause.is_unit_of_two());
+        let causes = self.turned.iter().chain([&self.cause]).chain(units);
+        let (fits, advised): (Vec<&Cause>, Vec<&Cause>) =
+            causes.partition(|cause| self.convention_holds && cause.is_of_convention());
+        let fits = (!fits.is_empty()).then(|| "the convention fits other objects".to_owned());
+        let advice = advised.iter();
+        let advice = advice.filter_map(|cause| cause.advice(is_of_object));
+        let words = fits.into_iter().chain(advice);
+        words.map(|words| format!("; {words}")).collect()
+    }
 }
 
 /// A defect.
@@ -91,18 +108,7 @@ impl Defect {
                 others.join(", ")
             );
         }
-        let causes = explanation.turned.into_iter().chain([explanation.cause]);
-        let (fits, advised): (Vec<Cause>, Vec<Cause>) =
-            causes.partition(|cause| explanation.convention_holds && cause.is_of_convention());
-        if !fits.is_empty() {
-            text += "; the convention fits other objects";
-        }
-        for advice in advised
-            .iter()
-            .filter_map(|cause| cause.advice(object.is_some()))
-        {
-            text += &format!("; {advice}");
-        }
+        text += &explanation.advise(object.is_some());
         Self {
             buffer,
             object: object.map(str::to_owned),

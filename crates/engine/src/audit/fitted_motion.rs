@@ -17,9 +17,6 @@ const MAX_STEPS: usize = 1024;
 /// Factors on the length between these are of no unit: pixels, parts of the picture and seconds
 /// differ by more.
 const NO_UNIT: RangeInclusive<f64> = 0.8..=1.25;
-/// Largest offset that jitter makes, in pixels on each axis: the places of two frames differ by up
-/// to a pixel.
-const LARGEST_JITTER: f64 = 1.0;
 /// Factor that counts as zero.
 const NO_SCALE: f64 = 1e-3;
 
@@ -70,22 +67,6 @@ pub fn find_offset(buffer: &Vectors, right: &Vectors, pixels: &[usize]) -> Candi
     (Cause::Offset(offset), moved)
 }
 
-/// Lists causes of an object's velocity like [`fit_candidates`], without factors of no unit. An
-/// offset as small as jitter comes before limits and steps, which may look like it.
-pub fn fit_to_object(buffer: &Vectors, right: &Vectors, pixels: &[usize]) -> Vec<Candidate> {
-    let mut candidates = fit_candidates(buffer, right, pixels);
-    candidates.retain(|(cause, _)| !is_of_no_unit(cause));
-    let factors = candidates
-        .iter()
-        .filter(|(cause, _)| cause.is_of_convention());
-    let after_factors = factors.count();
-    let offset = find_offset(buffer, right, pixels);
-    if is_of_jitter(&offset.0) {
-        candidates.insert(after_factors, offset);
-    }
-    candidates
-}
-
 /// Returns whether a cause is a factor that no unit makes.
 pub fn is_of_no_unit(cause: &Cause) -> bool {
     match cause {
@@ -93,11 +74,6 @@ pub fn is_of_no_unit(cause: &Cause) -> bool {
         Cause::ScaleOfAxes(scales) => scales.iter().all(|scale| NO_UNIT.contains(scale)),
         _ => false,
     }
-}
-
-/// Returns whether a cause is an offset that jitter may make.
-fn is_of_jitter(cause: &Cause) -> bool {
-    matches!(cause, Cause::Offset(offset) if offset.iter().all(|part| part.abs() <= LARGEST_JITTER))
 }
 
 /// Lists limits on the length and on the axes, if any velocity is cut.

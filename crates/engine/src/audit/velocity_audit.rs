@@ -8,6 +8,7 @@ use crate::audit::defect::Defect;
 use crate::audit::depth_audit::LEAST_EXPLAINED;
 use crate::audit::expected_motion::ExpectedMotion;
 use crate::audit::fitted_motion::{TOLERANCE, fit_scale, length};
+use crate::audit::ranking::Ranking;
 use crate::audit::velocity_search::{Search, difference, share};
 use crate::statistics::{median, percentile};
 
@@ -40,7 +41,7 @@ pub struct ObjectAudit {
 /// Compares velocity object by object; also returns what is wrong.
 pub fn audit_velocity(
     buffer: &Vectors,
-    expected: &ExpectedMotion,
+    expected: &ExpectedMotion<'_>,
     regions: &[ClearPixels],
     names: &[String],
 ) -> (Vec<ObjectAudit>, Vec<Defect>) {
@@ -60,7 +61,9 @@ pub fn audit_velocity(
         buffer,
         expected,
         right: right.clone().map(|(region, _)| *region).collect(),
-        some_move_right: right.clone().any(|(_, object)| object.speed >= LEAST_PROOF),
+        ranking: Ranking {
+            some_move_right: right.clone().any(|(_, object)| object.speed >= LEAST_PROOF),
+        },
     };
     let wrong: Vec<(&ClearPixels, &str)> = (wrong.into_iter())
         .map(|region| (region, names[region.object as usize].as_str()))
@@ -71,7 +74,7 @@ pub fn audit_velocity(
 
 fn audit_object(
     buffer: &Vectors,
-    expected: &ExpectedMotion,
+    expected: &ExpectedMotion<'_>,
     region: &ClearPixels,
     name: &str,
 ) -> ObjectAudit {

@@ -8,13 +8,12 @@ use crate::audit::defect::{Buffer, Defect, Explanation};
 use crate::audit::depth_audit::LEAST_EXPLAINED;
 use crate::audit::expected_motion::ExpectedMotion;
 use crate::audit::fitted_motion::{
-    Candidate, TOLERANCE, find_offset, fit_candidates, fit_to_object, is_of_no_unit, length,
+    Candidate, TOLERANCE, find_offset, fit_candidates, is_of_no_unit, length,
 };
+use crate::audit::ranking::{Ranking, Share};
 
 /// Largest end-point error of a correct velocity relative to the speed, beyond the one in pixels.
 const RELATIVE_TOLERANCE: f64 = 0.01;
-/// Part of the pixels on which two causes may differ and still look the same.
-const LOOKS_SAME: f64 = 0.005;
 /// Signs and axes that may be wrong together with another cause; none first.
 const TURNS: [Option<Cause>; 4] = [
     None,
@@ -26,41 +25,45 @@ const TURNS: [Option<Cause>; 4] = [
 /// What the causes of a wrong velocity are searched in.
 pub struct Search<'a> {
     pub buffer: &'a Vectors,
-    pub expected: &'a ExpectedMotion,
+    pub expected: &'a ExpectedMotion<'a>,
     /// Objects with the right velocity.
     pub right: Vec<&'a ClearPixels>,
-    /// True if one of them moves. Then objects may lack a part of their motion, and factors look
-    /// like it by chance.
-    pub some_move_right: bool,
+    /// Decides between causes.
+    pub ranking: Ranking,
+}
+
+/// Causes that are tried.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Tried {
+    /// Motions that follow from the scene, and jitter.
+    Structures,
+    /// Numbers too.
+    All,
 }
 
 impl Search<'_> {
     /// Finds one cause for all wrong objects, which leaves the others unchanged, or a cause for
     /// each. `judged` are all objects; wrong ones have names.
     pub fn explain(&self, judged: &[&ClearPixels], wrong: &[(&ClearPixels, &str)]) -> Vec<Defect> {
-        let pixels: Vec<usize> = (wrong.iter())
-            .flat_map(|(region, _)| region.pixels.iter().copied())
-            .collect();
         let is_all = wrong.len() > 1 || wrong.len() == judged.len();
-        let explain_all = |is_tried: &dyn Fn(&Cause) -> bool| {
-            let cause = is_all.then(|| self.explain_all(judged, &pixels, is_tried));
+        let explain_all = |tried: Tried| {
+            let cause = is_all.then(|| self.explain_all(judged, wrong, tried));
             Some(vec![Defect::new(Buffer::Velocity, None, cause.flatten()?)])
         };
-        let explain_structure = || {
+        let explain_structures = || {
             let each = wrong.iter();
-            each.map(|(region, name)| self.explain_structure(&region.pixels, name))
+            each.map(|(region, name)| self.explain_parts(region, name, None, Tried::Structures))
                 .collect::<Option<Vec<Defect>>>()
         };
-        let by_structure = self.some_move_right.then(|| {
-            let missing = |cause: &Cause| cause.is_missing_motion();
-            explain_all(&missing).or_else(explain_structure)
-        });
-        let may_be = |cause: &Cause| !(self.some_move_right && is_of_no_unit(cause));
-        let each = wrong.iter();
+        let by_structure = self
+            .ranking
+            .some_move_right
+            .then(|| explain_all(Tried::Structures).or_else(explain_structures));
         (by_structure.flatten())
-            .or_else(|| explain_all(&may_be))
+            .or_else(|| explain_all(Tried::All))
             .unwrap_or_else(|| {
-                each.map(|(region, name)| self.explain_object(&region.pixels, name))
+                let each = wrong.iter();
+                each.map(|(region, name)| self.explain_object(region, name))
                     .collect()
             })
     }
@@ -68,95 +71,143 @@ impl Search<'_> {
     fn explain_all(
         &self,
         judged: &[&ClearPixels],
-        wrong: &[usize],
-        is_tried: &dyn Fn(&Cause) -> bool,
+        wrong: &[(&ClearPixels, &str)],
+        tried: Tried,
     ) -> Option<Explanation> {
+        let pixels: Vec<usize> = (wrong.iter())
+            .flat_map(|(region, _)| region.pixels.iter().copied())
+            .collect();
         let right = &self.expected.right.velocity;
         TURNS.into_iter().find_map(|turn| {
-            let buffer = turn_back(self.buffer, turn);
-            let mut fitted = fit_candidates(&buffer, right, wrong);
-            // Jitter moves the whole picture.
-            fitted.push(find_offset(&buffer, right, wrong));
-            let explains = |velocity: &Vectors| {
-                let shares = judged.iter();
-                let shares = shares.map(|region| share(&buffer, velocity, &region.pixels));
-                shares.fold(1.0, f64::min)
+            let buffer = turn_back(self.buffer, turn.as_ref());
+            let fitted = match tried {
+                Tried::Structures => Vec::new(),
+                // Jitter moves the whole picture.
+                Tried::All => [
+                    fit_candidates(&buffer, right, &pixels),
+                    vec![find_offset(&buffer, right, &pixels)],
+                ]
+                .concat(),
             };
-            let candidates = self.expected.mistaken.iter().chain(&fitted);
-            let tried = candidates.filter(|(cause, _)| is_tried(cause));
-            find_cause(tried, turn, &explains)
+            let fitted = fitted.iter().filter(|(cause, _)| self.may_be(cause));
+            let explains = |(cause, velocity): &Candidate| Share {
+                cause: cause.clone(),
+                part: (judged.iter())
+                    .map(|region| share(&buffer, velocity, &region.pixels))
+                    .fold(1.0, f64::min),
+            };
+            let candidates = self.expected.mistaken.iter().chain(fitted);
+            self.ranking
+                .choose(candidates.map(explains).collect(), turn)
         })
     }
 
-    /// Finds what an object lacks, or an offset on it: on all of it, or on its wrong pixels.
-    fn explain_structure(&self, pixels: &[usize], name: &str) -> Option<Defect> {
-        let is_structural = |cause: &Cause| cause.is_missing_motion() || cause.is_offset();
-        self.explain_parts(pixels, name, None, &is_structural)
-    }
-
-    /// Finds the cause of an object's wrong velocity: one for all of it, or one for its wrong
-    /// pixels.
-    fn explain_object(&self, pixels: &[usize], name: &str) -> Defect {
-        let structure = self
-            .some_move_right
-            .then(|| self.explain_structure(pixels, name));
-        let any = |turn| self.explain_parts(pixels, name, turn, &|_| true);
-        let defect = structure.flatten();
-        defect
+    /// Finds the cause of an object's wrong velocity, or says that it is unknown.
+    fn explain_object(&self, region: &ClearPixels, name: &str) -> Defect {
+        let structure = (self.ranking.some_move_right)
+            .then(|| self.explain_parts(region, name, None, Tried::Structures));
+        let any = |turn| self.explain_parts(region, name, turn, Tried::All);
+        (structure.flatten())
             .or_else(|| TURNS.into_iter().find_map(any))
             .unwrap_or_else(|| {
                 let unknown = Explanation::by(Cause::Unknown, 0.0);
-                let part = self.select_wrong(pixels).len() as f64 / pixels.len() as f64;
+                let part = self.select_wrong(region).pixels.len() as f64;
+                let part = part / region.pixels.len() as f64;
                 Defect::new(Buffer::Velocity, Some(name), unknown).in_part(Some(part))
             })
     }
 
+    /// Finds one cause for all of an object, or one for its wrong pixels.
     fn explain_parts(
         &self,
-        pixels: &[usize],
+        region: &ClearPixels,
         name: &str,
         turn: Option<Cause>,
-        is_tried: &dyn Fn(&Cause) -> bool,
+        tried: Tried,
     ) -> Option<Defect> {
-        let wrong = self.select_wrong(pixels);
-        let part = wrong.len() as f64 / pixels.len() as f64;
-        let parts = [(pixels, None), (wrong.as_slice(), Some(part))];
+        let wrong = self.select_wrong(region);
+        let part = wrong.pixels.len() as f64 / region.pixels.len() as f64;
+        let parts = [(region, None), (&wrong, Some(part))];
         parts.into_iter().find_map(|(some, part)| {
-            let mut cause = self.explain_pixels(some, turn, is_tried)?;
+            let buffer = turn_back(self.buffer, turn.as_ref());
+            let mut shares = self.try_structures(&buffer, some);
+            if turn.is_none() {
+                shares.extend(self.try_draws_and_jitter(&buffer, some));
+            }
+            if tried == Tried::All {
+                shares.extend(self.try_numbers(&buffer, some, part.is_none()));
+            }
+            let mut cause = self.ranking.choose(shares, turn.clone())?;
             cause.convention_holds = self.right_objects_contradict(&cause);
             Some(Defect::new(Buffer::Velocity, Some(name), cause).in_part(part))
         })
     }
 
-    fn select_wrong(&self, pixels: &[usize]) -> Vec<usize> {
+    fn select_wrong(&self, region: &ClearPixels) -> ClearPixels {
         let right = &self.expected.right.velocity;
         let is_wrong = |at: &usize| !is_close(self.buffer.pixels[*at], right.pixels[*at]);
-        pixels.iter().copied().filter(is_wrong).collect()
+        ClearPixels {
+            pixels: region.pixels.iter().copied().filter(is_wrong).collect(),
+            object: region.object,
+        }
     }
 
-    fn explain_pixels(
-        &self,
-        pixels: &[usize],
-        turn: Option<Cause>,
-        is_tried: &dyn Fn(&Cause) -> bool,
-    ) -> Option<Explanation> {
-        let buffer = turn_back(self.buffer, turn);
-        let fitted = fit_to_object(&buffer, &self.expected.right.velocity, pixels);
-        // The most specific words first.
+    /// Tries what an engine may do with every object, the most specific first.
+    fn try_structures(&self, buffer: &Vectors, region: &ClearPixels) -> Vec<Share> {
         let is_specific =
             |cause: &Cause| matches!(cause, Cause::DeformationMissing | Cause::OwnMotionMissing);
-        let words = || self.expected.mistaken.iter();
+        // No single object is upside down.
+        let is_of_picture = |cause: &Cause| matches!(cause, Cause::UpsideDown);
+        let words = || (self.expected.mistaken.iter()).filter(|(cause, _)| !is_of_picture(cause));
         let specific = words().filter(|(cause, _)| is_specific(cause));
         let others = words().filter(|(cause, _)| !is_specific(cause));
-        let candidates = specific.chain(others).chain(&fitted);
-        let tried = candidates.filter(|(cause, _)| is_tried(cause));
-        find_cause(tried, turn, &|velocity| share(&buffer, velocity, pixels))
+        let each = specific.chain(others);
+        each.map(|candidate| measure(candidate, buffer, region))
+            .collect()
+    }
+
+    /// Tries other key shapes, the matrices of other objects, and jitter in the pass of this one.
+    fn try_draws_and_jitter(&self, buffer: &Vectors, region: &ClearPixels) -> Vec<Share> {
+        let right = &self.expected.right.velocity;
+        let object = (region.object as usize).checked_sub(1);
+        let draws = &self.expected.draws;
+        let of_draws = object.map(|object| {
+            let poses = draws.list_poses(object, &region.pixels);
+            poses.chain(draws.list_matrices_of_others(object, &region.pixels))
+        });
+        let jitter = find_offset(buffer, right, &region.pixels);
+        let jitter = Some(jitter).filter(|(cause, _)| cause.is_of_jitter());
+        let each = of_draws.into_iter().flatten().chain(jitter);
+        each.map(|candidate| measure(&candidate, buffer, region))
+            .collect()
+    }
+
+    /// Tries numbers that fit the vectors of an object. A few of its pixels fit by chance.
+    fn try_numbers(&self, buffer: &Vectors, region: &ClearPixels, is_whole: bool) -> Vec<Share> {
+        let right = &self.expected.right.velocity;
+        let pixels = &region.pixels;
+        let object = (region.object as usize).checked_sub(1);
+        let mut candidates = fit_candidates(buffer, right, pixels);
+        candidates.retain(|(cause, _)| !is_of_no_unit(cause));
+        if is_whole {
+            let draws = &self.expected.draws;
+            candidates
+                .extend(object.and_then(|object| draws.find_teleport(buffer, object, pixels)));
+            candidates.push(find_offset(buffer, right, pixels));
+        }
+        let each = candidates.iter();
+        each.map(|candidate| measure(candidate, buffer, region))
+            .collect()
+    }
+
+    fn may_be(&self, cause: &Cause) -> bool {
+        !(self.ranking.some_move_right && is_of_no_unit(cause))
     }
 
     /// Returns whether a unit, sign or axis as wrong as an object's would make right objects wrong.
     fn right_objects_contradict(&self, cause: &Explanation) -> bool {
         let right = &self.expected.right.velocity;
-        let buffer = turn_back(self.buffer, cause.turned);
+        let buffer = turn_back(self.buffer, cause.turned.as_ref());
         let [velocity, turned] = [
             right.map(|vector| cause.cause.apply(*vector)),
             right.clone(),
@@ -169,41 +220,17 @@ impl Search<'_> {
     }
 }
 
-/// Undoes a wrong sign or axis.
-fn turn_back(buffer: &Vectors, turn: Option<Cause>) -> Vectors {
-    buffer.map(|vector| turn.map_or(*vector, |turn| turn.apply(*vector)))
+/// Measures how much of an object a cause explains.
+fn measure((cause, velocity): &Candidate, buffer: &Vectors, region: &ClearPixels) -> Share {
+    Share {
+        cause: cause.clone(),
+        part: share(buffer, velocity, &region.pixels),
+    }
 }
 
-/// Finds the first cause that explains the most, and equally good ones. After a turn, the cause is
-/// not another turn.
-fn find_cause<'a>(
-    candidates: impl Iterator<Item = &'a Candidate>,
-    turned: Option<Cause>,
-    explains: &dyn Fn(&Vectors) -> f64,
-) -> Option<Explanation> {
-    let shares: Vec<(Cause, f64)> = candidates
-        .filter(|(cause, _)| {
-            turned.is_none() || !TURNS.contains(&Some(*cause)) && !cause.is_offset()
-        })
-        .map(|(cause, velocity)| (*cause, explains(velocity)))
-        .collect();
-    let most = shares.iter().map(|(_, share)| *share).fold(0.0, f64::max);
-    let mut best = (shares.into_iter()).filter(|(_, share)| *share >= most - LOOKS_SAME);
-    let (cause, explained) = best.next()?;
-    // A fitted number explains what a word explains; that is no other cause. One missing motion is
-    // enough.
-    let mut is_missing = cause.is_missing_motion();
-    let is_other = |cause: &Cause| {
-        let is_known = is_missing && cause.is_missing_motion();
-        is_missing |= cause.is_missing_motion();
-        cause.is_word() && !is_known
-    };
-    let others: Vec<Cause> = best.map(|(cause, _)| cause).filter(is_other).collect();
-    (explained >= LEAST_EXPLAINED).then(|| Explanation {
-        turned,
-        looks_like: others,
-        ..Explanation::by(cause, explained)
-    })
+/// Undoes a wrong sign or axis.
+fn turn_back(buffer: &Vectors, turn: Option<&Cause>) -> Vectors {
+    buffer.map(|vector| turn.map_or(*vector, |turn| turn.apply(*vector)))
 }
 
 /// Computes the part of some pixels at which two velocities are the same.

@@ -63,30 +63,44 @@ impl Tally {
     }
 }
 
-/// Checks whether the buffers of a capture show another view than the scene's at its instant: all
-/// of them, or one by one.
-pub fn find_other_views(
-    capture: &Capture,
-    depth: &DepthPair,
-    scene: &Scene,
-) -> Result<Vec<Defect>, TraceError> {
-    let size = depth.buffer.size();
-    let right = trace_view(scene, size, 0, Cause::Unknown)?;
-    let mut views = vec![View {
-        cause: Cause::UpsideDown,
-        object_id: upside_down(&right.object_id),
-        depth: upside_down(&right.depth),
-        color: upside_down(&right.color),
-    }];
-    for count in 1..=MAX_FRAMES {
-        let frames = count as i32;
-        // A motion may leave the world beyond its keys.
-        views.extend(trace_view(scene, size, -frames, Cause::DrawnLate(count)));
-        views.extend(trace_view(scene, size, frames, Cause::DrawnEarly(count)));
+/// The correct view, and others that a capture may show by mistake.
+pub struct Views {
+    right: View,
+    others: Vec<View>,
+}
+
+impl Views {
+    /// Traces the view of the instant and those of other frames.
+    pub fn trace(scene: &Scene, size: Size) -> Result<Self, TraceError> {
+        let right = trace_view(scene, size, 0, Cause::Unknown)?;
+        let mut others = vec![View {
+            cause: Cause::UpsideDown,
+            object_id: upside_down(&right.object_id),
+            depth: upside_down(&right.depth),
+            color: upside_down(&right.color),
+        }];
+        for count in 1..=MAX_FRAMES {
+            let frames = count as i32;
+            // A motion may leave the world beyond its keys.
+            others.extend(trace_view(scene, size, -frames, Cause::DrawnLate(count)));
+            others.extend(trace_view(scene, size, frames, Cause::DrawnEarly(count)));
+        }
+        Ok(Self { right, others })
     }
-    let tallies: Vec<(Cause, [Tally; 3])> = (views.iter())
-        .map(|view| (view.cause, tally_buffers(capture, depth, &right, view)))
-        .collect();
+
+    /// Checks whether the buffers of a capture show another view than the scene's at its instant:
+    /// all of them, or one by one.
+    pub fn find_others(&self, capture: &Capture, depth: &DepthPair) -> Vec<Defect> {
+        let tallies = self.others.iter().map(|view| {
+            let tallies = tally_buffers(capture, depth, &self.right, view);
+            (view.cause.clone(), tallies)
+        });
+        find_shown(&tallies.collect::<Vec<_>>())
+    }
+}
+
+/// Finds the views that buffers show most.
+fn find_shown(tallies: &[(Cause, [Tally; 3])]) -> Vec<Defect> {
     let mut findings: Vec<Defect> = Vec::new();
     for (at, buffer) in BUFFERS.into_iter().enumerate() {
         let shown = tallies
@@ -104,14 +118,14 @@ pub fn find_other_views(
         let buffer = if is_alone { buffer } else { Buffer::Picture };
         let explained = tally[at].part(tally[at].other).unwrap_or(0.0);
         let explanation = Explanation {
-            looks_like: best.map(|(cause, _)| *cause).collect(),
-            ..Explanation::by(*cause, explained)
+            looks_like: best.map(|(cause, _)| cause.clone()).collect(),
+            ..Explanation::by(cause.clone(), explained)
         };
         if findings.iter().all(|finding| finding.buffer != buffer) {
             findings.push(Defect::new(buffer, None, explanation));
         }
     }
-    Ok(findings)
+    findings
 }
 
 /// Buffers that distinguish views, in the order of [`tally_buffers`].

@@ -4,6 +4,7 @@
 
 mod numbers;
 mod picture;
+mod planted;
 mod structure;
 
 use std::path::PathBuf;
@@ -37,7 +38,11 @@ fn load_moving() -> Scene {
 /// Makes settings of an engine's output: the motion since the previous frame, unless stated
 /// otherwise.
 fn settings(velocity: VelocityKind) -> RenderSettings {
-    let mut settings = tests::settings_of([WIDTH, HEIGHT], 4, 1);
+    settings_of_size([WIDTH, HEIGHT], velocity)
+}
+
+fn settings_of_size(size: [u32; 2], velocity: VelocityKind) -> RenderSettings {
+    let mut settings = tests::settings_of(size, 4, 1);
     settings.options.velocity = velocity;
     settings
 }
@@ -49,7 +54,11 @@ fn trace_velocity(scene: &Scene, motion: &PointMotion) -> Vectors {
 
 /// Captures the scene as an engine draws it some frames after the instant.
 fn draw(scene: &Scene, time: f64) -> Capture {
-    let settings = settings(VelocityKind::PreviousFrame);
+    draw_in_size(scene, time, [WIDTH, HEIGHT])
+}
+
+fn draw_in_size(scene: &Scene, time: f64, size: [u32; 2]) -> Capture {
+    let settings = settings_of_size(size, VelocityKind::PreviousFrame);
     let scene = scene.clone().later_by(time);
     let frame = trace_frame(&scene, &settings, &unwatched).unwrap();
     Capture {
@@ -266,7 +275,11 @@ fn a_wrong_sign_is_named_together_with_another_cause() {
                     names(finding, |named| *named == cause),
                     "{turn:?}: {finding:#?}"
                 );
-                assert_eq!(finding.explanation.turned, Some(turn), "{finding:#?}");
+                assert_eq!(
+                    finding.explanation.turned.as_ref(),
+                    Some(&turn),
+                    "{finding:#?}"
+                );
             }
         }
     }

@@ -30,7 +30,7 @@ fn assert_time_named(scene: &Scene, time: f64, cause: Cause) {
     for capture in [without_ids(&drawn), drawn] {
         let verdict = audit(scene, &capture);
         assert!(!verdict.shows_scene, "{}", scene.id);
-        expect(&verdict, Buffer::Picture, None, is(cause));
+        expect(&verdict, Buffer::Picture, None, is(cause.clone()));
     }
 }
 

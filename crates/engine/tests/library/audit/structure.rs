@@ -48,7 +48,7 @@ fn expect_each(audit: &CaptureAudit, objects: &[&str], is_cause: impl Fn(&Cause)
 }
 
 /// The moving scene, in which the disc is the car's child.
-fn with_child() -> Scene {
+pub(super) fn with_child() -> Scene {
     let mut scene = load_moving();
     let [disc, car] = ["disc", "car"].map(|name| id_of(&scene, name) as usize - 1);
     // A parent comes before its children.
@@ -68,7 +68,7 @@ fn with_child() -> Scene {
 
 /// The moving scene, in which the disc changes its shape like a bone that bends: its upper half
 /// leans over.
-fn with_shapes() -> Scene {
+pub(super) fn with_shapes() -> Scene {
     let mut scene = load_moving();
     let disc = &scene.objects[id_of(&scene, "disc") as usize - 1];
     let mesh = &mut scene.meshes[disc.mesh];
@@ -160,4 +160,61 @@ fn an_object_of_another_sign_or_length_is_named_without_advice_on_the_convention
             "{text}"
         );
     }
+}
+
+#[test]
+fn a_buffer_of_half_the_resolution_is_named() {
+    let scene = load_moving();
+    let drawn = draw(&scene, 0.0);
+    let velocity = &drawn.velocity;
+    let block = |x: u32, y: u32| [x / 2 * 2, y / 2 * 2];
+    let cornered = Vectors::from_fn(WIDTH, HEIGHT, |x, y| {
+        let [x, y] = block(x, y);
+        *velocity.at(x + 1, y)
+    });
+    let mean = Vectors::from_fn(WIDTH, HEIGHT, |x, y| {
+        let [x, y] = block(x, y);
+        let four = [[x, y], [x + 1, y], [x, y + 1], [x + 1, y + 1]];
+        let sum = |axis: usize| {
+            four.map(|[x, y]| velocity.at(x, y)[axis])
+                .iter()
+                .sum::<f32>()
+        };
+        [0, 1].map(|axis| 0.25 * sum(axis))
+    });
+    for half in [cornered, mean] {
+        let verdict = audit_velocity(&scene, half);
+        let is_half = |cause: &Cause| *cause == Cause::LowResolution(2);
+        let finding = expect(&verdict, Buffer::Velocity, None, is_half);
+        let words = "velocity has 1/2 of the resolution: 2x2 pixels share a vector";
+        assert!(finding.text.starts_with(words), "{}", finding.text);
+    }
+}
+
+#[test]
+fn a_shape_of_another_key_is_named_with_its_time() {
+    // Keys at -0.75 and 1.25 frames; the first one is the rest pose.
+    let scene = with_shapes().later_by(-0.25);
+    let mut later = scene.clone();
+    let disc = later.objects[id_of(&scene, "disc") as usize - 1].mesh;
+    let right = later.meshes[disc].clone();
+    let place = |time: f64| -> Vec<Vec3> {
+        let positions = right.at(time).positions();
+        positions.map(|position| position.as_vec3()).collect()
+    };
+    // The picture moves from the shape at 1.25 to that of the instant.
+    let shape = |time: f64, positions: Vec<Vec3>| Shape {
+        time,
+        positions,
+        normals: Vec::new(),
+    };
+    later.meshes[disc].shapes = vec![shape(-1.0, place(1.25)), shape(0.0, place(0.0))];
+    later.meshes[disc].positions = place(1.25);
+    let other = trace_velocity(&later, &PointMotion::RIGHT);
+    let verdict = audit_changed(&scene, &["disc"], |at, _| other.pixels[at]);
+    expect_each(&verdict, &["disc"], |cause| {
+        *cause == Cause::OtherPose(1.25)
+    });
+    let text = &verdict.findings[0].text;
+    assert!(text.contains("its key shape at +1.25 frames"), "{text}");
 }
