@@ -89,6 +89,8 @@ fn divide_region(pair: &FramePair, pixels: &[usize], width: usize) -> Vec<Block>
         let tile = [at / width / side, at % width / side];
         tiles.entry(tile).or_default().push(at);
     }
-    let blocks = tiles.into_values().filter(|pixels| pixels.len() >= MIN_PIXELS);
+    let blocks = tiles
+        .into_values()
+        .filter(|pixels| pixels.len() >= MIN_PIXELS);
     blocks.map(|pixels| Block { pixels }).collect()
 }

@@ -4,21 +4,28 @@ use frame::Vectors;
 use glam::DVec2;
 
 use crate::audit_self::block::{Block, MIN_PIXELS};
-use crate::audit_self::fit::{Equations, Fit};
-use crate::audit_self::frame_pair::{FramePair, Seen};
+use crate::audit_self::fit::{Equations, Fit, measure_detail};
+use crate::audit_self::frame_pair::FramePair;
 
-/// Smallest slope of a block's brightness that is detail: a step of 8 bits per pixel.
-const LEAST_SLOPE: f64 = 1.0 / 255.0;
+/// Smallest deviation of a block's brightness from a ramp that is detail: a step of 8 bits.
+const LEAST_DETAIL: f64 = 1.0 / 255.0;
 /// Smallest correlation of two pictures of one surface.
 pub const LEAST_CORRELATION: f64 = 0.8;
 /// Smallest correlation of a searched shift: the best of many is high by chance.
 const LEAST_SEARCHED: f64 = 0.9;
+/// Places closer to the best one than this are the same, in pixels.
+const SAME_PLACE: f64 = 2.0;
+/// Largest ratio of what the best place leaves unexplained to what any other place does.
+const LEAST_LEAD: f64 = 0.5;
 /// Upper limit on the pixels that a search compares.
 const SEARCHED_PIXELS: usize = 64;
 /// Largest shift of a right block, in pixels.
 const LARGEST_RIGHT: f64 = 0.25;
 /// Largest ratio of what a shift leaves unexplained to what no shift leaves, if the shift is real.
 const LEAST_GAIN: f64 = 0.6;
+
+/// Smallest number of standard errors of a real shift: many blocks are compared.
+const LEAST_CERTAINTY: f64 = 5.0;
 
 /// What the comparison of a block says.
 pub enum Match {
@@ -45,7 +52,11 @@ pub struct Shifted {
 pub fn match_block(pair: &FramePair, block: &Block, velocity: &Vectors, reach: i32) -> Match {
     let start = Equations::at(pair, block, velocity, DVec2::ZERO);
     if !has_detail(pair, block) {
-        return if start.is_some() { Match::Even } else { Match::Unseen };
+        return if start.is_some() {
+            Match::Even
+        } else {
+            Match::Unseen
+        };
     }
     let correlation = start.map(|start| start.correlation);
     let unexplained = 1.0 - correlation.unwrap_or(0.0);
@@ -62,7 +73,9 @@ pub fn match_block(pair: &FramePair, block: &Block, velocity: &Vectors, reach: i
             let left = 1.0 - fit.equations.correlation;
             Match::Shift(Shifted {
                 fit,
-                is_off: fit.shift.length() > LARGEST_RIGHT && left <= LEAST_GAIN * unexplained,
+                is_off: fit.shift.length() > LARGEST_RIGHT
+                    && left <= LEAST_GAIN * unexplained
+                    && fit.certainty() >= LEAST_CERTAINTY,
             })
         }
         (None, Some(_)) => Match::Unlike,
@@ -71,16 +84,15 @@ pub fn match_block(pair: &FramePair, block: &Block, velocity: &Vectors, reach: i
 }
 
 /// Returns whether the later picture of a block has detail.
-fn has_detail(pair: &FramePair, block: &Block) -> bool {
-    let slopes = block.pixels.iter().filter_map(|at| pair.new_sample(*at));
-    let slopes: Vec<DVec2> = slopes.map(|sample| sample.slope).collect();
-    let count = slopes.len().max(1) as f64;
-    let mean = slopes.iter().sum::<DVec2>() / count;
-    let squares = slopes.iter().map(|slope| slope.distance_squared(mean));
-    (squares.sum::<f64>() / count).sqrt() > LEAST_SLOPE
+pub fn has_detail(pair: &FramePair, block: &Block) -> bool {
+    let samples = block.pixels.iter();
+    let samples = samples.filter_map(|at| Some((pair.pixel(*at), pair.new_sample(*at)?.value)));
+    let (places, values): (Vec<DVec2>, Vec<f64>) = samples.unzip();
+    measure_detail(places, values.into_iter()) > LEAST_DETAIL
 }
 
-/// Finds the shift by whole pixels with the best correlation; none if the surface is nowhere.
+/// Finds the shift by whole pixels with the best correlation; none if the surface is nowhere, or at
+/// several places.
 fn search(pair: &FramePair, block: &Block, velocity: &Vectors, reach: i32) -> Option<DVec2> {
     let every = block.pixels.len().div_ceil(SEARCHED_PIXELS);
     let pixels: Vec<(usize, DVec2, f64)> = (block.pixels.iter().step_by(every))
@@ -89,23 +101,27 @@ fn search(pair: &FramePair, block: &Block, velocity: &Vectors, reach: i32) -> Op
             Some((*at, place, pair.new_sample(*at)?.value))
         })
         .collect();
-    let mut best = (LEAST_CORRELATION - 0.2, None);
-    for y in -reach..=reach {
-        for x in -reach..=reach {
-            let shift = DVec2::new(f64::from(x), f64::from(y));
-            let seen = pixels.iter().filter_map(|(at, place, new)| {
-                let place = *place + shift;
-                let is_same = pair.look(*at, place) == Seen::Same;
-                let old = is_same.then(|| pair.old_sample(place)).flatten()?;
-                Some([*new, old.value])
-            });
-            let correlation = correlate(seen, pixels.len());
-            if correlation > best.0 {
-                best = (correlation, Some(shift));
-            }
-        }
-    }
-    best.1
+    let rows = -reach..=reach;
+    let shifts = rows.flat_map(|y| (-reach..=reach).map(move |x| DVec2::new(x.into(), y.into())));
+    let tried: Vec<(DVec2, f64)> = shifts
+        .map(|shift| {
+            let pairs = pixels
+                .iter()
+                .filter_map(|(at, place, new)| Some([*new, pair.old_value(*at, *place + shift)?]));
+            (shift, correlate(pairs, pixels.len()))
+        })
+        .collect();
+    let best = tried
+        .iter()
+        .max_by(|(_, one), (_, other)| one.total_cmp(other))?;
+    let others = tried
+        .iter()
+        .filter(|(shift, _)| shift.distance(best.0) > SAME_PLACE);
+    let second = others
+        .map(|(_, correlation)| *correlation)
+        .fold(0.0, f64::max);
+    let is_alone = 1.0 - best.1 <= LEAST_LEAD * (1.0 - second);
+    (best.1 >= LEAST_CORRELATION && is_alone).then_some(best.0)
 }
 
 /// Correlates pairs of values; 0 if fewer than half of `all` are there.

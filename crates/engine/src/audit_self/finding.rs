@@ -8,6 +8,9 @@ use crate::audit_self::pair_audit::{PairAudit, RegionAudit};
 use crate::audit_self::simple_cause::SimpleCause;
 use crate::audit_self::verdict::Verdict;
 
+/// Largest difference of equal offsets beyond their intervals, in pixels.
+const LEAST_SEPARATION: f64 = 0.05;
+
 /// Something wrong.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SelfFinding {
@@ -96,8 +99,16 @@ fn describe(wrong: &Wrong) -> SelfFinding {
         (None, _) => "is not the motion of the picture, in no simple way".to_owned(),
     };
     if wrong.frames.len() < wrong.told {
-        let names: Vec<String> = wrong.frames.iter().map(|(frame, _)| frame.to_string()).collect();
-        text += &format!(", in frames {} of {} that tell", names.join(", "), wrong.told);
+        let names: Vec<String> = wrong
+            .frames
+            .iter()
+            .map(|(frame, _)| frame.to_string())
+            .collect();
+        text += &format!(
+            ", in frames {} of {} that tell",
+            names.join(", "),
+            wrong.told
+        );
     }
     SelfFinding {
         region: Some(wrong.region.to_owned()),
@@ -114,7 +125,7 @@ fn describe_error(error: &Estimate) -> String {
         Some([along_x, along_y]) => format!(
             "is off by {:+.3} +- {:.3} px along ({along_x:+.2}, {along_y:+.2}); nothing is known across",
             x * along_x + y * along_y,
-            error.half_along_bias()
+            error.half_width_along
         ),
         None => format!("is off by ({x:+.3}, {y:+.3}) +- ({half_x:.3}, {half_y:.3}) px"),
     }
@@ -142,15 +153,28 @@ fn find_common_cause(pairs: &[PairAudit]) -> Option<SelfFinding> {
     })
 }
 
-/// Finds one offset of all regions in each frame: jitter.
+/// Finds one offset of all regions of a frame that have an interval: jitter.
 fn find_jitter(pairs: &[PairAudit]) -> Option<SelfFinding> {
     let mut frames = Vec::new();
     let mut first = None;
     for pair in pairs {
-        let told: Vec<&RegionAudit> = pair.regions.iter().filter(|region| tells(region)).collect();
-        let offset = told.iter().find(|region| is_common(region)).and_then(|region| region.error);
-        let Some(offset) = offset else { continue };
-        if told.len() < 2 || !told.iter().all(|region| is_offset(region, &offset)) {
+        let common = pair.regions.iter().filter(|region| is_common(region));
+        let errors = common.filter_map(|region| region.error);
+        let half = |error: &Estimate| error.half_width_along;
+        let Some(offset) = errors.min_by(|one, other| half(one).total_cmp(&half(other))) else {
+            continue;
+        };
+        let known = pair
+            .regions
+            .iter()
+            .filter(|region| tells(region) && region.error.is_some());
+        let are_alike = known.clone().all(|region| is_offset(region, &offset));
+        // Jitter on a still object is motion of a picture that stands still.
+        let is_named = |region: &RegionAudit| {
+            let cause = region.cause.as_ref().map(|found| found.cause);
+            cause.is_some_and(|cause| cause != SimpleCause::StandsStill)
+        };
+        if known.count() < 2 || !are_alike || pair.regions.iter().any(is_named) {
             return None;
         }
         frames.push(pair.frame);
@@ -171,8 +195,7 @@ fn find_jitter(pairs: &[PairAudit]) -> Option<SelfFinding> {
 }
 
 fn is_common(region: &RegionAudit) -> bool {
-    region.verdict == Verdict::IsOff
-        && region.error.is_some_and(|error| error.only_along.is_none())
+    region.verdict == Verdict::IsOff && region.error.is_some_and(|error| error.only_along.is_none())
 }
 
 /// Returns whether a region's error is an offset, within both intervals.
@@ -182,9 +205,10 @@ fn is_offset(region: &RegionAudit, offset: &Estimate) -> bool {
     };
     let difference = DVec2::from(error.bias) - DVec2::from(offset.bias);
     let difference = match error.only_along {
-        Some(along) => DVec2::from(along).dot(
-            DVec2::from(error.bias) - DVec2::from(offset.bias)).abs(),
+        Some(along) => DVec2::from(along)
+            .dot(DVec2::from(offset.bias) - DVec2::from(error.bias))
+            .abs(),
         None => difference.length(),
     };
-    difference <= 0.05 + 2.0 * (error.half_along_bias() + offset.half_along_bias())
+    difference <= LEAST_SEPARATION + 2.0 * (error.half_width_along + offset.half_width_along)
 }

@@ -4,6 +4,7 @@ use frame::Vectors;
 use glam::{DMat2, DVec2};
 
 use crate::audit_self::block::{Block, MIN_PIXELS};
+use crate::audit_self::brightness::Sample;
 use crate::audit_self::frame_pair::{FramePair, Seen};
 use crate::statistics::median;
 
@@ -16,6 +17,8 @@ const REACH: f64 = 2.0;
 /// Smallest ratio of a block's detail in its weak direction to that in its strong one, from which
 /// on it has detail in both.
 const LEAST_RATIO: f64 = 0.05;
+/// Pixels for which one counts: smoothing makes neighbours share their noise.
+const SHARED_NOISE: f64 = 4.0;
 /// Residuals beyond this many standard deviations lose weight.
 const OUTLIER: f64 = 2.4;
 
@@ -31,16 +34,17 @@ pub struct Equations {
     pub vector: DVec2,
     /// Correlation of both pictures.
     pub correlation: f64,
+    /// Mean square of the residual.
+    pub noise: f64,
     /// Pixels compared.
     pub pixels: usize,
 }
 
 /// A pixel in both pictures.
 struct Pair {
-    new: f64,
-    old: f64,
-    new_slope: DVec2,
-    old_slope: DVec2,
+    place: DVec2,
+    new: Sample,
+    old: Sample,
 }
 
 impl Equations {
@@ -52,12 +56,10 @@ impl Equations {
             if pair.look(*at, place) != Seen::Same {
                 return None;
             }
-            let (new, old) = (pair.new_sample(*at)?, pair.old_sample(place)?);
             Some(Pair {
-                new: new.value,
-                old: old.value,
-                new_slope: new.slope,
-                old_slope: old.slope,
+                place: pair.pixel(*at),
+                new: pair.new_sample(*at)?,
+                old: pair.old_sample(place)?,
             })
         });
         let samples: Vec<Pair> = samples.collect();
@@ -65,36 +67,45 @@ impl Equations {
     }
 
     fn solve(samples: &[Pair]) -> Self {
-        let new = Moments::of(samples.iter().map(|pair| pair.new));
-        let old = Moments::of(samples.iter().map(|pair| pair.old));
-        let products = samples.iter();
-        let products = products.map(|pair| (pair.new - new.mean) * (pair.old - old.mean));
-        let covariance = products.sum::<f64>() / samples.len() as f64;
+        let ramps = Ramps::at(samples.iter().map(|pair| pair.place).collect());
+        // Smooth light is not attached to a surface, and its ramp would be taken for detail.
+        let values = |value: &dyn Fn(&Pair) -> f64| ramps.subtract(samples.iter().map(value));
+        let [new, old] = [
+            values(&|pair| pair.new.value),
+            values(&|pair| pair.old.value),
+        ];
+        let [slope_x, slope_y] = [
+            values(&|pair| pair.new.slope.x),
+            values(&|pair| pair.new.slope.y),
+        ];
+        let square = |values: &[f64]| values.iter().map(|value| value * value).sum::<f64>();
+        let [new_square, old_square] = [square(&new), square(&old)].map(|square| square.max(1e-12));
+        let product: f64 = std::iter::zip(&new, &old).map(|(new, old)| new * old).sum();
         // Light may change between the frames.
-        let gain = new.deviation / old.deviation.max(1e-9);
-        let gain = gain.clamp(0.5, 2.0);
-        let residual = |pair: &Pair| (pair.new - new.mean) - gain * (pair.old - old.mean);
-        let deviation = 1.4826 * median(samples.iter().map(|pair| residual(pair).abs()));
+        let gain = (new_square / old_square).sqrt().clamp(0.5, 2.0);
+        let residuals: Vec<f64> = std::iter::zip(&new, &old)
+            .map(|(new, old)| new - gain * old)
+            .collect();
+        let deviation = 1.4826 * median(residuals.iter().map(|residual| residual.abs()));
         let limit = (OUTLIER * deviation).max(1e-6);
-        let weight = |pair: &Pair| 1.0 / (1.0 + (residual(pair) / limit).powi(2));
-        let total: f64 = samples.iter().map(weight).sum();
-        let mean = |slope: &dyn Fn(&Pair) -> DVec2| {
-            let slopes = samples.iter().map(|pair| weight(pair) * slope(pair));
-            slopes.sum::<DVec2>() / total
-        };
-        let [new_mean, old_mean] = [mean(&|pair| pair.new_slope), mean(&|pair| pair.old_slope)];
         let mut equations = Self {
             matrix: DMat2::ZERO,
             vector: DVec2::ZERO,
-            correlation: covariance / (new.deviation * old.deviation).max(1e-12),
+            noise: 0.0,
+            correlation: product / (new_square * old_square).sqrt(),
             pixels: samples.len(),
         };
-        for pair in samples {
-            let slope = weight(pair) * (pair.new_slope - new_mean);
-            let old_slope = gain * (pair.old_slope - old_mean);
+        let mut total = 0.0;
+        for (at, residual) in residuals.into_iter().enumerate() {
+            let weight = 1.0 / (1.0 + (residual / limit).powi(2));
+            let slope = weight * DVec2::new(slope_x[at], slope_y[at]);
+            let old_slope = gain * samples[at].old.slope;
             equations.matrix += DMat2::from_cols(slope * old_slope.x, slope * old_slope.y);
-            equations.vector += slope * residual(pair);
+            equations.vector += slope * residual;
+            equations.noise += weight * residual * residual;
+            total += weight;
         }
+        equations.noise /= total;
         equations
     }
 
@@ -109,22 +120,48 @@ impl Equations {
     }
 }
 
-/// Mean and standard deviation of some values.
-struct Moments {
-    mean: f64,
-    deviation: f64,
+/// Linear functions of the place in a block.
+struct Ramps {
+    /// Places relative to their mean.
+    places: Vec<DVec2>,
+    /// Inverse of the sum of their products.
+    inverse: DMat2,
 }
 
-impl Moments {
-    fn of(values: impl ExactSizeIterator<Item = f64> + Clone) -> Self {
-        let count = values.len() as f64;
-        let mean = values.clone().sum::<f64>() / count;
-        let squares = values.map(|value| (value - mean).powi(2)).sum::<f64>();
+impl Ramps {
+    fn at(mut places: Vec<DVec2>) -> Self {
+        let mean = places.iter().sum::<DVec2>() / places.len() as f64;
+        let mut products = DMat2::from_diagonal(DVec2::splat(1e-9));
+        for place in &mut places {
+            *place -= mean;
+            products += DMat2::from_cols(*place * place.x, *place * place.y);
+        }
         Self {
-            mean,
-            deviation: (squares / count).sqrt(),
+            places,
+            inverse: products.inverse(),
         }
     }
+
+    /// Subtracts the mean and the ramp that fit some values best.
+    fn subtract(&self, values: impl Iterator<Item = f64>) -> Vec<f64> {
+        let mut values: Vec<f64> = values.collect();
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        let products = std::iter::zip(&self.places, &values);
+        let products = products.map(|(place, value)| place * (value - mean));
+        let slope = self.inverse * products.sum::<DVec2>();
+        for (place, value) in std::iter::zip(&self.places, &mut values) {
+            *value -= mean + slope.dot(*place);
+        }
+        values
+    }
+}
+
+/// Returns how much some values differ from the best linear function of their places: the root of
+/// their mean square.
+pub fn measure_detail(places: Vec<DVec2>, values: impl Iterator<Item = f64>) -> f64 {
+    let count = places.len().max(1) as f64;
+    let left = Ramps::at(places).subtract(values);
+    (left.iter().map(|value| value * value).sum::<f64>() / count).sqrt()
 }
 
 /// Axes of a matrix's symmetric part.
@@ -165,6 +202,13 @@ pub struct Fit {
 }
 
 impl Fit {
+    /// Returns how many standard errors of the block's own noise the shift is long.
+    pub fn certainty(&self) -> f64 {
+        let Equations { matrix, noise, .. } = self.equations;
+        let square = self.shift.dot(matrix * self.shift).max(0.0);
+        (square / (SHARED_NOISE * noise).max(1e-12)).sqrt()
+    }
+
     /// Fits a block's shift, from a start; none if that leads too far away.
     pub fn from_start(
         pair: &FramePair,

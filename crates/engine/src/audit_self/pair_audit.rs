@@ -99,7 +99,10 @@ fn audit_region(
     let find = || {
         if speed <= STILL {
             let zero = SimpleCause::Zero;
-            return Some(CauseFound { cause: zero, looks_like: Vec::new() });
+            return Some(CauseFound {
+                cause: zero,
+                looks_like: Vec::new(),
+            });
         }
         find_cause(pair, &region.blocks, candidates, evidence.best_offset())
     };
@@ -115,12 +118,7 @@ fn audit_region(
 }
 
 /// Draws what the blocks of a region say.
-fn draw_region(
-    pair: &FramePair,
-    region: &Region,
-    matches: &[Match],
-    map: &mut Raster<MapPixel>,
-) {
+fn draw_region(pair: &FramePair, region: &Region, matches: &[Match], map: &mut Raster<MapPixel>) {
     let velocity = &pair.after.velocity;
     for (block, state) in region.blocks.iter().zip(matches) {
         let said = match state {

@@ -9,7 +9,7 @@ use measure::Error;
 use crate::capture::folder::{CONVENTION_FILE, Capture};
 use crate::files::refuse;
 
-/// Files that may hold velocity.
+/// Files that may hold velocity, in the order in which they are looked for.
 const VELOCITY_FILES: [&str; 3] = ["velocity.exr", "buffers.exr", "color.exr"];
 /// The velocity that leads to the frame before.
 const PREVIOUS_FRAME: &str = "previous_frame";
@@ -78,7 +78,8 @@ impl Sequence {
         let has_shared = !folder.join(CONVENTION_FILE).is_file() && shared.is_file();
         let shared = has_shared.then_some(shared);
         let convention = self.convention.as_ref().or(shared.as_ref());
-        let capture = Capture::read_of_sequence(folder, &self.folder, convention.map(|path| path.as_path()))?;
+        let capture =
+            Capture::read_of_sequence(folder, &self.folder, convention.map(|path| path.as_path()))?;
         capture.require_buffers()?;
         refuse_other_velocity(folder)?;
         Ok(capture)
@@ -116,23 +117,28 @@ fn list_numbers(folder: &Path) -> Result<Vec<(u64, PathBuf)>, Error> {
         let name = path.file_name().and_then(|name| name.to_str());
         let number = name.filter(|name| name.bytes().all(|byte| byte.is_ascii_digit()));
         let number = number.and_then(|name| name.parse().ok());
-        numbers.extend(number.filter(|_| path.is_dir()).map(|number| (number, path)));
+        numbers.extend(
+            number
+                .filter(|_| path.is_dir())
+                .map(|number| (number, path)),
+        );
     }
     Ok(numbers)
 }
 
-/// Refuses files of this program that hold another velocity than the motion since the frame before.
+/// Refuses a file of this program that holds another velocity than the motion since the frame
+/// before.
 fn refuse_other_velocity(folder: &Path) -> Result<(), Error> {
     let paths = VELOCITY_FILES.map(|name| folder.join(name));
-    for path in paths.iter().filter(|path| path.is_file()) {
-        let kind = read_attribute(path, "velocity");
-        if let Some(kind) = kind.filter(|kind| kind != PREVIOUS_FRAME) {
-            return refuse!(
-                path,
-                "holds the velocity {kind:?}; allowed: {PREVIOUS_FRAME:?}, the motion since the frame before: render with \
-                 --velocity {PREVIOUS_FRAME}"
-            );
-        }
+    let Some(path) = paths.iter().find(|path| path.is_file()) else {
+        return Ok(());
+    };
+    match read_attribute(path, "velocity") {
+        Some(kind) if kind != PREVIOUS_FRAME => refuse!(
+            path,
+            "holds the velocity {kind:?}; allowed: {PREVIOUS_FRAME:?}, the motion since the frame before: render with \
+             --velocity {PREVIOUS_FRAME}"
+        ),
+        _ => Ok(()),
     }
-    Ok(())
 }

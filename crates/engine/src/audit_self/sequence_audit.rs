@@ -55,7 +55,10 @@ pub fn audit_frames(
     read: &mut ReadFrame,
     take_map: &mut TakeMap,
 ) -> Result<SequenceAudit, Error> {
-    assert!(count >= 2, "velocity leads from one frame to the frame before");
+    assert!(
+        count >= 2,
+        "velocity leads from one frame to the frame before"
+    );
     let mut before = read(0)?;
     let engine = before.description.engine.clone();
     let has_ids = before.object_id.is_some();

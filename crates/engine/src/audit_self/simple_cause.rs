@@ -5,6 +5,7 @@ use glam::DVec2;
 use serde::Serialize;
 
 use crate::audit_self::block::Block;
+use crate::audit_self::block_match::{LEAST_CORRELATION, has_detail};
 use crate::audit_self::fit::Equations;
 use crate::audit_self::frame_pair::{FramePair, Seen, to_vector};
 use crate::capture::folder::Capture;
@@ -18,6 +19,9 @@ const LOOKS_SAME: f64 = 1.15;
 const LITTLE: f64 = 0.005;
 /// Smallest median difference of a cause's velocity from the engine's, in pixels.
 const LEAST_DIFFERENCE: f64 = 0.1;
+
+/// Steps that find the place from which a velocity leads to a pixel.
+const PLACE_STEPS: usize = 4;
 
 /// Mistake that one changed sign, unit or frame would undo.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -96,34 +100,47 @@ pub fn list_candidates(pair: &FramePair, next: Option<&Capture>) -> Vec<Candidat
         });
         candidates.push(Candidate {
             cause: SimpleCause::FrameLate,
-            right: follow(velocity, &next.velocity, 1.0),
+            right: read_ahead(&next.velocity),
         });
     }
     candidates.push(Candidate {
         cause: SimpleCause::FrameEarly,
-        right: follow(velocity, &pair.before.velocity, -1.0),
+        right: read_back(velocity, &pair.before.velocity),
     });
     candidates
 }
 
-/// Reads another frame's velocity where each surface was or will be.
-fn follow(velocity: &Vectors, other: &Vectors, frames: f64) -> Vectors {
-    let width = velocity.width as usize;
-    let place = |at: usize| {
-        let pixel = DVec2::new((at % width) as f64, (at / width) as f64);
-        let motion = to_vector(if frames > 0.0 { other } else { velocity }.pixels[at]);
-        let last = DVec2::new(f64::from(other.width - 1), f64::from(other.height - 1));
-        (pixel + frames * motion).round().clamp(DVec2::ZERO, last)
-    };
-    let read = |at: usize| {
-        let place = place(at);
-        *other.at(place.x as u32, place.y as u32)
+/// Reads the next frame's velocity where each surface will be, by that velocity.
+fn read_ahead(next: &Vectors) -> Vectors {
+    let pixels = (0..next.pixels.len()).map(|at| read_at(next, at, to_vector(next.pixels[at])));
+    Vectors {
+        pixels: pixels.collect(),
+        ..*next
+    }
+}
+
+/// Reads the velocity of the frame before where each surface was, if it led ahead.
+fn read_back(velocity: &Vectors, before: &Vectors) -> Vectors {
+    let find = |at: usize| {
+        let start = read_at(before, at, -to_vector(velocity.pixels[at]));
+        (0..PLACE_STEPS).fold(start, |motion, _| read_at(before, at, -to_vector(motion)))
     };
     Vectors {
-        width: velocity.width,
-        height: velocity.height,
-        pixels: (0..velocity.pixels.len()).map(read).collect(),
+        pixels: (0..before.pixels.len()).map(find).collect(),
+        ..*before
     }
+}
+
+/// Reads the velocity of the pixel that is closest to a pixel moved by a motion.
+fn read_at(velocity: &Vectors, at: usize, motion: DVec2) -> [f32; 2] {
+    let width = velocity.width as usize;
+    let pixel = DVec2::new((at % width) as f64, (at / width) as f64);
+    let last = DVec2::new(
+        f64::from(velocity.width - 1),
+        f64::from(velocity.height - 1),
+    );
+    let place = (pixel + motion).round().clamp(DVec2::ZERO, last);
+    *velocity.at(place.x as u32, place.y as u32)
 }
 
 /// What a wrong velocity is explained by.
@@ -143,11 +160,9 @@ pub fn find_cause(
     shift: Option<DVec2>,
 ) -> Option<CauseFound> {
     let velocity = &pair.after.velocity;
-    let unexplained = |velocity: &Vectors| measure_unexplained(pair, blocks, velocity);
-    let now = unexplained(velocity);
     let offset = shift.map(|shift| {
         let change = [shift.x as f32, shift.y as f32];
-        unexplained(&velocity.map(|[x, y]| [x - change[0], y - change[1]]))
+        velocity.map(|[x, y]| [x - change[0], y - change[1]])
     });
     let differs = |right: &Vectors| {
         let pixels = blocks.iter().flat_map(|block| &block.pixels);
@@ -157,37 +172,87 @@ pub fn find_cause(
         });
         median(differences) > LEAST_DIFFERENCE
     };
-    let tried = candidates.iter().filter(|candidate| differs(&candidate.right));
-    let tried: Vec<(SimpleCause, f64)> = tried
-        .map(|candidate| (candidate.cause, unexplained(&candidate.right)))
+    let candidates: Vec<&Candidate> = (candidates.iter())
+        .filter(|candidate| differs(&candidate.right))
         .collect();
-    let least = tried.iter().map(|(_, left)| *left).fold(f64::INFINITY, f64::min);
-    let is_as_good = |left: f64| left <= LOOKS_SAME * least + LITTLE;
-    let is_clear = least <= LEAST_GAIN * now
-        && offset.is_none_or(|offset| least <= LOOKS_SAME * offset + LITTLE);
-    let mut best = tried.into_iter().filter(|(_, left)| is_as_good(*left));
-    let first = best.next().filter(|_| is_clear)?;
+    let tried = candidates.iter().map(|candidate| &candidate.right);
+    let all: Vec<&Vectors> = std::iter::once(velocity)
+        .chain(tried)
+        .chain(&offset)
+        .collect();
+    let mut left = measure_unexplained(pair, blocks, &all);
+    let now = left.remove(0);
+    let least = left[..candidates.len()]
+        .iter()
+        .copied()
+        .fold(f64::INFINITY, f64::min);
+    let limit = LOOKS_SAME * least + LITTLE;
+    let offset = left.get(candidates.len()).copied().unwrap_or(f64::INFINITY);
+    if least > LEAST_GAIN * now || least > LOOKS_SAME * offset + LITTLE {
+        return None;
+    }
+    let as_good = std::iter::zip(&candidates, &left).filter(|(_, left)| **left <= limit);
+    let mut causes = as_good.map(|(candidate, _)| candidate.cause);
     Some(CauseFound {
-        cause: first.0,
-        looks_like: best.map(|(cause, _)| cause).collect(),
+        cause: causes.next()?,
+        looks_like: causes.collect(),
     })
 }
 
-/// Measures the part of some blocks' detail that a velocity does not explain: pixels that it leads
-/// to other surfaces count whole, those that it leads out of the picture do not count.
-fn measure_unexplained(pair: &FramePair, blocks: &[Block], velocity: &Vectors) -> f64 {
-    let mut left = 0.0;
-    let mut all = 0.0;
-    for block in blocks {
+/// What a velocity makes of a block.
+struct Outcome {
+    /// Pixels that it leads to other surfaces.
+    wrong: f64,
+    /// Pixels that it leads to the same surface.
+    same: f64,
+    /// Correlation of the pictures there; 0 without detail.
+    correlation: f64,
+}
+
+impl Outcome {
+    fn of(pair: &FramePair, block: &Block, velocity: &Vectors) -> Self {
         let seen = block.pixels.iter();
         let seen = seen.map(|at| pair.look(*at, pair.place(*at, velocity)));
-        let wrong = seen.clone().filter(|seen| matches!(seen, Seen::Hidden | Seen::Behind));
-        let wrong = wrong.count() as f64;
-        let same = seen.filter(|seen| *seen == Seen::Same).count() as f64;
-        let correlation = Equations::at(pair, block, velocity, DVec2::ZERO)
-            .map_or(0.0, |equations| equations.correlation.max(0.0));
-        left += wrong + same * (1.0 - correlation);
-        all += wrong + same;
+        let wrong = seen
+            .clone()
+            .filter(|seen| matches!(seen, Seen::Hidden | Seen::Behind));
+        let equations = Equations::at(pair, block, velocity, DVec2::ZERO);
+        Self {
+            wrong: wrong.count() as f64,
+            same: seen.filter(|seen| *seen == Seen::Same).count() as f64,
+            correlation: equations.map_or(0.0, |equations| equations.correlation.max(0.0)),
+        }
     }
-    if all > 0.0 { left / all } else { 1.0 }
+}
+
+/// Measures the part of some blocks that each velocity does not explain. Pixels that it leads to
+/// other surfaces count whole, and those that it leads out of the picture do not count. The detail
+/// of a block counts if one of the velocities makes both pictures of it alike: light may change
+/// too.
+fn measure_unexplained(pair: &FramePair, blocks: &[Block], velocities: &[&Vectors]) -> Vec<f64> {
+    let mut left = vec![0.0; velocities.len()];
+    let mut all = vec![f64::EPSILON; velocities.len()];
+    for block in blocks {
+        let outcomes = velocities
+            .iter()
+            .map(|velocity| Outcome::of(pair, block, velocity));
+        let outcomes: Vec<Outcome> = outcomes.collect();
+        let best = outcomes
+            .iter()
+            .map(|outcome| outcome.correlation)
+            .fold(0.0, f64::max);
+        let counts = best >= LEAST_CORRELATION && has_detail(pair, block);
+        for (index, outcome) in outcomes.iter().enumerate() {
+            let unlike = if counts {
+                1.0 - outcome.correlation
+            } else {
+                0.0
+            };
+            left[index] += outcome.wrong + outcome.same * unlike;
+            all[index] += outcome.wrong + outcome.same;
+        }
+    }
+    std::iter::zip(left, all)
+        .map(|(left, all)| left / all)
+        .collect()
 }

@@ -10,7 +10,16 @@ use crate::audit_self::verdict::Verdict;
 
 /// Lists each region in its worst frame, then what is wrong, then what nobody knows.
 pub fn sequence_table(audit: &SequenceAudit) -> Text {
-    let columns = ["frame", "seen", "detail", "speed", "error in x, y", "95 %", "spread", "velocity"];
+    let columns = [
+        "frame",
+        "seen",
+        "detail",
+        "speed",
+        "error in x, y",
+        "95 %",
+        "spread",
+        "velocity",
+    ];
     let mut table = Table::new("region", columns).with_words_in(columns.len());
     for (frame, region) in list_worst(&audit.pairs) {
         table.push(&region.region, list_cells(frame, region));
@@ -42,7 +51,9 @@ fn list_worst(pairs: &[PairAudit]) -> Vec<(usize, &RegionAudit)> {
     let mut worst: Vec<(usize, &RegionAudit)> = Vec::new();
     for pair in pairs {
         for region in &pair.regions {
-            let known = worst.iter().position(|(_, known)| known.region == region.region);
+            let known = worst
+                .iter()
+                .position(|(_, known)| known.region == region.region);
             match known {
                 Some(at) if badness(region) > badness(worst[at].1) => {
                     worst[at] = (pair.frame, region);
@@ -78,8 +89,10 @@ fn list_cells(frame: usize, region: &RegionAudit) -> [String; 8] {
         percent(seen),
         percent(shares.compared),
         format!("{:.2}", region.speed),
-        error.map_or_else(none, |error| format!("{:+.2}, {:+.2}", error.bias[0], error.bias[1])),
-        error.map_or_else(none, |error| format!("{:.2}", error.half_along_bias())),
+        error.map_or_else(none, |error| {
+            format!("{:+.2}, {:+.2}", error.bias[0], error.bias[1])
+        }),
+        error.map_or_else(none, |error| format!("{:.2}", error.half_width_along)),
         error.map_or_else(none, |error| format!("{:.2}", error.spread)),
         match region.verdict {
             Verdict::Carries if error.is_some_and(|error| error.only_along.is_some()) => {

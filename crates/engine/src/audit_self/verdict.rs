@@ -3,7 +3,7 @@
 use glam::DVec2;
 use serde::Serialize;
 
-use crate::audit_self::block::{Block, MIN_PIXELS};
+use crate::audit_self::block::Block;
 use crate::audit_self::block_match::{Match, Shifted};
 use crate::audit_self::estimate::{Estimate, WIDEST, median_shift};
 use crate::audit_self::frame_pair::Seen;
@@ -13,14 +13,19 @@ pub const TOLERANCE: f64 = 0.1;
 /// Half widths of the 95 % interval by which a bias must exceed zero: about four standard errors,
 /// since many regions of many frames are compared.
 const LEAST_HALF_WIDTHS: f64 = 2.0;
-/// Part of a region's blocks with detail that must be off before it is wrong.
-const LEAST_OFF: f64 = 0.1;
-/// Smallest number of such blocks, unless they are most of them.
+/// Part of a region's blocks with detail that must be off before it is wrong: shadows and highlights
+/// that pass make a few seem so.
+const LEAST_OFF: f64 = 0.3;
+/// Smallest number of such blocks.
 const LEAST_BLOCKS: usize = 2;
+/// Common shift of a few blocks that is wrong without an interval, in pixels.
+const LEAST_OTHER: f64 = 1.0;
 /// Part of the blocks with detail that must be alike before a region is judged by them.
 const LEAST_ALIKE: f64 = 0.5;
 /// Part of a region's visible pixels that lead behind their surface, from which on it is wrong.
 const LEAST_BEHIND: f64 = 0.03;
+/// Smallest number of these pixels.
+const LEAST_BEHIND_PIXELS: f64 = 9.0;
 
 /// Whether velocity carries one frame to the next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -97,14 +102,18 @@ impl<'a> Evidence<'a> {
         let all = seen.len().max(1) as f64;
         let share = |kind: Seen| seen.iter().filter(|seen| **seen == kind).count() as f64 / all;
         let pixels = |is_counted: &dyn Fn(&Match) -> bool| {
-            let counted = blocks.iter().zip(matches).filter(|(_, state)| is_counted(state));
+            let counted = blocks
+                .iter()
+                .zip(matches)
+                .filter(|(_, state)| is_counted(state));
             counted.map(|(block, _)| block.pixels.len()).sum::<usize>() as f64 / all
         };
         let [even, unlike] = [
             pixels(&|state| matches!(state, Match::Even)),
             pixels(&|state| matches!(state, Match::Unlike)),
         ];
-        let count = |is_counted: &dyn Fn(&&Match) -> bool| matches.iter().filter(is_counted).count();
+        let count =
+            |is_counted: &dyn Fn(&&Match) -> bool| matches.iter().filter(is_counted).count();
         Self {
             shifted: (blocks.iter().zip(matches))
                 .filter_map(|(block, state)| match state {
@@ -130,17 +139,25 @@ impl<'a> Evidence<'a> {
 
     /// Judges a region.
     pub fn judge(&self) -> Verdict {
-        let Shares { behind, edges, outside, .. } = self.shares;
+        let Shares {
+            behind,
+            edges,
+            outside,
+            ..
+        } = self.shares;
         let clear = 1.0 - edges - outside;
-        let is_behind = behind * self.pixels as f64 >= MIN_PIXELS as f64
-            && behind >= LEAST_BEHIND * clear;
+        let is_behind =
+            behind * self.pixels as f64 >= LEAST_BEHIND_PIXELS && behind >= LEAST_BEHIND * clear;
         let alike = self.shifted.len();
         let detailed = alike + self.unlike;
-        let off = self.shifted.iter().filter(|(_, shifted)| shifted.is_off).count();
-        let is_off = off as f64 >= LEAST_OFF * detailed as f64
-            && (off >= LEAST_BLOCKS || 2 * off > detailed);
+        let off = self
+            .shifted
+            .iter()
+            .filter(|(_, shifted)| shifted.is_off)
+            .count();
+        let is_off = off >= LEAST_BLOCKS && off as f64 >= LEAST_OFF * detailed as f64;
         let told = match (alike, self.estimate) {
-            (1.., _) if is_off && off > 0 => self.judge_off(),
+            _ if is_off => self.judge_off(),
             (0, _) if self.unlike > 0 => Verdict::CannotTell(Reason::Unlike),
             (0, _) if self.even > 0 => Verdict::CannotTell(Reason::NoDetail),
             (0, _) => Verdict::CannotTell(Reason::TooSmall),
@@ -163,10 +180,10 @@ impl<'a> Evidence<'a> {
         let is_near = |shifted: &Shifted| shifted.fit.shift.distance(middle) <= WIDEST;
         let near = self.shifted.iter().filter(|(_, shifted)| is_near(shifted));
         let is_one = near.count() as f64 >= (1.0 - LEAST_OFF) * self.shifted.len() as f64;
-        if is_one && self.estimate.is_some_and(|estimate| is_biased(&estimate)) {
-            Verdict::IsOff
-        } else {
-            Verdict::IsNotTheMotion
+        match self.estimate {
+            Some(estimate) if is_one && is_biased(&estimate) => Verdict::IsOff,
+            None if is_one && middle.length() < LEAST_OTHER => Verdict::CannotTell(Reason::TooWide),
+            _ => Verdict::IsNotTheMotion,
         }
     }
 
@@ -178,6 +195,5 @@ impl<'a> Evidence<'a> {
 }
 
 fn is_biased(estimate: &Estimate) -> bool {
-    estimate.size() > TOLERANCE
-        && estimate.size() > LEAST_HALF_WIDTHS * estimate.half_along_bias()
+    estimate.size() > TOLERANCE && estimate.size() > LEAST_HALF_WIDTHS * estimate.half_width_along
 }

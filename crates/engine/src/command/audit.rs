@@ -10,6 +10,7 @@ use terminal::output::{Text, print, print_note};
 use terminal::refuse;
 use terminal::result::{Ending, write_json};
 
+use super::audit_self::{SelfAuditPlan, audit_frames_alone};
 use super::capture::{load_drawn_scene, name_folder};
 use crate::audit::{audit_capture, audit_table, write_audit_picture};
 use crate::capture::folder::Capture;
@@ -50,7 +51,12 @@ pub struct AuditArgs {
 /// engine drew something else.
 pub fn execute(args: &AuditArgs) -> Result<Ending, Error> {
     if args.frames_alone {
-        return super::audit_self::execute(args);
+        return audit_frames_alone(&SelfAuditPlan {
+            frames: &args.capture,
+            convention: args.convention.as_deref(),
+            out: args.out.as_ref(),
+            as_json: args.json,
+        });
     }
     let capture = Capture::read(&args.capture, args.convention.as_deref())?;
     capture.require_buffers()?;
