@@ -1,4 +1,4 @@
-//! The shift of each block: fitted from where velocity leads, or searched around it.
+//! Shifts of single blocks: fitted where velocity leads, or searched around that place.
 
 use frame::Vectors;
 use glam::DVec2;
@@ -27,11 +27,11 @@ const LEAST_GAIN: f64 = 0.6;
 /// Smallest number of standard errors of a real shift: many blocks are compared.
 const LEAST_CERTAINTY: f64 = 5.0;
 
-/// What the comparison of a block says.
+/// Result of the comparison of a block.
 pub enum Match {
-    /// Nothing: too few of its pixels are visible in both frames.
+    /// None: too few of its pixels are visible in both frames.
     Unseen,
-    /// Nothing: its brightness is even.
+    /// None: its brightness is even.
     Even,
     /// No shift makes both pictures alike.
     Unlike,

@@ -1,4 +1,4 @@
-//! Brightness of a picture, smoothed, to compare with another picture between its pixels.
+//! Smoothed brightness of a picture, also between its pixels.
 
 use frame::{Image, Plane, Raster};
 use glam::DVec2;

@@ -19,7 +19,7 @@ const SAME_MOTION: f64 = 1.0;
 const MAX_STEPS: usize = 6;
 /// Probability above the interval, and below it.
 const TAIL: f64 = 0.025;
-/// Largest half width of an interval that says something, in pixels.
+/// Largest half width of a useful interval, in pixels.
 pub const WIDEST: f64 = 0.25;
 /// Factor on the standard error: without it, 88 % of planted errors were in their intervals, since
 /// few blocks have most of the detail.

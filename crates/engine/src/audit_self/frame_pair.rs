@@ -1,4 +1,4 @@
-//! Two consecutive frames, and what a place of the earlier one shows of a pixel of the later one.
+//! Pairs of consecutive frames: is a surface of the later one visible at a place of the earlier one?
 
 use std::collections::BTreeMap;
 
@@ -19,7 +19,7 @@ const MIN_RATIOS: usize = 9;
 /// Largest ratio of the depths of a point that comes closer.
 const LARGEST_APPROACH: f32 = 2.0;
 
-/// What the earlier frame shows where velocity says that a pixel's surface was.
+/// Content of the earlier frame where velocity says that a pixel's surface was.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Seen {
     /// The same surface.

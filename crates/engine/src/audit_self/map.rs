@@ -1,4 +1,4 @@
-//! Pictures of an audit: what each pixel says of its velocity.
+//! Maps of an audit: the result of each pixel.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ const SHOWN: f64 = 0.25;
 /// Smallest width of a picture.
 const MIN_WIDTH: u32 = 480;
 
-/// What a pixel says of its velocity.
+/// Result of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MapPixel {
     /// Nothing: an edge, outside the picture or hidden in the frame before.

@@ -10,7 +10,7 @@ use crate::audit_self::estimate::Estimate;
 use crate::audit_self::frame_pair::{FramePair, Seen, to_vector};
 use crate::audit_self::map::MapPixel;
 use crate::audit_self::simple_cause::{
-    Candidate, CauseFound, SimpleCause, find_cause, list_candidates,
+    Candidate, NamedCause, SimpleCause, find_cause, list_candidates,
 };
 use crate::audit_self::verdict::{Evidence, Shares, Verdict};
 use crate::capture::folder::Capture;
@@ -30,7 +30,7 @@ pub struct RegionAudit {
     pub region: String,
     /// Number of its pixels.
     pub pixels: usize,
-    /// What becomes of them.
+    /// Parts of them.
     pub shares: Shares,
     /// Median speed by the engine's velocity, in pixels per frame.
     pub speed: f64,
@@ -38,8 +38,8 @@ pub struct RegionAudit {
     pub error: Option<Estimate>,
     /// Verdict.
     pub verdict: Verdict,
-    /// What explains a wrong velocity.
-    pub cause: Option<CauseFound>,
+    /// Cause of a wrong velocity, if a simple one explains it.
+    pub cause: Option<NamedCause>,
 }
 
 /// Audit of one frame against the frame before.
@@ -51,7 +51,7 @@ pub struct PairAudit {
     pub regions: Vec<RegionAudit>,
 }
 
-/// Compares a frame with the one before; also returns what each pixel says. `next` is the frame
+/// Compares a frame with the one before; also returns the result of each pixel. `next` is the frame
 /// after it.
 pub fn audit_pair(
     [before, after]: [&Capture; 2],
@@ -99,7 +99,7 @@ fn audit_region(
     let find = || {
         if speed <= STILL {
             let zero = SimpleCause::Zero;
-            return Some(CauseFound {
+            return Some(NamedCause {
                 cause: zero,
                 looks_like: Vec::new(),
             });
@@ -117,7 +117,7 @@ fn audit_region(
     }
 }
 
-/// Draws what the blocks of a region say.
+/// Draws the result of each block of a region.
 fn draw_region(pair: &FramePair, region: &Region, matches: &[Match], map: &mut Raster<MapPixel>) {
     let velocity = &pair.after.velocity;
     for (block, state) in region.blocks.iter().zip(matches) {

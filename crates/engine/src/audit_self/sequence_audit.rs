@@ -11,8 +11,8 @@ use crate::audit_self::sequence::check_same_form;
 use crate::audit_self::verdict::Verdict;
 use crate::capture::folder::Capture;
 
-/// What an audit without a scene cannot know.
-pub const UNKNOWN: [&str; 5] = [
+/// Limits of an audit without a scene.
+const UNKNOWN: [&str; 5] = [
     "motion along an edge, or of a surface without detail",
     "shading that moves without its surface: shadows, reflections",
     "which repetition of a pattern is the right one",
@@ -20,7 +20,7 @@ pub const UNKNOWN: [&str; 5] = [
     "whether depth and ids are right: they decide what is hidden",
 ];
 
-/// Whether the velocity of consecutive frames carries each to the next.
+/// Audit of the velocity of consecutive frames.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SequenceAudit {
     /// Engine, as named in the first capture.
@@ -35,9 +35,9 @@ pub struct SequenceAudit {
     pub pairs: Vec<PairAudit>,
     /// True if velocity carries some region, and no other is wrong.
     pub carries: bool,
-    /// What is wrong; empty if nothing is.
+    /// Findings; empty if nothing is wrong.
     pub findings: Vec<SelfFinding>,
-    /// What this audit cannot know.
+    /// Limits of this audit.
     pub unknown: [&'static str; 5],
 }
 

@@ -15,7 +15,7 @@ use crate::statistics::median;
 const LEAST_GAIN: f64 = 0.5;
 /// Ratio of what two causes leave unexplained up to which they look the same.
 const LOOKS_SAME: f64 = 1.15;
-/// What is left unexplained of pictures that are alike.
+/// Part of the blocks that a right velocity may leave unexplained.
 const LITTLE: f64 = 0.005;
 /// Smallest median difference of a cause's velocity from the engine's, in pixels.
 const LEAST_DIFFERENCE: f64 = 0.1;
@@ -143,9 +143,9 @@ fn read_at(velocity: &Vectors, at: usize, motion: DVec2) -> [f32; 2] {
     *velocity.at(place.x as u32, place.y as u32)
 }
 
-/// What a wrong velocity is explained by.
+/// Cause of a wrong velocity.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct CauseFound {
+pub struct NamedCause {
     pub cause: SimpleCause,
     /// Causes that the pictures do not tell from it.
     pub looks_like: Vec<SimpleCause>,
@@ -158,7 +158,7 @@ pub fn find_cause(
     blocks: &[Block],
     candidates: &[Candidate],
     shift: Option<DVec2>,
-) -> Option<CauseFound> {
+) -> Option<NamedCause> {
     let velocity = &pair.after.velocity;
     let offset = shift.map(|shift| {
         let change = [shift.x as f32, shift.y as f32];
@@ -193,13 +193,13 @@ pub fn find_cause(
     }
     let as_good = std::iter::zip(&candidates, &left).filter(|(_, left)| **left <= limit);
     let mut causes = as_good.map(|(candidate, _)| candidate.cause);
-    Some(CauseFound {
+    Some(NamedCause {
         cause: causes.next()?,
         looks_like: causes.collect(),
     })
 }
 
-/// What a velocity makes of a block.
+/// Effect of a velocity on a block.
 struct Outcome {
     /// Pixels that it leads to other surfaces.
     wrong: f64,

@@ -8,14 +8,14 @@ use crate::audit_self::pair_audit::{PairAudit, RegionAudit};
 use crate::audit_self::sequence_audit::SequenceAudit;
 use crate::audit_self::verdict::Verdict;
 
-/// Lists each region in its worst frame, then what is wrong, then what nobody knows.
+/// Lists each region in its worst frame, then the findings, then the limits of the audit.
 pub fn sequence_table(audit: &SequenceAudit) -> Text {
     let columns = [
         "frame",
         "seen",
         "detail",
         "speed",
-        "error in x, y",
+        "error x, y",
         "95 %",
         "spread",
         "velocity",
@@ -96,7 +96,7 @@ fn list_cells(frame: usize, region: &RegionAudit) -> [String; 8] {
         error.map_or_else(none, |error| format!("{:.2}", error.spread)),
         match region.verdict {
             Verdict::Carries if error.is_some_and(|error| error.only_along.is_some()) => {
-                "carries (one way)".to_owned()
+                "carries (1 way)".to_owned()
             }
             Verdict::Carries => "carries".to_owned(),
             Verdict::IsOff => "is off".to_owned(),

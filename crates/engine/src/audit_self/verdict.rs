@@ -1,4 +1,4 @@
-//! What is said of a region's velocity.
+//! Verdicts on regions, from the evidence of their blocks.
 
 use glam::DVec2;
 use serde::Serialize;
@@ -9,7 +9,7 @@ use crate::audit_self::estimate::{Estimate, WIDEST, median_shift};
 use crate::audit_self::frame_pair::Seen;
 
 /// Largest bias of a right velocity, in pixels.
-pub const TOLERANCE: f64 = 0.1;
+const TOLERANCE: f64 = 0.1;
 /// Half widths of the 95 % interval by which a bias must exceed zero: about four standard errors,
 /// since many regions of many frames are compared.
 const LEAST_HALF_WIDTHS: f64 = 2.0;
@@ -27,7 +27,7 @@ const LEAST_BEHIND: f64 = 0.03;
 /// Smallest number of these pixels.
 const LEAST_BEHIND_PIXELS: f64 = 9.0;
 
-/// Whether velocity carries one frame to the next.
+/// Verdict on a velocity: does it lead to the frame before?
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
@@ -41,7 +41,7 @@ pub enum Verdict {
     CannotTell(Reason),
 }
 
-/// Why pictures do not tell.
+/// Reason why the pictures do not tell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Reason {
@@ -56,6 +56,7 @@ pub enum Reason {
 }
 
 impl Reason {
+    /// Names the reason in a few words.
     pub fn name(self) -> &'static str {
         match self {
             Self::TooSmall => "too small",
@@ -85,7 +86,7 @@ pub struct Shares {
     pub unlike: f64,
 }
 
-/// What the blocks of a region say.
+/// Evidence of the blocks of a region.
 pub struct Evidence<'a> {
     pub shifted: Vec<(&'a Block, Shifted)>,
     pub even: usize,
@@ -97,7 +98,7 @@ pub struct Evidence<'a> {
 }
 
 impl<'a> Evidence<'a> {
-    /// Counts what the blocks of a region say; `seen` says what became of all its pixels.
+    /// Counts the blocks of a region by their match, and its pixels by what the frame before shows.
     pub fn of(blocks: &'a [Block], matches: &[Match], seen: &[Seen]) -> Self {
         let all = seen.len().max(1) as f64;
         let share = |kind: Seen| seen.iter().filter(|seen| **seen == kind).count() as f64 / all;
@@ -156,7 +157,7 @@ impl<'a> Evidence<'a> {
             .filter(|(_, shifted)| shifted.is_off)
             .count();
         let is_off = off >= LEAST_BLOCKS && off as f64 >= LEAST_OFF * detailed as f64;
-        let told = match (alike, self.estimate) {
+        let verdict = match (alike, self.estimate) {
             _ if is_off => self.judge_off(),
             (0, _) if self.unlike > 0 => Verdict::CannotTell(Reason::Unlike),
             (0, _) if self.even > 0 => Verdict::CannotTell(Reason::NoDetail),
@@ -168,9 +169,9 @@ impl<'a> Evidence<'a> {
             (_, Some(estimate)) if is_biased(&estimate) => Verdict::IsOff,
             (_, Some(_)) => Verdict::Carries,
         };
-        match told {
+        match verdict {
             Verdict::CannotTell(_) | Verdict::Carries if is_behind => Verdict::IsNotTheMotion,
-            told => told,
+            verdict => verdict,
         }
     }
 
@@ -182,7 +183,7 @@ impl<'a> Evidence<'a> {
         let is_one = near.count() as f64 >= (1.0 - LEAST_OFF) * self.shifted.len() as f64;
         match self.estimate {
             Some(estimate) if is_one && is_biased(&estimate) => Verdict::IsOff,
-            None if is_one && middle.length() < LEAST_OTHER => Verdict::CannotTell(Reason::TooWide),
+            _ if is_one && middle.length() < LEAST_OTHER => Verdict::CannotTell(Reason::TooWide),
             _ => Verdict::IsNotTheMotion,
         }
     }

@@ -76,8 +76,8 @@ fn audit(frames: &[Capture]) -> SequenceAudit {
 /// Finds a region in a frame.
 fn region<'a>(audit: &'a SequenceAudit, frame: usize, name: &str) -> &'a RegionAudit {
     let mut regions = audit.pairs[frame - 1].regions.iter();
-    let found = regions.find(|region| region.region == name);
-    found.unwrap_or_else(|| panic!("no {name} in frame {frame}"))
+    let region = regions.find(|region| region.region == name);
+    region.unwrap_or_else(|| panic!("no {name} in frame {frame}"))
 }
 
 #[track_caller]
