@@ -86,13 +86,7 @@ impl Capture {
         described_in: &Path,
         convention: Option<&Path>,
     ) -> Result<Self, Error> {
-        if !folder.is_dir() {
-            return refuse!(
-                folder,
-                "there is no such folder; name one that holds an engine's capture.toml, color.exr, velocity.exr and depth.exr"
-            );
-        }
-        let description = CaptureDescription::read(described_in)?;
+        let description = describe(folder, described_in)?;
         let lacks = list_lacking(folder)?;
         let convention = read_convention(folder, convention, lacks.len() < 2)?;
         let Some(color_path) = find_picture(folder, "color")? else {
@@ -199,6 +193,17 @@ impl Capture {
             ),
         }
     }
+}
+
+/// Reads the description of a capture from its folder, or from that of its sequence.
+fn describe(folder: &Path, described_in: &Path) -> Result<CaptureDescription, Error> {
+    if !folder.is_dir() {
+        return refuse!(
+            folder,
+            "there is no such folder; name one that holds an engine's capture.toml, color.exr, velocity.exr and depth.exr"
+        );
+    }
+    CaptureDescription::read(described_in)
 }
 
 /// Lists which of velocity and depth a capture does not have.
