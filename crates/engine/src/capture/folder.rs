@@ -63,7 +63,7 @@ impl Capture {
     /// Reads a capture without its sub-frames. Takes the convention from the named file, or else
     /// from `engine.toml` in the folder.
     pub fn read(folder: &Path, convention: Option<&Path>) -> Result<Self, Error> {
-        let capture = Self::read_files(folder, convention)?;
+        let capture = Self::read_files(folder, folder, convention)?;
         // Without sub-frames there would be nothing to measure, either.
         if capture.subframes.is_empty() {
             capture.require_buffers()?;
@@ -71,14 +71,22 @@ impl Capture {
         Ok(capture)
     }
 
-    fn read_files(folder: &Path, convention: Option<&Path>) -> Result<Self, Error> {
-        if !folder.is_dir() {
-            return refuse!(
-                folder,
-                "there is no such folder; name one that holds an engine's capture.toml, color.exr, velocity.exr and depth.exr"
-            );
-        }
-        let description = CaptureDescription::read(folder)?;
+    /// Reads a frame of a sequence, whose folder describes the frames that have no `capture.toml`.
+    pub fn read_of_sequence(
+        folder: &Path,
+        sequence: &Path,
+        convention: Option<&Path>,
+    ) -> Result<Self, Error> {
+        let has_own = folder.join(CAPTURE_FILE).is_file();
+        Self::read_files(folder, if has_own { folder } else { sequence }, convention)
+    }
+
+    fn read_files(
+        folder: &Path,
+        described_in: &Path,
+        convention: Option<&Path>,
+    ) -> Result<Self, Error> {
+        let description = describe(folder, described_in)?;
         let lacks = list_lacking(folder)?;
         let convention = read_convention(folder, convention, lacks.len() < 2)?;
         let Some(color_path) = find_picture(folder, "color")? else {
@@ -185,6 +193,17 @@ impl Capture {
             ),
         }
     }
+}
+
+/// Reads the description of a capture from its folder, or from that of its sequence.
+fn describe(folder: &Path, described_in: &Path) -> Result<CaptureDescription, Error> {
+    if !folder.is_dir() {
+        return refuse!(
+            folder,
+            "there is no such folder; name one that holds an engine's capture.toml, color.exr, velocity.exr and depth.exr"
+        );
+    }
+    CaptureDescription::read(described_in)
 }
 
 /// Lists which of velocity and depth a capture does not have.

@@ -10,6 +10,7 @@ use terminal::output::{Text, print, print_note};
 use terminal::refuse;
 use terminal::result::{Ending, write_json};
 
+use super::audit_self::{SelfAuditPlan, audit_frames_alone};
 use super::capture::{load_drawn_scene, name_folder};
 use crate::audit::{audit_capture, audit_table, write_audit_picture};
 use crate::capture::folder::Capture;
@@ -18,9 +19,14 @@ use crate::capture::folder::Capture;
 #[derive(Debug, Args)]
 pub struct AuditArgs {
     /// Folder of a capture, as for `engine ingest`: capture.toml, color.exr, velocity.exr,
-    /// depth.exr; object.exr makes the audit sharper.
+    /// depth.exr; object.exr makes the audit sharper. With --self, a folder 0000, 0001 .. of them
+    /// per frame.
     #[arg(value_name = "DIR")]
     pub capture: PathBuf,
+    /// Compare consecutive frames with each other instead of a scene: does velocity lead from each
+    /// to the frame before?
+    #[arg(long = "self", conflicts_with = "scene")]
+    pub frames_alone: bool,
     /// TOML file with a table [convention] that says which velocity and depth the engine has
     /// [default: engine.toml in DIR].
     #[arg(long, value_name = "FILE")]
@@ -31,7 +37,8 @@ pub struct AuditArgs {
     /// Folder of scenes.
     #[command(flatten)]
     pub root: RootArgs,
-    /// Folder for audit.json, and for a picture of the worst place of each object that is wrong
+    /// Folder for audit.json, and for a picture of the worst place of each object that is wrong;
+    /// with --self, a map of each frame
     /// [default: out/audit/<name of DIR>].
     #[arg(short, long, value_name = "DIR")]
     pub out: Option<PathBuf>,
@@ -43,6 +50,14 @@ pub struct AuditArgs {
 /// Compares what an engine drew with the scene; fails if anything is wrong, and is undecided if the
 /// engine drew something else.
 pub fn execute(args: &AuditArgs) -> Result<Ending, Error> {
+    if args.frames_alone {
+        return audit_frames_alone(&SelfAuditPlan {
+            frames: &args.capture,
+            convention: args.convention.as_deref(),
+            out: args.out.as_ref(),
+            as_json: args.json,
+        });
+    }
     let capture = Capture::read(&args.capture, args.convention.as_deref())?;
     capture.require_buffers()?;
     for note in &capture.notes {

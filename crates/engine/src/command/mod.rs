@@ -1,6 +1,7 @@
 //! The commands of `engine`.
 
 pub mod audit;
+mod audit_self;
 pub mod blur;
 mod capture;
 pub mod export;

@@ -2,4 +2,5 @@
 //! tests/scenes.
 
 mod audit;
+mod audit_self;
 mod gltf;

@@ -2,6 +2,7 @@
 //! with the program once.
 
 mod audit;
+mod audit_self;
 #[cfg(unix)]
 mod blender;
 mod foreign_pictures;
