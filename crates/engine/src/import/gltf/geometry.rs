@@ -114,7 +114,7 @@ impl Meshes {
         self.read_influences(file, entry, &mut primitive)?;
         for target in &*entry.targets {
             self.count(0, 0, 6 * count)?;
-            let mut read = |name: &str| -> Result<Vec<Vec3>, String> {
+            let read = |name: &str| -> Result<Vec<Vec3>, String> {
                 let Some(accessor) = target.get(name) else {
                     return Ok(Vec::new());
                 };

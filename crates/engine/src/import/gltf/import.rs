@@ -219,13 +219,14 @@ impl Import<'_> {
             return Ok((Camera::Node(chosen.node), film));
         }
         extent.check().or_else(|reason| refuse!(path, "{reason}"))?;
-        self.notes.push(match (&chosen, plan.orbit) {
-            (Some(_), Some(_)) => "the orbiting camera replaces the file's own".to_owned(),
-            _ => {
-                self.notes.extend(note);
-                "the file has no perspective camera; one is framed on the model, with a floor and a wall".to_owned()
-            }
-        });
+        if chosen.is_some() {
+            self.notes.push("the orbiting camera replaces the file's own".to_owned());
+        } else {
+            self.notes.extend(note);
+            self.notes.push(
+                "the file has no perspective camera; one is framed on the model, with a floor and a wall".to_owned(),
+            );
+        }
         Ok(frame_model(extent, plan.orbit.unwrap_or(0.0)))
     }
 
