@@ -16,8 +16,9 @@ const RATE: f64 = 60.0;
 /// Arguments of `engine import`.
 #[derive(Debug, Args)]
 pub struct ImportArgs {
-    /// OBJ file, which is copied with the MTL and PNG files that it names; or a glTF file (.glb,
-    /// .gltf) with its own animation, cameras and lights.
+    /// OBJ file, which is copied with the MTL and PNG files that it names; a folder of OBJ files, one
+    /// per frame, with the same faces; or a glTF file (.glb, .gltf) with its own animation, cameras
+    /// and lights.
     #[arg(value_name = "MODEL")]
     pub model: PathBuf,
     /// New folder for the scene, which gives the scene its name [default: out/<name of MODEL>].
@@ -65,12 +66,13 @@ pub struct GltfArgs {
     /// Frames per second, which say how far things move in a frame [default: 60].
     #[arg(long, value_name = "RATE", value_parser = parse_rate)]
     pub fps: Option<f64>,
-    /// Frames of a sequence, for `run --frames` [default: 1].
+    /// Frames of a sequence, for `run --frames`; of a folder of OBJ files too [default: 1].
     #[arg(long, value_name = "N", value_parser = frame_count())]
     pub frames: Option<u32>,
-    /// Animation, by its name [default: the first].
+    /// Animation, by its name; repeatable, for animations of different nodes that play together
+    /// [default: the first].
     #[arg(long, value_name = "NAME")]
-    pub animation: Option<String>,
+    pub animation: Vec<String>,
     /// Camera, by its name [default: the first; without any, one is framed on the model].
     #[arg(long, value_name = "NAME")]
     pub camera: Option<String>,
@@ -119,13 +121,14 @@ fn obj_plan(args: &ImportArgs, out: &Path) -> Result<ImportPlan, Error> {
     let given = [
         (time.is_some(), "--time"),
         (fps.is_some(), "--fps"),
-        (frames.is_some(), "--frames"),
-        (animation.is_some(), "--animation"),
+        (frames.is_some() && !args.model.is_dir(), "--frames"),
+        (!animation.is_empty(), "--animation"),
         (camera.is_some(), "--camera"),
     ];
     refuse_given(&given, args, "glTF files (.glb, .gltf)")?;
     Ok(ImportPlan {
         model: args.model.clone(),
+        frames: frames.unwrap_or(1),
         out: out.to_owned(),
         up: args.obj.up.unwrap_or(Up::Y),
         plain: args.obj.plain,
@@ -151,14 +154,18 @@ fn gltf_plan(args: &ImportArgs, out: &Path) -> Result<GltfPlan, Error> {
         (up.is_some(), "--up"),
         (*plain, "--plain"),
     ];
-    refuse_given(&given, args, "OBJ files; a glTF file has its own motion, and --orbit")?;
+    refuse_given(
+        &given,
+        args,
+        "OBJ files; a glTF file has its own motion, and --orbit",
+    )?;
     Ok(GltfPlan {
         model: args.model.clone(),
         out: out.to_owned(),
         time: args.gltf.time,
         rate: args.gltf.fps.unwrap_or(RATE),
         frames: args.gltf.frames.unwrap_or(1),
-        animation: args.gltf.animation.clone(),
+        animations: args.gltf.animation.clone(),
         camera: args.gltf.camera.clone(),
         orbit: args.orbit,
         exposure: args.exposure,
@@ -175,7 +182,9 @@ fn refuse_given(given: &[(bool, &str)], args: &ImportArgs, files: &str) -> Resul
 
 /// Reads a time such as `1.25s`.
 fn parse_seconds(text: &str) -> Result<f64, String> {
-    let number = text.strip_suffix('s').and_then(|number| number.parse::<f64>().ok());
+    let number = text
+        .strip_suffix('s')
+        .and_then(|number| number.parse::<f64>().ok());
     match number.filter(|seconds| seconds.abs() <= 1e6) {
         Some(seconds) => Ok(seconds),
         None => Err("allowed: seconds such as 1.25s".into()),
@@ -185,7 +194,11 @@ fn parse_seconds(text: &str) -> Result<f64, String> {
 /// Reads frames per second.
 fn parse_rate(text: &str) -> Result<f64, String> {
     let [slowest, fastest] = [scene::limits::SLOWEST_RATE, scene::limits::FASTEST_RATE];
-    match text.parse::<f64>().ok().filter(|rate| (slowest..=fastest).contains(rate)) {
+    match text
+        .parse::<f64>()
+        .ok()
+        .filter(|rate| (slowest..=fastest).contains(rate))
+    {
         Some(rate) => Ok(rate),
         None => Err(format!("allowed: {slowest} to {fastest}, such as 60")),
     }

@@ -6,7 +6,6 @@ mod audit;
 mod blender;
 mod foreign_pictures;
 mod further_inputs;
-mod gltf_model;
 mod import;
 mod import_gltf;
 mod ingest;

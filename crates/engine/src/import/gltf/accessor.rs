@@ -68,7 +68,11 @@ fn read_index(bytes: &[u8]) -> u32 {
 
 impl File {
     /// Reads vectors of `N` floats; `what` names them in errors.
-    pub fn floats<const N: usize>(&self, index: usize, what: &str) -> Result<Vec<[f32; N]>, String> {
+    pub fn floats<const N: usize>(
+        &self,
+        index: usize,
+        what: &str,
+    ) -> Result<Vec<[f32; N]>, String> {
         let flat = self.flat_floats(index, N, what)?;
         let (vectors, _) = flat.as_chunks();
         Ok(vectors.to_vec())
@@ -83,7 +87,9 @@ impl File {
         let size = width * component.size;
         let read = |element: &[u8]| -> Vec<f32> {
             let parts = element.chunks_exact(component.size);
-            parts.map(|bytes| (component.read)(bytes, accessor.normalized)).collect()
+            parts
+                .map(|bytes| (component.read)(bytes, accessor.normalized))
+                .collect()
         };
         let mut values: Vec<f32> = match accessor.buffer_view {
             Some(view) => {
@@ -95,8 +101,12 @@ impl File {
         if let Some(sparse) = &accessor.sparse {
             let places = self.sparse_places(sparse, accessor.count).map_err(fail)?;
             let replacements = &sparse.values;
-            let elements =
-                self.elements(replacements.buffer_view, replacements.byte_offset, sparse.count, size);
+            let elements = self.elements(
+                replacements.buffer_view,
+                replacements.byte_offset,
+                sparse.count,
+                size,
+            );
             for (place, element) in places.iter().zip(elements.map_err(fail)?) {
                 let start = *place as usize * width;
                 values[start..start + width].copy_from_slice(&read(element));
@@ -119,7 +129,9 @@ impl File {
         check(accessor, 1).map_err(fail)?;
         let size = index_size(accessor.component_type).map_err(fail)?;
         let (Some(view), None) = (accessor.buffer_view, &accessor.sparse) else {
-            return Err(fail("has no values of its own; export the file again".into()));
+            return Err(fail(
+                "has no values of its own; export the file again".into(),
+            ));
         };
         let elements = self.elements(view, accessor.byte_offset, accessor.count, size);
         Ok(elements.map_err(fail)?.map(read_index).collect())
@@ -128,7 +140,10 @@ impl File {
     /// Reads which elements a sparse accessor replaces.
     fn sparse_places(&self, sparse: &Sparse, count: usize) -> Result<Vec<u32>, String> {
         if sparse.count > count {
-            return Err(format!("replaces {} of its {count} elements; export the file again", sparse.count));
+            return Err(format!(
+                "replaces {} of its {count} elements; export the file again",
+                sparse.count
+            ));
         }
         let at = &sparse.indices;
         let size = index_size(at.component_type)?;
@@ -179,7 +194,10 @@ fn check(accessor: &Accessor, width: usize) -> Result<(), String> {
         _ => "MAT4",
     };
     if accessor.kind != expected {
-        return Err(format!("has the type {:.20}; allowed: {expected}", accessor.kind));
+        return Err(format!(
+            "has the type {:.20}; allowed: {expected}",
+            accessor.kind
+        ));
     }
     if accessor.count > MAX_VERTICES {
         return Err(format!(

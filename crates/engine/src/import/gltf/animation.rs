@@ -85,6 +85,27 @@ impl Animation {
         Ok(animation)
     }
 
+    /// Adds the channels of another animation; refuses two that move one thing.
+    pub fn join(mut self, other: Self) -> Result<Self, String> {
+        let is_same = |a: &Channel, b: &Channel| a.node == b.node && a.part == b.part;
+        for channel in &other.channels {
+            if self.channels.iter().any(|mine| is_same(mine, channel)) {
+                return Err(format!(
+                    "animations \"{}\" and \"{}\" both move nodes[{}]; allowed: animations of different nodes",
+                    self.name, other.name, channel.node
+                ));
+            }
+        }
+        if self.channels.is_empty() {
+            self.name = other.name;
+        } else {
+            self.name += &format!(" + {}", other.name);
+        }
+        self.channels.extend(other.channels);
+        self.unread += other.unread;
+        Ok(self)
+    }
+
     /// Returns the first and the last key's time, in seconds.
     pub fn range(&self) -> Option<[f64; 2]> {
         let ends = self.channels.iter().filter_map(|channel| {
@@ -137,7 +158,11 @@ impl Channel {
         }
         let element = if part == Part::Weights { 1 } else { width };
         let values = file.flat_floats(sampler.output, element, "values of keys")?;
-        let factor = if interpolation == Interpolation::Cubic { 3 } else { 1 };
+        let factor = if interpolation == Interpolation::Cubic {
+            3
+        } else {
+            1
+        };
         let expected = times.len() * width * factor;
         if values.len() != expected {
             return Err(format!(

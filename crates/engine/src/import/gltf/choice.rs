@@ -5,28 +5,32 @@ use super::file::File;
 use super::schema::Perspective;
 use super::stage::Stage;
 
-/// Returns the animation of a name, or the first, and a note that names the others.
-pub fn choose_animation(
+/// Returns the animations of the names, or the first, and a note that names the others.
+pub fn choose_animations(
     file: &File,
-    name: Option<&str>,
-) -> Result<(Option<usize>, Option<String>), String> {
+    names: &[String],
+) -> Result<(Vec<usize>, Option<String>), String> {
     let count = file.json.animations.len();
-    let names: Vec<String> = (0..count).map(|index| display_name(&file.json, index)).collect();
-    let list = quote(&names);
-    match name {
-        Some(name) => match names.iter().position(|other| other == name) {
-            Some(index) => Ok((Some(index), None)),
-            None if count == 0 => Err(format!("has no animation \"{name}\", and no other")),
-            None => Err(format!("has no animation \"{name}\"; allowed: {list}")),
-        },
-        None if count == 0 => Ok((None, None)),
-        None => {
-            let note = (count > 1).then(|| {
-                format!("animation \"{}\" of {list} is imported; choose another with --animation", names[0])
-            });
-            Ok((Some(0), note))
-        }
+    let all: Vec<String> = (0..count)
+        .map(|index| display_name(&file.json, index))
+        .collect();
+    let list = quote(&all);
+    if names.is_empty() {
+        let note = (count > 1).then(|| {
+            format!(
+                "animation \"{}\" of {list} is imported; name another with --animation, or several that play together",
+                all[0]
+            )
+        });
+        return Ok(((0..count.min(1)).collect(), note));
     }
+    let find = |name: &String| match all.iter().position(|other| other == name) {
+        Some(index) => Ok(index),
+        None if count == 0 => Err(format!("has no animation \"{name}\", and no other")),
+        None => Err(format!("has no animation \"{name}\"; allowed: {list}")),
+    };
+    let chosen = names.iter().map(find).collect::<Result<_, String>>()?;
+    Ok((chosen, None))
 }
 
 /// A node with a perspective camera.
@@ -62,16 +66,24 @@ pub fn choose_camera<'a>(
     let chosen = match name {
         None => cameras.first(),
         Some(name) => {
-            let is_named = |title: &String, names: &[&String; 2]| title == name || names.iter().any(|other| *other == name);
-            let found = cameras.iter().find(|(title, names, ..)| is_named(title, names));
+            let is_named = |title: &String, names: &[&String; 2]| {
+                title == name || names.iter().any(|other| *other == name)
+            };
+            let found = cameras
+                .iter()
+                .find(|(title, names, ..)| is_named(title, names));
             if found.is_none() {
-                let what = if orthographic.iter().any(|(title, names)| is_named(title, names)) {
+                let what = if orthographic
+                    .iter()
+                    .any(|(title, names)| is_named(title, names))
+                {
                     format!("its camera \"{name}\" is orthographic, which scenes do not have")
                 } else {
                     format!("has no camera \"{name}\"")
                 };
                 let allowed = if titles.is_empty() {
-                    "none is perspective; leave --camera out, and one is framed on the model".to_owned()
+                    "none is perspective; leave --camera out, and one is framed on the model"
+                        .to_owned()
                 } else {
                     format!("allowed: {list}")
                 };

@@ -6,10 +6,16 @@ pub fn decode_data_uri(uri: &str) -> Result<Vec<u8>, String> {
         return Err("is a data URI without a comma; allowed: data:TYPE;base64,DATA".into());
     };
     if !head.ends_with(";base64") {
-        return Err(format!("begins with {head:.40}; allowed: data:TYPE;base64,DATA"));
+        return Err(format!(
+            "begins with {head:.40}; allowed: data:TYPE;base64,DATA"
+        ));
     }
-    decode_base64(text.trim_end_matches('=').as_bytes())
-        .map_err(|letter| format!("is no base64: it holds \"{}\"; export the file again", letter.escape_default()))
+    decode_base64(text.trim_end_matches('=').as_bytes()).map_err(|letter| {
+        format!(
+            "is no base64: it holds \"{}\"; export the file again",
+            letter.escape_default()
+        )
+    })
 }
 
 /// Decodes base64 without its padding; the error is the first wrong letter.
@@ -41,7 +47,9 @@ pub fn decode_percent(uri: &str) -> String {
     let mut bytes = Vec::new();
     let mut rest = uri.as_bytes();
     while let [first, after @ ..] = rest {
-        let digits = after.get(..2).and_then(|digits| std::str::from_utf8(digits).ok());
+        let digits = after
+            .get(..2)
+            .and_then(|digits| std::str::from_utf8(digits).ok());
         let value = digits.and_then(|digits| u8::from_str_radix(digits, 16).ok());
         let (byte, after) = match (first, value) {
             (b'%', Some(value)) => (value, &after[2..]),
@@ -59,12 +67,21 @@ mod tests {
 
     #[test]
     fn base64_of_every_length_is_decoded() {
-        for (text, expected) in [("", ""), ("Zg==", "f"), ("Zm8=", "fo"), ("Zm9v", "foo"), ("Zm9vYg", "foob")] {
+        for (text, expected) in [
+            ("", ""),
+            ("Zg==", "f"),
+            ("Zm8=", "fo"),
+            ("Zm9v", "foo"),
+            ("Zm9vYg", "foob"),
+        ] {
             let uri = format!("data:application/octet-stream;base64,{text}");
             assert_eq!(decode_data_uri(&uri), Ok(expected.into()));
         }
         let refused = decode_data_uri("data:;base64,Zm9*").unwrap_err();
-        assert!(refused.contains("is no base64: it holds \"*\""), "{refused}");
+        assert!(
+            refused.contains("is no base64: it holds \"*\""),
+            "{refused}"
+        );
         assert!(decode_data_uri("data:text/plain,abc").is_err());
     }
 

@@ -54,7 +54,11 @@ fn camera_text(keys: &Keys<View>) -> String {
         return words(view, "\n") + "\n";
     }
     let keys = keys.list.iter().map(|(moment, view)| {
-        format!("    {{ time = {:?}, {} }},\n", moment.frame, words(view, ", "))
+        format!(
+            "    {{ time = {:?}, {} }},\n",
+            moment.frame,
+            words(view, ", ")
+        )
     });
     format!("keys = [\n{}]\n", keys.collect::<String>())
 }
@@ -62,10 +66,11 @@ fn camera_text(keys: &Keys<View>) -> String {
 /// Writes the sky and the sun: the file's, or usual ones if it has no light at all.
 fn light_text(lights: &Lights) -> String {
     if lights.count == 0 {
-        return sky_text(Vec3::ONE) + &sun_text(&SunLight {
-            direction: DVec3::new(-0.3, 0.9, 0.6),
-            irradiance: Vec3::new(2.0, 1.9, 1.7),
-        });
+        return sky_text(Vec3::ONE)
+            + &sun_text(&SunLight {
+                direction: DVec3::new(-0.3, 0.9, 0.6),
+                irradiance: Vec3::new(2.0, 1.9, 1.7),
+            });
     }
     match &lights.sun {
         // The usual sky is half as bright as a white surface in the usual sun.

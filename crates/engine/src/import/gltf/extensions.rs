@@ -33,21 +33,22 @@ const READ: [&str; 22] = [
 /// Extension of compressed meshes.
 pub const DRACO: &str = "KHR_draco_mesh_compression";
 
-/// Compressed vertices and textures, and the command of gltf-transform 4 that removes each.
-const COMPRESSIONS: [(&str, &str); 6] = [
+/// Compressions and an old kind of materials, and the command of gltf-transform 4 that removes each.
+const REMOVABLE: [(&str, &str); 7] = [
     (DRACO, "copy"),
     ("EXT_meshopt_compression", "copy"),
     ("KHR_meshopt_compression", "copy"),
     ("KHR_texture_basisu", "ktxdecompress"),
     ("EXT_texture_webp", "png --formats webp"),
     ("EXT_texture_avif", "png --formats avif"),
+    ("KHR_materials_pbrSpecularGlossiness", "metalrough"),
 ];
 
 /// Refuses extensions without which a file cannot be read.
 pub fn check_required(json: &Gltf, path: &Path) -> Result<(), String> {
     for name in &*json.extensions_required {
-        if COMPRESSIONS.iter().any(|(known, _)| known == name) {
-            return Err(refuse_compression(name, path));
+        if REMOVABLE.iter().any(|(known, _)| known == name) {
+            return Err(refuse_removable(name, path));
         }
         if !READ.contains(&name.as_str()) {
             return Err(format!(
@@ -59,20 +60,20 @@ pub fn check_required(json: &Gltf, path: &Path) -> Result<(), String> {
     Ok(())
 }
 
-/// Says why a compressed part cannot be read, and what removes the compression.
-pub fn refuse_compression(name: &str, path: &Path) -> String {
-    let known = COMPRESSIONS.iter().find(|(known, _)| *known == name);
+/// Says why a part cannot be read, and what removes its extension.
+pub fn refuse_removable(name: &str, path: &Path) -> String {
+    let known = REMOVABLE.iter().find(|(known, _)| *known == name);
     let command = known.map_or("copy", |(_, command)| command);
     let file = path.file_name().unwrap_or_default().to_string_lossy();
     format!(
-        "is compressed by {name}, which is not read; remove it: npx @gltf-transform/cli {command} \"{file}\" plain.glb"
+        "needs {name}, which is not read; remove it: npx @gltf-transform/cli {command} \"{file}\" plain.glb"
     )
 }
 
-/// Returns the extension of a texture whose picture has a format that is not read.
-pub fn texture_compression<'a>(mut names: impl Iterator<Item = &'a String>) -> Option<&'a str> {
+/// Returns the first of the names that a command removes.
+pub fn removable_extension<'a>(mut names: impl Iterator<Item = &'a String>) -> Option<&'a str> {
     names.find_map(|name| {
-        let known = COMPRESSIONS.iter().any(|(known, _)| known == name);
+        let known = REMOVABLE.iter().any(|(known, _)| known == name);
         known.then_some(name.as_str())
     })
 }

@@ -160,7 +160,10 @@ fn split(bytes: &[u8]) -> Result<Chunks<'_>, String> {
     if !bytes.starts_with(MAGIC) {
         let json = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
         if json.iter().find(|byte| !byte.is_ascii_whitespace()) != Some(&b'{') {
-            return Err("begins neither with glTF nor with {; allowed: glTF 2.0 files, .glb or .gltf".into());
+            return Err(
+                "begins neither with glTF nor with {; allowed: glTF 2.0 files, .glb or .gltf"
+                    .into(),
+            );
         }
         return Ok(Chunks { json, binary: None });
     }
@@ -190,7 +193,10 @@ fn split(bytes: &[u8]) -> Result<Chunks<'_>, String> {
     }
     let chunk = |name: &[u8; 4]| {
         let kind = u32::from_le_bytes(*name);
-        chunks.iter().find(|(found, _)| *found == kind).map(|(_, chunk)| *chunk)
+        chunks
+            .iter()
+            .find(|(found, _)| *found == kind)
+            .map(|(_, chunk)| *chunk)
     };
     match chunk(b"JSON") {
         Some(json) => Ok(Chunks {

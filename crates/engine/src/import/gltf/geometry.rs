@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use glam::{Vec2, Vec3};
 use scene::limits::{MAX_TRIANGLES, MAX_VERTICES};
 
-use super::extensions::{DRACO, refuse_compression};
+use super::extensions::{DRACO, refuse_removable};
 use super::file::File;
 use super::schema;
 
@@ -83,7 +83,7 @@ impl Meshes {
         if entry.extensions.contains_key(DRACO) {
             let accessor = File::entry(&file.json.accessors, "accessors", *positions)?;
             if accessor.buffer_view.is_none() {
-                return Err(refuse_compression(DRACO, &file.path));
+                return Err(refuse_removable(DRACO, &file.path));
             }
         }
         let mut primitive = Primitive {
@@ -149,7 +149,9 @@ impl Meshes {
             let weights = file.floats::<4>(*weights, "weights of joints")?;
             check_count("joints", joints.len(), count)?;
             check_count("weights of joints", weights.len(), count)?;
-            for (influences, (joints, weights)) in influences.iter_mut().zip(joints.iter().zip(&weights)) {
+            for (influences, (joints, weights)) in
+                influences.iter_mut().zip(joints.iter().zip(&weights))
+            {
                 let pairs = joints.iter().zip(weights);
                 let pairs = pairs.map(|(joint, weight)| (*joint as u32, *weight));
                 influences.extend(pairs.filter(|(_, weight)| *weight != 0.0));
@@ -177,7 +179,11 @@ impl Meshes {
         let counts = [
             (self.vertices, MAX_VERTICES, "vertices"),
             (self.triangles, MAX_TRIANGLES, "triangles"),
-            (self.numbers, MAX_NUMBERS, "numbers of morph targets and weights"),
+            (
+                self.numbers,
+                MAX_NUMBERS,
+                "numbers of morph targets and weights",
+            ),
         ];
         match counts.iter().find(|(count, most, _)| count > most) {
             None => Ok(()),
@@ -232,15 +238,28 @@ fn read_triangles(
         ));
     }
     let triangles: Vec<[u32; 3]> = match entry.mode.unwrap_or(4) {
-        4 => corners.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect(),
+        4 => corners
+            .chunks_exact(3)
+            .map(|c| [c[0], c[1], c[2]])
+            .collect(),
         5 => {
             let windows = corners.windows(3).enumerate();
             // Every second triangle of a strip is wound the other way.
             windows
-                .map(|(at, c)| if at % 2 == 0 { [c[0], c[1], c[2]] } else { [c[1], c[0], c[2]] })
+                .map(|(at, c)| {
+                    if at % 2 == 0 {
+                        [c[0], c[1], c[2]]
+                    } else {
+                        [c[1], c[0], c[2]]
+                    }
+                })
                 .collect()
         }
-        6 => corners.windows(2).skip(1).map(|c| [corners[0], c[0], c[1]]).collect(),
+        6 => corners
+            .windows(2)
+            .skip(1)
+            .map(|c| [corners[0], c[0], c[1]])
+            .collect(),
         mode => return Err(format!("the mode is {mode}; allowed: 0 to 6")),
     };
     let has_corners = |[a, b, c]: &[u32; 3]| a != b && b != c && c != a;

@@ -9,9 +9,9 @@ use image::{DynamicImage, ImageFormat, ImageReader, Limits};
 use measure::Error;
 use scene::limits::MAX_TEXELS;
 
-use super::extensions::{refuse_compression, texture_compression};
+use super::extensions::{refuse_removable, removable_extension};
 use super::file::File;
-use super::schema::TextureInfo;
+use super::material_schema::TextureInfo;
 use crate::files::refuse;
 
 /// Folder of the pictures, next to the MTL file.
@@ -76,19 +76,24 @@ impl<'a> Images<'a> {
         let texture = File::entry(&self.file.json.textures, "textures", info.index);
         let texture = texture.or_else(|reason| refuse!(path, "{reason}"))?;
         let Some(image) = texture.source else {
-            return match texture_compression(texture.extensions.keys()) {
+            return match removable_extension(texture.extensions.keys()) {
                 Some(name) => {
-                    let reason = refuse_compression(name, path);
+                    let reason = refuse_removable(name, path);
                     refuse!(path, "textures[{}] {reason}", info.index)
                 }
                 None => Ok(None),
             };
         };
-        let sampler = texture.sampler.and_then(|sampler| self.file.json.samplers.get(sampler));
+        let sampler = texture
+            .sampler
+            .and_then(|sampler| self.file.json.samplers.get(sampler));
         let (nearest, repeat) = (9728, 10497);
         let is_nearest = sampler.is_some_and(|sampler| sampler.mag_filter == Some(nearest));
         let is_clamped = sampler.is_some_and(|sampler| {
-            [sampler.wrap_s, sampler.wrap_t].iter().flatten().any(|wrap| *wrap != repeat)
+            [sampler.wrap_s, sampler.wrap_t]
+                .iter()
+                .flatten()
+                .any(|wrap| *wrap != repeat)
         });
         Ok(Some((image, is_nearest, is_clamped)))
     }
@@ -96,13 +101,18 @@ impl<'a> Images<'a> {
     fn copy_image(&self, image: usize) -> Result<Picture, Error> {
         let path = &self.file.path;
         let fail = |reason: String| refuse!(path, "images[{image}] {reason}");
-        let bytes = self.file.image(image).or_else(|reason| refuse!(path, "{reason}"))?;
+        let bytes = self
+            .file
+            .image(image)
+            .or_else(|reason| refuse!(path, "{reason}"))?;
         let ending = match image::guess_format(&bytes) {
             Ok(ImageFormat::Png) => "png",
             Ok(ImageFormat::Jpeg) => "jpg",
-            _ if bytes.starts_with(KTX2) => return fail(refuse_compression("KHR_texture_basisu", path)),
+            _ if bytes.starts_with(KTX2) => {
+                return fail(refuse_removable("KHR_texture_basisu", path));
+            }
             _ if bytes.get(8..12) == Some(b"WEBP") => {
-                return fail(refuse_compression("EXT_texture_webp", path));
+                return fail(refuse_removable("EXT_texture_webp", path));
             }
             _ => return fail("is neither PNG nor JPEG; convert it".into()),
         };
@@ -110,7 +120,10 @@ impl<'a> Images<'a> {
             Ok(decoded) => decoded,
             Err(reason) => return fail(format!("is broken: {reason}; export it again")),
         };
-        let name = format!("{FOLDER}/{image}_{}.{ending}", plain_name(&self.file.json.images[image].name));
+        let name = format!(
+            "{FOLDER}/{image}_{}.{ending}",
+            plain_name(&self.file.json.images[image].name)
+        );
         write_atomically(&self.folder.join(&name), &bytes)?;
         let (mean, least_alpha) = measure(&decoded);
         Ok(Picture {
@@ -132,8 +145,12 @@ impl<'a> Images<'a> {
         let Some((image, ..)) = self.source(info)? else {
             return Ok(None);
         };
-        let bytes = self.file.image(image).or_else(|reason| refuse!(self.file.path, "{reason}"))?;
-        let decoded = decode(&bytes).or_else(|reason| refuse!(self.file.path, "images[{image}] {reason}"))?;
+        let bytes = self
+            .file
+            .image(image)
+            .or_else(|reason| refuse!(self.file.path, "{reason}"))?;
+        let decoded =
+            decode(&bytes).or_else(|reason| refuse!(self.file.path, "images[{image}] {reason}"))?;
         let alphas = decoded.into_rgba16();
         let mapped = image::ImageBuffer::from_fn(alphas.width(), alphas.height(), |x, y| {
             let alpha = f32::from(alphas.get_pixel(x, y).0[3]) / 65535.0;
@@ -154,7 +171,9 @@ fn decode(bytes: &[u8]) -> Result<DynamicImage, String> {
     let mut limits = Limits::default();
     limits.max_alloc = Some(16 * MAX_TEXELS);
     reader.limits(limits);
-    let reader = reader.with_guessed_format().map_err(|error| error.to_string())?;
+    let reader = reader
+        .with_guessed_format()
+        .map_err(|error| error.to_string())?;
     reader.decode().map_err(|error| error.to_string())
 }
 
@@ -170,12 +189,18 @@ fn measure(picture: &DynamicImage) -> ([f32; 4], f32) {
         least = least.min(pixel.0[3]);
     }
     let count = f64::from(picture.width()) * f64::from(picture.height()) * 255.0;
-    (sums.map(|sum| (sum / count.max(1.0)) as f32), f32::from(least) / 255.0)
+    (
+        sums.map(|sum| (sum / count.max(1.0)) as f32),
+        f32::from(least) / 255.0,
+    )
 }
 
 /// Keeps letters that need no escape.
 pub fn plain_name(name: &str) -> String {
     let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "_-".contains(letter);
-    let plain: String = name.chars().map(|letter| if is_plain(letter) { letter } else { '_' }).collect();
+    let plain: String = name
+        .chars()
+        .map(|letter| if is_plain(letter) { letter } else { '_' })
+        .collect();
     plain.chars().take(60).collect()
 }

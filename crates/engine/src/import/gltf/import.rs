@@ -7,22 +7,22 @@ use frame::write_atomically;
 use measure::Error;
 use scene::{Family, load_scene};
 
-use super::animation::Animation;
-use super::choice::{choose_animation, choose_camera};
+use super::choice::choose_camera;
 use super::document::Head;
 use super::file::File;
 use super::frame_model::{Extent, frame_model, set_toml};
 use super::images::plain_name;
 use super::keys::{Keys, Tolerance, find_keys};
 use super::light::{Lights, ball_text, radiance};
-use super::material::{Look, Materials};
+use super::look::Look;
+use super::material::Materials;
 use super::moment::Clip;
 use super::objects::{FOLDER, Objects, Shot};
 use super::picture::{choose_stops, list_lost};
 use super::piece::Piece;
 use super::plan::GltfPlan;
+use super::reading::{choose_clip, read_stage};
 use super::stage::Stage;
-use super::tree::Tree;
 use super::view::{Camera, CameraPath, Film, View};
 use crate::files::{name_of, refuse};
 use crate::import::set::write_backdrop;
@@ -56,50 +56,6 @@ pub fn import_gltf(plan: &GltfPlan) -> Result<Imported, Error> {
             notes,
         }
         .write()
-    })
-}
-
-/// Reads everything that moves, with the animation of the plan's name.
-fn read_stage(plan: &GltfPlan, file: File, notes: &mut Vec<String>) -> Result<Stage, String> {
-    let tree = Tree::read(&file.json)?;
-    let (animation, note) = choose_animation(&file, plan.animation.as_deref())?;
-    notes.extend(note);
-    let targets = |node: usize| {
-        let mesh = file.json.nodes[node].mesh;
-        let mesh = mesh.and_then(|mesh| file.json.meshes.get(mesh));
-        let primitive = mesh.and_then(|mesh| mesh.primitives.first());
-        primitive.map_or(0, |primitive| primitive.targets.len())
-    };
-    let animation = match animation {
-        Some(index) => Animation::read(&file, index, targets)?,
-        None => Animation::default(),
-    };
-    Stage::read(file, tree, animation)
-}
-
-/// Chooses the instant and the frames around it.
-fn choose_clip(plan: &GltfPlan, stage: &Stage) -> Result<Clip, String> {
-    let range = stage.animation.range();
-    let instant = match (range, plan.time) {
-        (Some([start, end]), Some(time)) if !(start..=end).contains(&time) => {
-            return Err(format!(
-                "its animation \"{}\" lasts from {start} s to {end} s; --time is {time} s",
-                stage.animation.name
-            ));
-        }
-        (_, Some(time)) => time,
-        (Some([start, end]), None) => 0.5 * (start + end),
-        (None, None) => 0.0,
-    };
-    if range.is_none() && plan.orbit.is_none() {
-        return Err("has no animation, so nothing would move; export it with one, or give an orbit such as --orbit 3deg/frame".into());
-    }
-    let reach = plan.exposure.ceil().max(2.0);
-    Ok(Clip {
-        instant,
-        rate: plan.rate,
-        frames: plan.frames,
-        span: [-reach, f64::from(plan.frames - 1) + reach],
     })
 }
 
@@ -220,7 +176,8 @@ impl Import<'_> {
         }
         extent.check().or_else(|reason| refuse!(path, "{reason}"))?;
         if chosen.is_some() {
-            self.notes.push("the orbiting camera replaces the file's own".to_owned());
+            self.notes
+                .push("the orbiting camera replaces the file's own".to_owned());
         } else {
             self.notes.extend(note);
             self.notes.push(
@@ -275,7 +232,9 @@ impl Import<'_> {
             );
         }
         match lights.count {
-            0 => self.notes.push("the file has no light; a sky and a sun are added".into()),
+            0 => self
+                .notes
+                .push("the file has no light; a sky and a sun are added".into()),
             _ => self.notes.push("the file has no sky; one is added".into()),
         }
         if !lights.points.is_empty() {
@@ -290,7 +249,7 @@ impl Import<'_> {
         let file = name_of(&self.plan.model);
         let motion = match (&self.stage.animation.range(), self.plan.orbit) {
             (Some(_), _) => format!(
-                "animation \"{}\" at {} s, {} frames per second",
+                "animation \"{}\" at {:.4} s, {} frames per second",
                 self.stage.animation.name, self.clip.instant, self.clip.rate
             ),
             (None, orbit) => format!(
@@ -305,11 +264,16 @@ impl Import<'_> {
     fn count_lost(&mut self, materials: &mut Materials) {
         let meshes = &self.stage.meshes;
         let lost = &mut materials.lost;
-        lost.count(meshes.unread, "mesh of points or lines", "meshes of points or lines");
+        lost.count(
+            meshes.unread,
+            "mesh of points or lines",
+            "meshes of points or lines",
+        );
         let unread = self.stage.animation.unread;
         lost.count(unread, "animated property", "animated properties");
         let nodes = self.stage.tree.shown.iter();
-        let others = nodes.flat_map(|node| self.stage.file.json.nodes[*node].extensions.others.keys());
+        let others =
+            nodes.flat_map(|node| self.stage.file.json.nodes[*node].extensions.others.keys());
         lost.others.extend(others.cloned());
         if meshes.reweighted > 0 {
             self.notes.push(format!(
@@ -327,7 +291,8 @@ impl Import<'_> {
         materials: &Materials,
     ) -> Result<Written, Error> {
         let document = self.folder.join("scene.toml");
-        let write = |stops| write_atomically(&document, (head.text(stops) + &objects.toml).as_bytes());
+        let write =
+            |stops| write_atomically(&document, (head.text(stops) + &objects.toml).as_bytes());
         write(None)?;
         let mut scene = load_scene(self.folder, None)?;
         if let Some(stops) = choose_stops(&scene)? {
@@ -338,9 +303,8 @@ impl Import<'_> {
             ));
         }
         if !objects.is_moving && head.camera.list.len() == 1 {
-            self.notes.push(
-                "nothing moves around this instant; choose another with --time".to_owned(),
-            );
+            self.notes
+                .push("nothing moves around this instant; choose another with --time".to_owned());
         }
         let mut lines = vec![keys_line(objects, head.camera)];
         let lost = list_lost(&scene, &materials.lost)?;
@@ -357,14 +321,21 @@ impl Import<'_> {
 
 fn keys_line(objects: &Objects, camera: &Keys<View>) -> String {
     let stray = objects.stray + camera.stray;
-    let Objects {
-        rigid,
-        deforming,
-        shapes,
-        ..
-    } = objects;
+    let count = |count: usize, one: &str, many: &str| match count {
+        1 => format!("1 {one}"),
+        _ => format!("{count} {many}"),
+    };
+    let mut parts = Vec::new();
+    if objects.rigid > 0 {
+        parts.push(count(objects.rigid, "rigid object", "rigid objects"));
+    }
+    if objects.deforming > 0 {
+        let deforming = count(objects.deforming, "deforming object", "deforming objects");
+        parts.push(format!("{deforming} with {} key shapes", objects.shapes));
+    }
     format!(
-        "{rigid} rigid objects, {deforming} deforming ones with {shapes} key shapes; no vertex strays by more than {stray:.2} px"
+        "{}; no vertex strays by more than {stray:.2} px",
+        parts.join(", ")
     )
 }
 

@@ -128,7 +128,11 @@ impl<K: Clone> Interval<'_, K> {
     /// Returns the farthest that a point strays, in pixels.
     fn stray<P: Path<Key = K>>(&self, path: &P) -> f64 {
         let offsets = [0.25, 0.5, 0.75].map(|part| self.offsets(path, part));
-        let lengths = offsets.iter().flatten().flatten().map(|offset| offset.length());
+        let lengths = offsets
+            .iter()
+            .flatten()
+            .flatten()
+            .map(|offset| offset.length());
         lengths.fold(0.0, f64::max)
     }
 

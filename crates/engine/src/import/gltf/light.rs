@@ -36,7 +36,11 @@ impl Lights {
     /// Reads the lights that are shown. The strongest sun counts.
     pub fn read(stage: &Stage, moment: Moment, lost: &mut Lost) -> Result<Self, String> {
         let json = &stage.file.json;
-        let lights = json.extensions.lights.as_ref().map_or(&[][..], |lights| &lights.lights);
+        let lights = json
+            .extensions
+            .lights
+            .as_ref()
+            .map_or(&[][..], |lights| &lights.lights);
         let mut read = Self::default();
         let (mut suns, mut spots, mut others) = (0, 0, 0);
         for node in &stage.tree.shown {
@@ -59,7 +63,8 @@ impl Lights {
                 "directional" => {
                     suns += 1;
                     let back = stage.world(*node, moment.seconds).z_axis.truncate();
-                    let is_stronger = |sun: &SunLight| strength.element_sum() > sun.irradiance.element_sum();
+                    let is_stronger =
+                        |sun: &SunLight| strength.element_sum() > sun.irradiance.element_sum();
                     if read.sun.as_ref().is_none_or(is_stronger) {
                         read.sun = Some(SunLight {
                             direction: back.normalize_or(DVec3::Y),
@@ -76,7 +81,11 @@ impl Lights {
             }
         }
         lost.count(spots, "spot light", "spot lights");
-        lost.count(others, "light of an unknown kind", "lights of unknown kinds");
+        lost.count(
+            others,
+            "light of an unknown kind",
+            "lights of unknown kinds",
+        );
         lost.count(
             usize::max(suns, 1) - 1,
             "further sun (the strongest is used)",
@@ -93,7 +102,11 @@ pub fn ball_text(radius: f64, material: &str) -> (String, f32) {
     let point = |row: usize, column: usize| {
         let down = std::f64::consts::PI * row as f64 / ROWS as f64;
         let around = std::f64::consts::TAU * (column % AROUND) as f64 / AROUND as f64;
-        DVec3::new(around.cos() * down.sin(), down.cos(), around.sin() * down.sin()) * radius
+        DVec3::new(
+            around.cos() * down.sin(),
+            down.cos(),
+            around.sin() * down.sin(),
+        ) * radius
     };
     let mut text = String::from("mtllib materials.mtl\no ball\n");
     let (mut area, mut next) = (0.0, 1);
@@ -101,10 +114,17 @@ pub fn ball_text(radius: f64, material: &str) -> (String, f32) {
     let line = "text takes text";
     for row in 0..ROWS {
         for column in 0..AROUND {
-            let corners = [(row, column), (row, column + 1), (row + 1, column + 1), (row + 1, column)];
+            let corners = [
+                (row, column),
+                (row, column + 1),
+                (row + 1, column + 1),
+                (row + 1, column),
+            ];
             let points = corners.map(|(row, column)| point(row, column));
             for [a, b, c] in [[0, 1, 2], [0, 2, 3]] {
-                let doubled = (points[b] - points[a]).cross(points[c] - points[a]).length();
+                let doubled = (points[b] - points[a])
+                    .cross(points[c] - points[a])
+                    .length();
                 if doubled < 1e-9 * radius * radius {
                     continue;
                 }

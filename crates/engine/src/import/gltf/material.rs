@@ -4,76 +4,20 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::Path;
 
-use glam::{Vec2, Vec3};
+use glam::Vec3;
 use measure::Error;
 use scene::Finish;
 
+use super::file::File;
 use super::geometry::Primitive;
 use super::images::{Images, Picture, plain_name};
+use super::look::{Look, Mapping};
 use super::lost::Lost;
-use super::schema::{self, Gltf, TextureInfo, TextureTransform};
-use super::file::File;
+use super::material_schema::{self, TextureInfo};
+use super::schema::Gltf;
 
 /// Metalness from which a surface is bare metal.
 const METAL: f32 = 0.5;
-
-/// What a primitive looks like.
-#[derive(Clone, Debug)]
-pub struct Look {
-    /// Name of the material in the MTL file.
-    pub name: String,
-    /// True if light passes through it.
-    pub is_blended: bool,
-    /// Texture coordinates that its textures are read at; none without textures.
-    pub mapping: Option<Mapping>,
-    /// True if a texture does not repeat.
-    pub is_clamped: bool,
-}
-
-/// Texture coordinates of a material.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Mapping {
-    /// Number of the set of texture coordinates.
-    pub set: usize,
-    pub transform: TextureTransform,
-}
-
-impl Mapping {
-    fn of(info: &TextureInfo) -> Self {
-        let transform = info.extensions.transform.clone().unwrap_or_default();
-        Self {
-            set: transform.tex_coord.unwrap_or(info.tex_coord),
-            transform: TextureTransform {
-                tex_coord: None,
-                ..transform
-            },
-        }
-    }
-}
-
-impl Look {
-    /// Returns the texture coordinates of a primitive, v down: none without textures, and (0, 0)
-    /// if the primitive lacks them.
-    pub fn texcoords(&self, primitive: &Primitive) -> Vec<[f32; 2]> {
-        let Some(Mapping { set, transform }) = &self.mapping else {
-            return Vec::new();
-        };
-        let Some(texcoords) = primitive.texcoords.get(set) else {
-            return vec![[0.0; 2]; primitive.positions.len()];
-        };
-        let (sine, cosine) = transform.rotation.sin_cos();
-        let map = |texcoord: &Vec2| {
-            let scaled = *texcoord * Vec2::from(transform.scale);
-            // glTF turns by the matrix (cos, sin; -sin, cos).
-            let turned = Vec2::new(
-                cosine * scaled.x + sine * scaled.y,
-                cosine * scaled.y - sine * scaled.x,
-            );
-            (turned + Vec2::from(transform.offset)).to_array()
-        };
-        texcoords.iter().map(map).collect()
-    }
-}
 
 /// Materials of a scene in the making.
 pub struct Materials<'a> {
@@ -107,7 +51,12 @@ impl<'a> Materials<'a> {
         let look = self.looks[&key].clone();
         if look.is_clamped {
             let is_outside = |value: &f32| !(-1e-3..=1.001).contains(value);
-            if look.texcoords(primitive).as_flattened().iter().any(is_outside) {
+            if look
+                .texcoords(primitive)
+                .as_flattened()
+                .iter()
+                .any(is_outside)
+            {
                 self.lost.add("textures that do not repeat", &look.name);
             }
         }
@@ -115,7 +64,7 @@ impl<'a> Materials<'a> {
     }
 
     fn write(&mut self, index: Option<usize>, has_colors: bool) -> Result<Look, Error> {
-        let usual = schema::Material::default();
+        let usual = material_schema::Material::default();
         let json = self.json;
         let entry = index.map_or(&usual, |index| &json.materials[index]);
         let name = self.name(index, &entry.name);
@@ -152,13 +101,15 @@ impl<'a> Materials<'a> {
         let is_taken = |name: &String| self.looks.values().any(|look| look.name == *name);
         let further = (2..).map(|number| format!("{name}_{number}"));
         let mut names = std::iter::once(name.clone()).chain(further);
-        names.find(|name| !is_taken(name)).expect("there is no last number")
+        names
+            .find(|name| !is_taken(name))
+            .expect("there is no last number")
     }
 }
 
 /// A material that is being written.
 struct Writing<'a, 'b> {
-    entry: &'a schema::Material,
+    entry: &'a material_schema::Material,
     name: String,
     text: String,
     /// Texture coordinates of the first texture.
@@ -242,7 +193,14 @@ impl Writing<'_, '_> {
         if emission != Vec3::ZERO {
             let picture = self.texture(self.entry.emissive_texture.as_ref())?;
             let is_lost = picture.is_none() && self.entry.emissive_texture.is_some();
-            self.color("Ke", if is_lost { [0.0; 3] } else { emission.to_array() });
+            self.color(
+                "Ke",
+                if is_lost {
+                    [0.0; 3]
+                } else {
+                    emission.to_array()
+                },
+            );
             self.map("map_Ke", picture.as_ref());
         }
         Ok(())
@@ -284,7 +242,11 @@ impl Writing<'_, '_> {
         if is_metal || specular != 0.0 {
             let roughness = roughness.clamp(0.0, 1.0);
             let is_mirror = roughness < 0.5 * Finish::SMOOTHEST;
-            let roughness = if is_mirror { 0.0 } else { roughness.max(Finish::SMOOTHEST) };
+            let roughness = if is_mirror {
+                0.0
+            } else {
+                roughness.max(Finish::SMOOTHEST)
+            };
             self.line(format_args!("Pr {roughness}"));
             // An index of 0 stands for full reflection there.
             let index = if index == 0.0 { Finish::DENSEST } else { index };
@@ -324,7 +286,12 @@ impl Writing<'_, '_> {
     }
 
     /// Writes holes where `factor` times alpha is below the cutoff; ours are below 0.5.
-    fn write_mask(&mut self, base: Option<&Picture>, factor: f32, cutoff: f32) -> Result<(), Error> {
+    fn write_mask(
+        &mut self,
+        base: Option<&Picture>,
+        factor: f32,
+        cutoff: f32,
+    ) -> Result<(), Error> {
         let info = &self.entry.pbr_metallic_roughness.base_color_texture;
         let (Some(base), Some(info)) = (base, info) else {
             let is_hole = factor < cutoff;
@@ -354,8 +321,18 @@ impl Writing<'_, '_> {
         if entry.occlusion_texture.is_some() && !is_unlit {
             self.lose("occlusion maps (the truth computes its own)");
         }
-        let specular = entry.extensions.specular.iter().flat_map(|specular| specular.others.keys());
-        let names: Vec<String> = entry.extensions.others.keys().chain(specular).cloned().collect();
+        let specular = entry
+            .extensions
+            .specular
+            .iter()
+            .flat_map(|specular| specular.others.keys());
+        let names: Vec<String> = entry
+            .extensions
+            .others
+            .keys()
+            .chain(specular)
+            .cloned()
+            .collect();
         for name in names {
             self.lose(name.trim_start_matches("KHR_materials_"));
         }

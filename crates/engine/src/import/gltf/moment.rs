@@ -55,11 +55,13 @@ impl Clip {
         let [start, end] = self.span;
         let drawn = 0.0..f64::from(self.frames);
         let count = (end - start) as u32;
-        let whole = (0..=count).map(|frame| start + f64::from(frame)).map(|frame| Mark {
-            moment: self.moment(frame),
-            is_jump: false,
-            is_drawn: drawn.contains(&frame),
-        });
+        let whole = (0..=count)
+            .map(|frame| start + f64::from(frame))
+            .map(|frame| Mark {
+                moment: self.moment(frame),
+                is_jump: false,
+                is_drawn: drawn.contains(&frame),
+            });
         let mut marks: Vec<Mark> = whole.collect();
         for channel in &animation.channels {
             for (key, time) in channel.times.iter().enumerate() {

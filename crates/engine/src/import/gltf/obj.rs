@@ -5,7 +5,7 @@ use std::fmt::Write;
 use glam::{DVec3, Vec3};
 
 use super::geometry::Primitive;
-use super::material::Look;
+use super::look::Look;
 use super::pose::{Placement, pose_normals, pose_positions};
 
 /// A piece's primitives with what they look like.
@@ -19,7 +19,16 @@ pub fn obj_text(parts: &Dressed, weights: &[f64], placement: &Placement) -> Stri
     for (primitive, look) in parts {
         let positions = pose_positions(primitive, weights, placement);
         let normals = pose_normals(primitive, weights, placement);
-        next = write_part(&mut text, &Part { primitive, look, positions, normals }, next);
+        next = write_part(
+            &mut text,
+            &Part {
+                primitive,
+                look,
+                positions,
+                normals,
+            },
+            next,
+        );
     }
     text
 }

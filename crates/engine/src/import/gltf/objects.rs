@@ -9,7 +9,7 @@ use glam::{DMat4, DVec3};
 use measure::Error;
 
 use super::keys::{Keys, Tolerance, find_keys};
-use super::material::Look;
+use super::look::Look;
 use super::moment::{Clip, Mark};
 use super::obj::obj_text;
 use super::piece::{Piece, Pose, RigidPath, ShapePath};
@@ -76,7 +76,13 @@ impl Objects {
         } else {
             let mesh = format!("{FOLDER}/{}.obj", piece.name);
             let moment = shot.clip.moment(0.0);
-            write_piece(shot.stage, piece, looks, moment.seconds, &folder.join(&mesh))?;
+            write_piece(
+                shot.stage,
+                piece,
+                looks,
+                moment.seconds,
+                &folder.join(&mesh),
+            )?;
             self.toml += &format!("mesh = \"{mesh}\"\n");
             self.rigid += 1;
             Ok(())
@@ -99,7 +105,11 @@ impl Objects {
         let primitives = piece.primitives(stage);
         if !self.known.contains_key(&key) {
             let mesh = format!("{FOLDER}/{}.obj", piece.name);
-            let dressed: Vec<_> = primitives.iter().copied().zip(looks.iter().cloned()).collect();
+            let dressed: Vec<_> = primitives
+                .iter()
+                .copied()
+                .zip(looks.iter().cloned())
+                .collect();
             let text = obj_text(&dressed, &weights, &whole);
             write_atomically(&folder.join(&mesh), text.as_bytes())?;
             self.known.insert(key.clone(), mesh);
@@ -132,7 +142,8 @@ impl Objects {
         shot: &Shot,
     ) -> Result<Keys<P::Key>, Error> {
         let keys = find_keys(path, &shot.marks, TOLERANCE);
-        let keys = keys.map_err(|reason| Error::Refused(format!("object {} {reason}", piece.name)))?;
+        let keys =
+            keys.map_err(|reason| Error::Refused(format!("object {} {reason}", piece.name)))?;
         self.stray = self.stray.max(keys.stray);
         Ok(keys)
     }
@@ -146,11 +157,15 @@ impl Objects {
             self.toml += &(words.join("\n") + "\n");
             return;
         }
-        self.is_turning |= keys.list.iter().any(|(_, pose)| pose.rotation.dot(first.rotation).abs() < 0.9999);
+        self.is_turning |= keys
+            .list
+            .iter()
+            .any(|(_, pose)| pose.rotation.dot(first.rotation).abs() < 0.9999);
         self.toml += "keys = [\n";
         for (moment, pose) in &keys.list {
             let words = pose_words(pose).join(", ");
-            writeln!(self.toml, "    {{ time = {:?}, {words} }},", moment.frame).expect("text takes text");
+            writeln!(self.toml, "    {{ time = {:?}, {words} }},", moment.frame)
+                .expect("text takes text");
         }
         self.toml += "]\n";
     }
@@ -183,9 +198,19 @@ impl Objects {
         self.toml += "shapes = [\n";
         for (number, (moment, _)) in keys.list.iter().enumerate() {
             let mesh = format!("{FOLDER}/{}_{number:03}.obj", piece.name);
-            write_piece(shot.stage, piece, looks, moment.seconds, &folder.join(&mesh))?;
-            writeln!(self.toml, "    {{ time = {:?}, mesh = \"{mesh}\" }},", moment.frame)
-                .expect("text takes text");
+            write_piece(
+                shot.stage,
+                piece,
+                looks,
+                moment.seconds,
+                &folder.join(&mesh),
+            )?;
+            writeln!(
+                self.toml,
+                "    {{ time = {:?}, mesh = \"{mesh}\" }},",
+                moment.frame
+            )
+            .expect("text takes text");
         }
         self.toml += "]\n";
         self.is_moving = true;

@@ -45,9 +45,13 @@ impl Pose {
         let is_usual = scale.is_finite() && rotation.is_finite() && scale.abs().min_element() > 0.0;
         let largest = scale.abs().max_element();
         let again = pose.matrix();
-        let is_same = [again.x_axis - matrix.x_axis, again.y_axis - matrix.y_axis, again.z_axis - matrix.z_axis]
-            .iter()
-            .all(|off| off.length() <= SHEAR * largest);
+        let is_same = [
+            again.x_axis - matrix.x_axis,
+            again.y_axis - matrix.y_axis,
+            again.z_axis - matrix.z_axis,
+        ]
+        .iter()
+        .all(|off| off.length() <= SHEAR * largest);
         (is_usual && is_same).then_some(pose)
     }
 
@@ -67,7 +71,10 @@ impl Piece {
     fn skin(&self, stage: &Stage) -> Option<usize> {
         let skin = stage.file.json.nodes[self.node].skin?;
         let primitives = self.primitives(stage);
-        primitives.iter().all(|primitive| !primitive.influences.is_empty()).then_some(skin)
+        primitives
+            .iter()
+            .all(|primitive| !primitive.influences.is_empty())
+            .then_some(skin)
     }
 
     /// Returns whether vertices move against one another.
@@ -76,7 +83,8 @@ impl Piece {
             let mut joints = stage.skins[skin].joints.iter();
             return stage.is_morphing(self.node) || joints.any(|joint| stage.is_moving[*joint]);
         }
-        let is_sheared = |mark: &Mark| Pose::of(&stage.world(self.node, mark.moment.seconds)).is_none();
+        let is_sheared =
+            |mark: &Mark| Pose::of(&stage.world(self.node, mark.moment.seconds)).is_none();
         stage.is_morphing(self.node) || stage.is_moving[self.node] && marks.iter().any(is_sheared)
     }
 
@@ -90,7 +98,10 @@ impl Piece {
 
     /// Returns the vertices in the world.
     pub fn positions(&self, stage: &Stage, seconds: f64) -> Vec<DVec3> {
-        let (placement, weights) = (self.placement(stage, seconds), stage.weights(self.node, seconds));
+        let (placement, weights) = (
+            self.placement(stage, seconds),
+            stage.weights(self.node, seconds),
+        );
         let primitives = self.primitives(stage).into_iter();
         primitives
             .flat_map(|primitive| pose_positions(primitive, &weights, &placement))
@@ -138,7 +149,9 @@ impl Path for RigidPath<'_> {
         let view = self.camera.view(self.stage, moment);
         let matrix = pose.matrix();
         let points = self.points.iter();
-        points.map(|point| self.film.pixel(&view, matrix.transform_point3(*point))).collect()
+        points
+            .map(|point| self.film.pixel(&view, matrix.transform_point3(*point)))
+            .collect()
     }
 }
 
@@ -165,6 +178,8 @@ impl Path for ShapePath<'_> {
     fn pixels(&self, positions: &Vec<DVec3>, moment: Moment) -> Vec<Option<DVec2>> {
         let view = self.camera.view(self.stage, moment);
         let positions = positions.iter();
-        positions.map(|position| self.film.pixel(&view, *position)).collect()
+        positions
+            .map(|position| self.film.pixel(&view, *position))
+            .collect()
     }
 }

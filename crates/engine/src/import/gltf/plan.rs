@@ -14,8 +14,8 @@ pub struct GltfPlan {
     pub rate: f64,
     /// Frames of the sequence that the keys are for.
     pub frames: u32,
-    /// Name of the animation; by default the first.
-    pub animation: Option<String>,
+    /// Names of the animations that play together; by default the first alone.
+    pub animations: Vec<String>,
     /// Name of the camera; by default the first.
     pub camera: Option<String>,
     /// Degrees per frame by which a camera goes around the model.

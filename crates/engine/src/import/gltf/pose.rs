@@ -15,11 +15,14 @@ pub enum Placement {
 
 /// Returns the positions at weights of the morph targets.
 pub fn pose_positions(primitive: &Primitive, weights: &[f64], placement: &Placement) -> Vec<DVec3> {
-    let morphed = morph(&primitive.positions, primitive, weights, |target| &target.positions);
+    let morphed = morph(&primitive.positions, primitive, weights, |target| {
+        &target.positions
+    });
     match placement {
-        Placement::Whole(matrix) => {
-            morphed.into_iter().map(|position| matrix.transform_point3(position)).collect()
-        }
+        Placement::Whole(matrix) => morphed
+            .into_iter()
+            .map(|position| matrix.transform_point3(position))
+            .collect(),
         Placement::Joints(joints) => {
             let vertices = morphed.into_iter().zip(&primitive.influences);
             vertices
@@ -31,7 +34,9 @@ pub fn pose_positions(primitive: &Primitive, weights: &[f64], placement: &Placem
 
 /// Returns the unit normals at weights of the morph targets; none if the primitive has none.
 pub fn pose_normals(primitive: &Primitive, weights: &[f64], placement: &Placement) -> Vec<Vec3> {
-    let morphed = morph(&primitive.normals, primitive, weights, |target| &target.normals);
+    let morphed = morph(&primitive.normals, primitive, weights, |target| {
+        &target.normals
+    });
     let turn = |matrix: &DMat4, normal: DVec3| {
         let turned = cofactors(matrix) * normal;
         turned.normalize_or_zero().as_vec3()
@@ -40,7 +45,9 @@ pub fn pose_normals(primitive: &Primitive, weights: &[f64], placement: &Placemen
         Placement::Whole(matrix) => {
             let cofactors = cofactors(matrix);
             let turned = morphed.into_iter().map(|normal| cofactors * normal);
-            turned.map(|normal| normal.normalize_or_zero().as_vec3()).collect()
+            turned
+                .map(|normal| normal.normalize_or_zero().as_vec3())
+                .collect()
         }
         Placement::Joints(joints) => {
             let vertices = morphed.into_iter().zip(&primitive.influences);
@@ -70,7 +77,9 @@ fn morph(
 }
 
 fn blend(joints: &[DMat4], influences: &[(u32, f32)]) -> DMat4 {
-    let weighted = influences.iter().map(|(joint, weight)| joints[*joint as usize] * f64::from(*weight));
+    let weighted = influences
+        .iter()
+        .map(|(joint, weight)| joints[*joint as usize] * f64::from(*weight));
     weighted.fold(DMat4::ZERO, |sum, matrix| sum + matrix)
 }
 

@@ -4,64 +4,11 @@
 //! Here every index is looked up by [`super::file::File`], which refuses it in a sentence.
 
 use std::collections::BTreeMap;
-use std::fmt;
-use std::marker::PhantomData;
-use std::ops::Deref;
 
 use serde::Deserialize;
-use serde::de::{Deserializer, SeqAccess, Visitor};
-use serde_json::Value;
 
-/// Most entries of any list of a file, such as nodes.
-pub const MAX_ENTRIES: usize = 65_536;
-
-/// A list with a bounded length, so that a small file cannot fill the memory.
-#[derive(Debug)]
-pub struct List<T>(Vec<T>);
-
-impl<T> Default for List<T> {
-    fn default() -> Self {
-        Self(Vec::new())
-    }
-}
-
-impl<T> Deref for List<T> {
-    type Target = [T];
-
-    fn deref(&self) -> &[T] {
-        &self.0
-    }
-}
-
-impl<'de, T: Deserialize<'de>> Deserialize<'de> for List<T> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Entries<T>(PhantomData<T>);
-        impl<'de, T: Deserialize<'de>> Visitor<'de> for Entries<T> {
-            type Value = List<T>;
-
-            fn expecting(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
-                write!(formatter, "a list of at most {MAX_ENTRIES} entries")
-            }
-
-            fn visit_seq<A: SeqAccess<'de>>(self, mut entries: A) -> Result<List<T>, A::Error> {
-                let mut list = Vec::new();
-                while let Some(entry) = entries.next_element()? {
-                    if list.len() == MAX_ENTRIES {
-                        return Err(serde::de::Error::custom(format!(
-                            "a list has more than {MAX_ENTRIES} entries; export less at once"
-                        )));
-                    }
-                    list.push(entry);
-                }
-                Ok(List(list))
-            }
-        }
-        deserializer.deserialize_seq(Entries(PhantomData))
-    }
-}
-
-/// Extensions that are not read, by name.
-pub type Others = BTreeMap<String, Value>;
+use super::list::{List, Others};
+use super::material_schema::Material;
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
@@ -230,127 +177,6 @@ pub struct Buffer {
 }
 
 #[derive(Debug, Default, Deserialize)]
-#[serde(rename_all = "camelCase", default)]
-pub struct Material {
-    pub name: String,
-    pub pbr_metallic_roughness: Pbr,
-    pub normal_texture: Option<TextureInfo>,
-    pub occlusion_texture: Option<TextureInfo>,
-    pub emissive_texture: Option<TextureInfo>,
-    pub emissive_factor: [f32; 3],
-    pub alpha_mode: Option<String>,
-    pub alpha_cutoff: Option<f32>,
-    pub double_sided: bool,
-    pub extensions: MaterialExtensions,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(rename_all = "camelCase", default)]
-pub struct Pbr {
-    pub base_color_factor: [f32; 4],
-    pub base_color_texture: Option<TextureInfo>,
-    pub metallic_factor: f32,
-    pub roughness_factor: f32,
-    pub metallic_roughness_texture: Option<TextureInfo>,
-}
-
-impl Default for Pbr {
-    fn default() -> Self {
-        Self {
-            base_color_factor: [1.0; 4],
-            base_color_texture: None,
-            metallic_factor: 1.0,
-            roughness_factor: 1.0,
-            metallic_roughness_texture: None,
-        }
-    }
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(default)]
-pub struct MaterialExtensions {
-    #[serde(rename = "KHR_materials_unlit")]
-    pub unlit: Option<Value>,
-    #[serde(rename = "KHR_materials_emissive_strength")]
-    pub emission: Option<EmissiveStrength>,
-    #[serde(rename = "KHR_materials_ior")]
-    pub index: Option<Index>,
-    #[serde(rename = "KHR_materials_specular")]
-    pub specular: Option<Specular>,
-    #[serde(rename = "KHR_materials_transmission")]
-    pub transmission: Option<Transmission>,
-    #[serde(flatten)]
-    pub others: Others,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(rename_all = "camelCase")]
-pub struct EmissiveStrength {
-    #[serde(default = "one")]
-    pub emissive_strength: f32,
-}
-
-#[derive(Debug, Deserialize)]
-pub struct Index {
-    #[serde(default = "usual_index")]
-    pub ior: f32,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(rename_all = "camelCase")]
-pub struct Specular {
-    #[serde(default = "one")]
-    pub specular_factor: f32,
-    #[serde(flatten)]
-    pub others: Others,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(rename_all = "camelCase")]
-pub struct Transmission {
-    #[serde(default)]
-    pub transmission_factor: f32,
-    pub transmission_texture: Option<TextureInfo>,
-}
-
-#[derive(Clone, Debug, Deserialize)]
-#[serde(rename_all = "camelCase")]
-pub struct TextureInfo {
-    pub index: usize,
-    #[serde(default)]
-    pub tex_coord: usize,
-    #[serde(default)]
-    pub extensions: TextureExtensions,
-}
-
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(default)]
-pub struct TextureExtensions {
-    #[serde(rename = "KHR_texture_transform")]
-    pub transform: Option<TextureTransform>,
-}
-
-#[derive(Clone, Debug, Deserialize, PartialEq)]
-#[serde(rename_all = "camelCase", default)]
-pub struct TextureTransform {
-    pub offset: [f32; 2],
-    pub rotation: f32,
-    pub scale: [f32; 2],
-    pub tex_coord: Option<usize>,
-}
-
-impl Default for TextureTransform {
-    fn default() -> Self {
-        Self {
-            offset: [0.0; 2],
-            rotation: 0.0,
-            scale: [1.0; 2],
-            tex_coord: None,
-        }
-    }
-}
-
-#[derive(Debug, Default, Deserialize)]
 #[serde(default)]
 pub struct Texture {
     pub source: Option<usize>,
@@ -432,8 +258,4 @@ fn one() -> f32 {
 
 fn white() -> [f32; 3] {
     [1.0; 3]
-}
-
-fn usual_index() -> f32 {
-    1.5
 }

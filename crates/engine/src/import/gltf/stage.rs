@@ -90,8 +90,11 @@ impl Stage {
             let channel = self.channel_of(node, part)?;
             Some(self.animation.channels[channel].value(seconds?))
         };
-        let (translation, rotation, scale) =
-            (value(Part::Translation), value(Part::Rotation), value(Part::Scale));
+        let (translation, rotation, scale) = (
+            value(Part::Translation),
+            value(Part::Rotation),
+            value(Part::Scale),
+        );
         if let (Some(matrix), None, None, None) = (&entry.matrix, &translation, &rotation, &scale) {
             return DMat4::from_cols_array(matrix);
         }
@@ -132,7 +135,9 @@ impl Stage {
             inverse_bind,
         } = &self.skins[skin];
         let pairs = joints.iter().zip(inverse_bind);
-        pairs.map(|(joint, inverse)| self.world(*joint, seconds) * *inverse).collect()
+        pairs
+            .map(|(joint, inverse)| self.world(*joint, seconds) * *inverse)
+            .collect()
     }
 
     /// Returns the weights of a node's morph targets; missing ones are 0.
@@ -178,7 +183,9 @@ fn read_skin(file: &File, index: usize) -> Result<Skin, String> {
         None => vec![DMat4::IDENTITY; count],
         Some(accessor) => {
             let matrices = file.floats::<16>(accessor, "inverse bind matrices")?;
-            let matrices = matrices.iter().map(|matrix| DMat4::from_cols_array(&matrix.map(f64::from)));
+            let matrices = matrices
+                .iter()
+                .map(|matrix| DMat4::from_cols_array(&matrix.map(f64::from)));
             matrices.collect()
         }
     };

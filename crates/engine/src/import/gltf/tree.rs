@@ -38,7 +38,10 @@ impl Tree {
         if order.len() < count {
             let mut is_reached = vec![false; count];
             order.iter().for_each(|node| is_reached[*node] = true);
-            let node = is_reached.iter().position(|reached| !reached).unwrap_or_default();
+            let node = is_reached
+                .iter()
+                .position(|reached| !reached)
+                .unwrap_or_default();
             return Err(format!(
                 "nodes[{node}] is among its own parents; allowed: a tree; export the file again"
             ));

@@ -82,8 +82,8 @@ impl Camera {
                 orbit,
             } => {
                 let around = (direction[0] + orbit * moment.frame).to_radians();
-                let orientation =
-                    DQuat::from_rotation_y(around) * DQuat::from_rotation_x(-direction[1].to_radians());
+                let orientation = DQuat::from_rotation_y(around)
+                    * DQuat::from_rotation_x(-direction[1].to_radians());
                 View {
                     position: *target + orientation * DVec3::new(0.0, 0.0, *distance),
                     orientation,

@@ -47,8 +47,13 @@ impl Model {
 
     /// Adds an accessor of floats.
     pub fn floats(&mut self, kind: &str, values: &[f32]) -> usize {
-        let bytes: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
-        let width = ["SCALAR", "VEC2", "VEC3", "VEC4"].iter().position(|name| *name == kind);
+        let bytes: Vec<u8> = values
+            .iter()
+            .flat_map(|value| value.to_le_bytes())
+            .collect();
+        let width = ["SCALAR", "VEC2", "VEC3", "VEC4"]
+            .iter()
+            .position(|name| *name == kind);
         let width = width.map_or(16, |at| at + 1);
         self.accessor(kind, 5126, values.len() / width, &bytes)
     }
@@ -62,7 +67,8 @@ impl Model {
         while !self.bytes.len().is_multiple_of(4) {
             self.bytes.push(0);
         }
-        let view = json!({ "buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len() });
+        let view =
+            json!({ "buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len() });
         self.bytes.extend(bytes);
         let view = self.push("bufferViews", view);
         let accessor =
@@ -87,7 +93,10 @@ impl Model {
         };
         let output = self.floats(kind, values);
         if self.json["animations"].as_array().unwrap().is_empty() {
-            self.push("animations", json!({ "name": "walk", "channels": [], "samplers": [] }));
+            self.push(
+                "animations",
+                json!({ "name": "walk", "channels": [], "samplers": [] }),
+            );
         }
         let animation = &mut self.json["animations"][0];
         let samplers = animation["samplers"].as_array_mut().unwrap();
@@ -100,7 +109,13 @@ impl Model {
     /// Slides the triangle along x, by a metre in a second.
     pub fn sliding() -> Self {
         let mut model = Self::new();
-        model.animate(0, "translation", "LINEAR", &[0.0, 2.0], &[0.0, 0.0, 0.0, 2.0, 0.0, 0.0]);
+        model.animate(
+            0,
+            "translation",
+            "LINEAR",
+            &[0.0, 2.0],
+            &[0.0, 0.0, 0.0, 2.0, 0.0, 0.0],
+        );
         model
     }
 
@@ -121,8 +136,15 @@ impl Model {
             bytes.resize(bytes.len().next_multiple_of(4), with);
             bytes
         };
-        let chunks = [(b"JSON", pad(json.to_string().as_bytes(), b' ')), (b"BIN\0", pad(&self.bytes, 0))];
-        let length: usize = 12 + chunks.iter().map(|(_, chunk)| 8 + chunk.len()).sum::<usize>();
+        let chunks = [
+            (b"JSON", pad(json.to_string().as_bytes(), b' ')),
+            (b"BIN\0", pad(&self.bytes, 0)),
+        ];
+        let length: usize = 12
+            + chunks
+                .iter()
+                .map(|(_, chunk)| 8 + chunk.len())
+                .sum::<usize>();
         let mut file = b"glTF".to_vec();
         file.extend(2u32.to_le_bytes());
         file.extend((length as u32).to_le_bytes());
