@@ -12,8 +12,13 @@ import sys
 import tomllib
 
 import bpy
+import numpy
 from mathutils import Matrix, Quaternion, Vector
 from mathutils.kdtree import KDTree
+
+
+# The importer of Blender 3.4 uses a name that numpy 1.24 removed.
+numpy.bool = bool
 
 
 def read_obj(path):

@@ -1,7 +1,7 @@
 //! `import` of glTF: small files of one rule each, with answers by hand.
 
 mod materials;
-mod model;
+pub mod model;
 mod refusals;
 
 use glam::DVec3;
@@ -161,7 +161,7 @@ fn a_child_moves_with_its_turning_parent() {
 }
 
 /// Adds a skin of two joints, nodes 2 and 3: the second one slides up by a metre in 2 s.
-fn skinned(sets: usize) -> Model {
+pub fn skinned(sets: usize) -> Model {
     let mut model = Model::new();
     // The node's own place does not count.
     model.json["nodes"][0] =
