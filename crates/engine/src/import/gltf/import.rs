@@ -1,25 +1,23 @@
 //! The import of a glTF file, from reading to the scene's folder.
 
-use std::collections::BTreeMap;
 use std::path::Path;
 
 use frame::write_atomically;
 use measure::Error;
-use scene::{Family, load_scene};
+use scene::{Family, Scene, load_scene};
 
 use super::choice::choose_camera;
 use super::document::Head;
 use super::file::File;
 use super::frame_model::{Extent, frame_model, set_toml};
-use super::images::plain_name;
 use super::keys::{Keys, Tolerance, find_keys};
 use super::light::{Lights, ball_text, radiance};
-use super::look::Look;
 use super::material::Materials;
 use super::moment::Clip;
 use super::objects::{FOLDER, Objects, Shot};
 use super::picture::{choose_stops, list_lost};
 use super::piece::Piece;
+use super::pieces::list_pieces;
 use super::plan::GltfPlan;
 use super::reading::{choose_clip, read_stage};
 use super::stage::Stage;
@@ -72,7 +70,7 @@ impl Import<'_> {
     fn write(mut self) -> Result<Written, Error> {
         let (stage, path) = (self.stage, &self.plan.model);
         let mut materials = Materials::new(&stage.file, &self.folder.join(FOLDER));
-        let pieces = self.list_pieces(&mut materials)?;
+        let pieces = list_pieces(stage, &self.clip, &mut materials)?;
         if pieces.is_empty() {
             return refuse!(path, "shows no triangles; export meshes of a scene");
         }
@@ -112,44 +110,6 @@ impl Import<'_> {
         };
         self.count_lost(&mut materials);
         self.finish(&head, &objects, &materials)
-    }
-
-    /// Lists the pieces of all nodes that are shown, with the looks of their primitives.
-    fn list_pieces(&self, materials: &mut Materials) -> Result<Vec<(Piece, Vec<Look>)>, Error> {
-        let json = &self.stage.file.json;
-        let mut names = BTreeMap::new();
-        let mut pieces = Vec::new();
-        for node in &self.stage.tree.shown {
-            let Some(mesh) = json.nodes[*node].mesh else {
-                continue;
-            };
-            let mut kinds = [Vec::new(), Vec::new()];
-            for (index, primitive) in self.stage.meshes.primitives[&mesh].iter().enumerate() {
-                let look = materials.look(primitive)?;
-                kinds[usize::from(look.is_blended)].push((index, look));
-            }
-            for (kind, parts) in kinds.into_iter().enumerate() {
-                if parts.is_empty() {
-                    continue;
-                }
-                let (primitives, looks) = parts.into_iter().unzip();
-                let title = match json.nodes[*node].name.as_str() {
-                    "" => json.meshes[mesh].name.as_str(),
-                    name => name,
-                };
-                pieces.push((
-                    Piece {
-                        name: object_name(title, kind == 1, &mut names),
-                        node: *node,
-                        mesh,
-                        primitives,
-                        is_blended: kind == 1,
-                    },
-                    looks,
-                ));
-            }
-        }
-        Ok(pieces)
     }
 
     fn choose_camera(&mut self, extent: &Extent) -> Result<(Camera, Film), Error> {
@@ -283,6 +243,26 @@ impl Import<'_> {
         }
     }
 
+    /// Loads the scene; errors name the glTF file, since the folder is temporary.
+    fn load(&self) -> Result<Scene, Error> {
+        load_scene(self.folder, None).or_else(|error| {
+            let place = error
+                .path
+                .strip_prefix(self.folder)
+                .unwrap_or(&error.path)
+                .display();
+            let line = error
+                .line
+                .map(|line| format!(":{line}"))
+                .unwrap_or_default();
+            refuse!(
+                self.plan.model,
+                "makes a scene that is refused: {place}{line}: {}",
+                error.reason
+            )
+        })
+    }
+
     /// Writes scene.toml, loads the scene, and looks at its picture.
     fn finish(
         mut self,
@@ -294,7 +274,7 @@ impl Import<'_> {
         let write =
             |stops| write_atomically(&document, (head.text(stops) + &objects.toml).as_bytes());
         write(None)?;
-        let mut scene = load_scene(self.folder, None)?;
+        let mut scene = self.load()?;
         if let Some(stops) = choose_stops(&scene)? {
             write(Some(stops))?;
             scene.display.stops = stops;
@@ -348,28 +328,5 @@ fn family(objects: &Objects, is_camera_moving: bool) -> Family {
         Family::Translation
     } else {
         Family::Camera
-    }
-}
-
-/// Names an object by its node: unique, and of letters that scenes allow.
-fn object_name(title: &str, is_blended: bool, names: &mut BTreeMap<String, usize>) -> String {
-    let mut name = plain_name(title);
-    if name.is_empty() {
-        name = "node".to_owned();
-    }
-    if is_blended {
-        name += "_blended";
-    }
-    let reserved = ["background", "camera", "floor", "wall"];
-    if reserved.contains(&name.as_str()) || name.starts_with("point_light_") {
-        name = format!("node_{name}");
-    }
-    loop {
-        let count = names.entry(name.clone()).or_insert(0);
-        *count += 1;
-        if *count == 1 {
-            return name;
-        }
-        name = format!("{name}_{count}");
     }
 }

@@ -26,6 +26,7 @@ mod obj;
 mod objects;
 mod picture;
 mod piece;
+mod pieces;
 mod plan;
 mod pose;
 mod reading;
