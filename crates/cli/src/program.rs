@@ -115,7 +115,7 @@ pub enum Command {
 /// The commands of `engine`.
 #[derive(Debug, Subcommand)]
 pub enum EngineCommand {
-    /// Make a scene from an OBJ file, with camera, floor, wall and motion
+    /// Make a scene from a model: an OBJ file with a motion, a folder of OBJ files, or an animated glTF file
     Import(import::ImportArgs),
     /// Write scenes as glTF 2.0, so that an engine can draw them
     Export(export::ExportArgs),

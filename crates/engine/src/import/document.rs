@@ -27,7 +27,7 @@ pub fn scene_toml(plan: &ImportPlan, model: &Model) -> String {
     let pixel = 2.0 * distance * half_fov.tan() / f64::from(SIZE.height);
     let file = plan.model.file_name().unwrap_or_default().to_string_lossy();
     let motions = &plan.motions;
-    let exposes = format!("Imported from {file}: {}.", motions.sentence());
+    let exposes = format!("Imported from {file}: {}.", plan.sentence());
     let Size { width, height } = SIZE;
     format!(
         "# Made by `shuttertruth engine import`; yours to change.\n\
@@ -38,7 +38,7 @@ pub fn scene_toml(plan: &ImportPlan, model: &Model) -> String {
          [sun]\ndirection = [-0.3, 0.9, 0.6]\nirradiance = [2.0, 1.9, 1.7]\n\n\
          {set}{stand}\n{object}",
         exposes = toml::Value::from(exposes),
-        family = motions.family().name(),
+        family = plan.family().name(),
         exposure = number(plan.exposure),
         path = camera_path(model.half_size().y, distance, motions.orbit),
         set = set_objects(model.radius()),
@@ -83,8 +83,8 @@ fn model_object(model: &Model) -> String {
     let [low, high] = model.corners;
     let middle = 0.5 * (low + high);
     format!(
-        "[object.model]\nmesh = {}\nparent = \"stand\"\ntranslation = {}\n{}{}",
-        toml::Value::from(model.mesh.as_str()),
+        "[object.model]\n{}parent = \"stand\"\ntranslation = {}\n{}{}",
+        model.keys,
         vector([-middle.x, -low.y, -middle.z]),
         match model.up {
             Up::Y => "",

@@ -1,80 +1,61 @@
-//! Import of an OBJ file as a scene folder: the model on a stand, floor and wall, a camera framed
-//! on it, and motion.
+//! Import of models as scene folders: an OBJ file on a stand, with floor, wall, a framed camera and
+//! motion; a glTF file with its own animation.
 
 mod document;
+mod gltf;
 mod model;
 mod plan;
+mod series;
 mod set;
+mod staging;
 
-use std::fs;
-use std::path::Path;
-
-use frame::{FileError, write_atomically};
+use frame::write_atomically;
 use measure::Error;
 use scene::load_scene;
 
+use crate::files::name_of;
+
+pub use self::gltf::{GltfPlan, import_gltf};
 use self::model::Model;
 pub use self::model::Up;
 pub use self::plan::{ImportPlan, Motions};
-use crate::files::refuse;
+use self::series::Series;
+pub use self::staging::Imported;
+use self::staging::{Written, make_folder};
 
 /// Note about a model with materials of an opacity below 1.
 const TRANSLUCENT: &str = "some materials have an opacity below 1, so that light passes through them: scene.toml has alpha = \"blended\"";
 
-/// An imported scene.
-pub struct Imported {
-    /// Sentence about what the scene exposes.
-    pub exposes: String,
-    /// Triangles of the model and the set.
-    pub triangles: usize,
-    /// Sentences about what was decided or not read.
-    pub notes: Vec<String>,
-}
-
-/// Makes the scene folder, complete or not at all.
+/// Makes the scene folder of an OBJ file or a folder of them, complete or not at all.
 pub fn import(plan: &ImportPlan) -> Result<Imported, Error> {
-    plan.motions.check()?;
-    check_new(&plan.out)?;
-    let parent = match plan.out.parent() {
-        Some(parent) if parent != Path::new("") => parent,
-        _ => Path::new("."),
+    let series = if plan.is_series() {
+        Series::list(&plan.model, plan.frames)?
+    } else {
+        plan.motions.check()?;
+        Series::of_one(&plan.model)
     };
-    let fail = |source| FileError::io(parent, "write", source);
-    fs::create_dir_all(parent).map_err(fail)?;
-    let staging = tempfile::tempdir_in(parent).map_err(fail)?;
-    // The inner folder is renamed at the end; the temporary one is always removed.
-    let folder = staging.path().join("scene");
-
-    let model = Model::copy(&plan.model, plan.plain, plan.up, &folder)?;
-    set::write_set(&folder, &model)?;
-    let document = document::scene_toml(plan, &model);
-    write_atomically(&folder.join("scene.toml"), document.as_bytes())?;
-    let scene = load_scene(&folder, None)?;
-
-    fs::rename(&folder, &plan.out).map_err(|source| FileError::io(&plan.out, "write", source))?;
-    let [staged, out] = [&folder, &plan.out].map(|path| path.display().to_string());
-    let notes = scene.notes.iter().map(|note| note.replace(&staged, &out));
-    let translucent = model.is_translucent.then(|| TRANSLUCENT.to_owned());
-    Ok(Imported {
-        notes: notes.chain(translucent).collect(),
-        exposes: scene.exposes,
-        triangles: (scene.meshes.iter()).map(|mesh| mesh.triangles.len()).sum(),
+    make_folder(&plan.out, |folder| {
+        let model = Model::copy(&series, plan.plain, plan.up, folder)?;
+        set::write_set(folder, &model)?;
+        let document = document::scene_toml(plan, &model);
+        write_atomically(&folder.join("scene.toml"), document.as_bytes())?;
+        let translucent = model.is_translucent.then(|| TRANSLUCENT.to_owned());
+        Ok(Written {
+            scene: load_scene(folder, None)?,
+            notes: translucent.into_iter().collect(),
+            lines: series_line(&series).into_iter().collect(),
+        })
     })
 }
 
-/// Refuses a folder that exists, or with a name that no scene may have.
-fn check_new(out: &Path) -> Result<(), Error> {
-    if out.exists() {
-        return refuse!(out, "exists already; name a folder that is new");
-    }
-    let name = out.file_name().unwrap_or_default().to_string_lossy();
-    let is_allowed = |letter: char| letter.is_ascii_alphanumeric() || "_-".contains(letter);
-    if !name.is_empty() && name.chars().all(is_allowed) {
-        Ok(())
-    } else {
-        refuse!(
-            out,
-            "the folder's name becomes the scene's name; allowed are letters, digits, _ and -"
+/// Says which frame each file of a series is.
+fn series_line(series: &Series) -> Option<String> {
+    let count = series.files.len();
+    (count > 1).then(|| {
+        let instant = &series.files[(-series.first) as usize];
+        format!(
+            "{count} key shapes, one per frame; the frame is {}",
+            name_of(instant)
         )
-    }
+    })
 }

@@ -10,6 +10,7 @@ use measure::{Error, named};
 use scene::{Mesh, Scene, SceneError, limits::LARGEST_MESH_FILE, load_scene_and_files};
 
 use crate::files::refuse;
+use crate::import::series::Series;
 
 /// Name of the folder of the model's files, in the scene's folder.
 const FOLDER: &str = "model";
@@ -32,8 +33,8 @@ named! {
 
 /// A model in a scene's folder.
 pub struct Model {
-    /// The OBJ file, below the scene's folder, with slashes.
-    pub mesh: String,
+    /// Keys of scene.toml that name the OBJ files, below the scene's folder, with slashes.
+    pub keys: String,
     /// Smallest and largest x, y and z with `up` pointing up, in metres.
     pub corners: [DVec3; 2],
     /// The axis of the file that points up.
@@ -46,50 +47,59 @@ pub struct Model {
 struct Loaded {
     mesh: Mesh,
     is_translucent: bool,
-    /// The OBJ file and the files that it names.
+    /// The OBJ files and the files that they name.
     files: Vec<PathBuf>,
 }
 
 impl Model {
-    /// Copies the OBJ file and the files that it names into the folder of a new scene.
-    pub fn copy(path: &Path, plain: bool, up: Up, scene: &Path) -> Result<Self, Error> {
+    /// Copies the OBJ files of a series, and the files that they name, into the folder of a new
+    /// scene.
+    pub fn copy(series: &Series, plain: bool, up: Up, scene: &Path) -> Result<Self, Error> {
         let folder = scene.join(FOLDER);
-        let path = (path.canonicalize()).map_err(|source| FileError::io(path, "read", source))?;
-        let name = path.file_name().unwrap_or_default();
-        let copy = folder.join(name);
-        let loaded = if plain {
-            write_plain(&path, &copy)?;
-            // Line numbers are unchanged.
-            load(scene, &copy).map_err(|error| SceneError {
-                path: path.clone(),
-                ..error
-            })?
-        } else {
-            load(scene, &path).map_err(|error| suggest_plain(error, &path, scene))?
-        };
-        if !plain {
-            copy_all(&loaded.files, &path, &folder)?;
+        let mut names = Vec::new();
+        let mut originals = Vec::new();
+        for path in &series.files {
+            let path =
+                (path.canonicalize()).map_err(|source| FileError::io(path, "read", source))?;
+            let Some(name) = path.file_name().unwrap_or_default().to_str() else {
+                return refuse!(path, "the name is not Unicode; rename the file");
+            };
+            names.push(format!("{FOLDER}/{name}"));
+            originals.push(path);
         }
-        let Some(name) = name.to_str() else {
-            return refuse!(path, "the name is not Unicode; rename the file");
+        let first = originals[0].clone();
+        let originals = Series {
+            files: originals,
+            ..series.clone()
+        };
+        let loaded = if plain {
+            load_plain(&originals, &names, scene)?
+        } else {
+            let loaded = load(scene, &originals);
+            let loaded = loaded.map_err(|error| suggest_plain(error, &originals, scene))?;
+            copy_all(&loaded.files, &first, &folder)?;
+            loaded
         };
         let upright = |p: DVec3| match up {
             Up::Y => p,
             Up::Z => DVec3::new(p.x, p.z, -p.y),
         };
         let mesh = &loaded.mesh;
-        let vertices = mesh.triangles.iter().flatten();
-        let used = vertices.map(|vertex| upright(mesh.positions[*vertex as usize].as_dvec3()));
+        let mut corners = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+        let shapes = mesh.shapes.iter().map(|shape| &shape.positions);
+        for positions in shapes.chain([&mesh.positions]) {
+            for vertex in mesh.triangles.iter().flatten() {
+                let place = upright(positions[*vertex as usize].as_dvec3());
+                corners = [corners[0].min(place), corners[1].max(place)];
+            }
+        }
         let model = Self {
-            mesh: format!("{FOLDER}/{name}"),
-            corners: [
-                used.clone().fold(DVec3::INFINITY, DVec3::min),
-                used.fold(DVec3::NEG_INFINITY, DVec3::max),
-            ],
+            keys: series.keys(&names),
+            corners,
             up,
             is_translucent: loaded.is_translucent,
         };
-        model.check_size(&path)?;
+        model.check_size(&first)?;
         Ok(model)
     }
 
@@ -119,13 +129,34 @@ impl Model {
     }
 }
 
+/// Copies the files without their materials, and loads the copies.
+fn load_plain(series: &Series, names: &[String], scene: &Path) -> Result<Loaded, Error> {
+    let files: Vec<PathBuf> = names.iter().map(|name| scene.join(name)).collect();
+    for (file, copy) in series.files.iter().zip(&files) {
+        write_plain(file, copy)?;
+    }
+    let copies = Series {
+        files,
+        ..series.clone()
+    };
+    let loaded = load(scene, &copies).map_err(|error| {
+        // Line numbers are unchanged.
+        let place = copies.files.iter().position(|copy| *copy == error.path);
+        SceneError {
+            path: series.files[place.unwrap_or(0)].clone(),
+            ..error
+        }
+    });
+    Ok(loaded?)
+}
+
 /// Loads the model as a scene of its own.
-fn load(scene: &Path, obj: &Path) -> Result<Loaded, SceneError> {
-    let (loaded, files) = load_with(scene, obj, "")?;
+fn load(scene: &Path, series: &Series) -> Result<Loaded, SceneError> {
+    let (loaded, files) = load_with(scene, series, "")?;
     let is_translucent = (loaded.materials.iter()).any(|material| material.opacity < 1.0);
     if is_translucent {
         // Materials that let light pass are checked further.
-        load_with(scene, obj, BLENDED)?;
+        load_with(scene, series, BLENDED)?;
     }
     let mut meshes = loaded.meshes;
     Ok(Loaded {
@@ -136,13 +167,20 @@ fn load(scene: &Path, obj: &Path) -> Result<Loaded, SceneError> {
 }
 
 /// Loads a scene of the model with more keys; returns it with the paths of the model's files.
-fn load_with(scene: &Path, obj: &Path, keys: &str) -> Result<(Scene, Vec<PathBuf>), SceneError> {
+fn load_with(
+    scene: &Path,
+    series: &Series,
+    keys: &str,
+) -> Result<(Scene, Vec<PathBuf>), SceneError> {
+    let files: Vec<String> = (series.files.iter())
+        .map(|file| file.to_string_lossy().into_owned())
+        .collect();
     let document = scene.join("scene.toml");
     let text = format!(
         "exposes = \"the model\"\nfamily = \"limits\"\nexposure = 0.5\nsize = [1, 1]\n\
          [camera]\nposition = [0, 0, 0]\nlook_at = [0, 0, -1]\nvertical_fov = 40\n\
-         [background]\nconstant = [1, 1, 1]\n[object.model]\nmesh = {}\n{keys}",
-        toml::Value::from(obj.to_string_lossy().into_owned())
+         [background]\nconstant = [1, 1, 1]\n[object.model]\n{}{keys}",
+        series.keys(&files)
     );
     write_atomically(&document, text.as_bytes()).map_err(|error| SceneError {
         path: document.clone(),
@@ -153,7 +191,7 @@ fn load_with(scene: &Path, obj: &Path, keys: &str) -> Result<(Scene, Vec<PathBuf
         if error.path == document {
             // The scene names the model and nothing else that could be wrong.
             SceneError {
-                path: obj.to_owned(),
+                path: series.files[0].clone(),
                 line: None,
                 ..error
             }
@@ -166,10 +204,14 @@ fn load_with(scene: &Path, obj: &Path, keys: &str) -> Result<(Scene, Vec<PathBuf
 }
 
 /// Adds to an error that the model can be imported without materials, if it can.
-fn suggest_plain(error: SceneError, path: &Path, scene: &Path) -> SceneError {
-    let copy = scene.join("plain.obj");
-    let helps = write_plain(path, &copy).is_ok() && load(scene, &copy).is_ok();
-    let _ = fs::remove_file(&copy);
+fn suggest_plain(error: SceneError, series: &Series, scene: &Path) -> SceneError {
+    let names: Vec<String> = (0..series.files.len())
+        .map(|number| format!("plain_{number}.obj"))
+        .collect();
+    let helps = load_plain(series, &names, scene).is_ok();
+    for name in names {
+        let _ = fs::remove_file(scene.join(name));
+    }
     if helps {
         SceneError {
             reason: format!(

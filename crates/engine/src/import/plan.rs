@@ -9,8 +9,10 @@ use crate::import::model::Up;
 
 /// A model, and the scene to make of it.
 pub struct ImportPlan {
-    /// The OBJ file.
+    /// The OBJ file, or a folder of them, one per frame.
     pub model: PathBuf,
+    /// Frames of the sequence that a folder of OBJ files shows.
+    pub frames: u32,
     /// The scene's folder, which does not exist yet.
     pub out: PathBuf,
     /// The model's axis that points up.
@@ -32,6 +34,30 @@ pub struct Motions {
     pub slide: Option<f64>,
     /// Motion of the camera around the model, in degrees per frame.
     pub orbit: Option<f64>,
+}
+
+impl ImportPlan {
+    /// Returns whether the model is a folder, whose files are its motion.
+    pub fn is_series(&self) -> bool {
+        self.model.is_dir()
+    }
+
+    pub fn family(&self) -> Family {
+        if self.is_series() {
+            Family::Deforming
+        } else {
+            self.motions.family()
+        }
+    }
+
+    /// Describes the motion: `it turns 20 degrees per frame, and it slides 40 pixels per frame`.
+    pub fn sentence(&self) -> String {
+        let shapes = self
+            .is_series()
+            .then(|| "it has a shape per frame".to_owned());
+        let says: Vec<String> = shapes.into_iter().chain(self.motions.sentences()).collect();
+        says.join(", and ")
+    }
 }
 
 impl Motions {
@@ -56,8 +82,8 @@ impl Motions {
         }
     }
 
-    /// Describes the motion: `it turns 20 degrees per frame, and it slides 40 pixels per frame`.
-    pub fn sentence(&self) -> String {
+    /// Describes each motion.
+    fn sentences(&self) -> impl Iterator<Item = String> {
         let says = [
             self.spin
                 .map(|speed| format!("it turns {speed} degrees per frame")),
@@ -66,7 +92,6 @@ impl Motions {
             (self.orbit)
                 .map(|speed| format!("the camera goes around it by {speed} degrees per frame")),
         ];
-        let says: Vec<String> = says.into_iter().flatten().collect();
-        says.join(", and ")
+        says.into_iter().flatten()
     }
 }

@@ -37,11 +37,16 @@ Kd 0.25 0.24 0.23
 /// Writes the set's meshes, materials and textures.
 pub fn write_set(scene: &Path, model: &Model) -> Result<(), FileError> {
     let radius = model.radius();
+    write_backdrop(scene, radius)?;
+    write_atomically(&scene.join("stand.obj"), stand(model).as_bytes())
+}
+
+/// Writes floor and wall around a model of a radius.
+pub fn write_backdrop(scene: &Path, radius: f64) -> Result<(), FileError> {
     for (name, text) in [
         ("set.mtl", MATERIALS.to_owned()),
         ("floor.obj", plane("floor", EXTENT * radius, radius)),
         ("wall.obj", plane("wall", EXTENT * radius, radius)),
-        ("stand.obj", stand(model)),
     ] {
         write_atomically(&scene.join(name), text.as_bytes())?;
     }

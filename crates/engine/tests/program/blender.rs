@@ -6,6 +6,8 @@ use std::process::Command;
 use tests::text::assert_contains;
 use tests::{root, scenes};
 
+use super::import_gltf::model::{MODEL, Model};
+use super::import_gltf::skinned;
 use crate::sandbox::{Sandbox, split, stderr, stdout};
 
 /// Exports a shipped scene, and draws it in Blender with four sub-frames.
@@ -57,4 +59,45 @@ fn blender_shows_the_colours_of_an_unlit_scene_without_sub_frames() {
     assert!(!sandbox.path("capture/subframes").exists());
     let told = run(&sandbox, "engine audit capture");
     assert_contains(&told, &["PASS: velocity, depth and colour are right"]);
+}
+
+/// Imports a glTF file, and measures the farthest that a vertex or an axis of the camera is from
+/// Blender's, in parts of the model's size.
+fn measure_import(sandbox: &Sandbox, model: &str, seconds: f64, rate: f64) -> f64 {
+    let line =
+        format!("engine import {model} --time {seconds}s --fps {rate} --out scenes/imported");
+    sandbox.done(&line);
+    let mut command = Command::new("blender");
+    command.args(["-b", "--python-exit-code", "1", "--python"]);
+    command.arg(root().join("crates/engine/tests/program/blender_import.py"));
+    let line = format!("-- {model} scenes/imported {seconds} {rate}");
+    command.args(split(&line)).current_dir(sandbox.path(""));
+    let output = command.output().unwrap();
+    let said = stdout(&output) + &stderr(&output);
+    let worst = said.lines().find_map(|line| line.strip_prefix("worst: "));
+    worst
+        .and_then(|worst| worst.parse().ok())
+        .unwrap_or_else(|| panic!("blender: {said}"))
+}
+
+#[test]
+#[ignore = "prove: needs Blender"]
+fn blender_places_the_vertices_and_the_camera_of_a_gltf_file_where_the_import_does() {
+    // Morph targets; a moving camera with turning wheels.
+    for scene in ["walker", "dolly"] {
+        let sandbox = Sandbox::new();
+        let folder = scenes().display().to_string();
+        let words = split("engine export --gltf gltf --scenes-dir");
+        sandbox.execute(&[&words[..], &[&folder, scene]].concat());
+        let model = format!("gltf/{scene}/scene.gltf");
+        let worst = measure_import(&sandbox, &model, 2.0 / 24.0, 24.0);
+        // Blender computes with 32 bits, and the vertices are metres from the origin.
+        assert!(worst < 1e-5, "{scene}: {worst}");
+    }
+    for model in [skinned(1), Model::sliding()] {
+        let sandbox = Sandbox::new();
+        model.write(&sandbox);
+        let worst = measure_import(&sandbox, MODEL, 1.0, 4.0);
+        assert!(worst < 1e-5, "{worst}");
+    }
 }

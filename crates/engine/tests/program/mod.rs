@@ -8,6 +8,8 @@ mod blender;
 mod foreign_pictures;
 mod further_inputs;
 mod import;
+mod import_gltf;
+mod import_series;
 mod ingest;
 #[cfg(unix)]
 mod threejs;
