@@ -63,7 +63,7 @@ impl Brightness {
             value: 0.0,
             slope: DVec2::ZERO,
         };
-        for row in 0..4 {
+        for (row, (weight, slope)) in std::iter::zip(rows, slopes_y).enumerate() {
             let start = first + row * width as usize;
             let line = &self.splines.pixels[start..start + 4];
             let sum = |factors: &[f64; 4]| -> f64 {
@@ -73,8 +73,8 @@ impl Brightness {
                     .sum()
             };
             let value = sum(&columns);
-            sample.value += rows[row] * value;
-            sample.slope += DVec2::new(rows[row] * sum(&slopes_x), slopes_y[row] * value);
+            sample.value += weight * value;
+            sample.slope += DVec2::new(weight * sum(&slopes_x), slope * value);
         }
         Some(sample)
     }

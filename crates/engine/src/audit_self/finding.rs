@@ -105,9 +105,10 @@ fn describe(wrong: &Wrong) -> SelfFinding {
             .map(|(frame, _)| frame.to_string())
             .collect();
         text += &format!(
-            ", in frames {} of {} that tell",
-            names.join(", "),
-            wrong.told
+            ", in {} of {} frames that tell: {}",
+            wrong.frames.len(),
+            wrong.told,
+            names.join(", ")
         );
     }
     SelfFinding {

@@ -101,7 +101,6 @@ fn motion_of_other_frames_is_found() {
         ("fan", PointMotion::PREVIOUS_BUFFER),
         ("railing", PointMotion::MATRIX_NEVER_SET),
         ("railing", PointMotion::WITHOUT_OBJECTS),
-        ("roll", PointMotion::FRAME_LATE),
         ("roll", PointMotion::FRAME_EARLY),
         ("roll", PointMotion::WITHOUT_CAMERA),
     ];
