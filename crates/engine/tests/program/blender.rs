@@ -62,7 +62,7 @@ fn blender_shows_the_colours_of_an_unlit_scene_without_sub_frames() {
 }
 
 /// Imports a glTF file, and measures the farthest that a vertex or an axis of the camera is from
-/// Blender's, in parts of the model's size.
+/// Blender's, in metres or in parts of its distance from the origin.
 fn measure_import(sandbox: &Sandbox, model: &str, seconds: f64, rate: f64) -> f64 {
     let line =
         format!("engine import {model} --time {seconds}s --fps {rate} --out scenes/imported");
@@ -83,8 +83,8 @@ fn measure_import(sandbox: &Sandbox, model: &str, seconds: f64, rate: f64) -> f6
 #[test]
 #[ignore = "prove: needs Blender"]
 fn blender_places_the_vertices_and_the_camera_of_a_gltf_file_where_the_import_does() {
-    // Morph targets; a moving camera with turning wheels.
-    for scene in ["walker", "dolly"] {
+    // Nodes with parents; morph targets; a moving camera.
+    for scene in ["walker", "flag", "dolly"] {
         let sandbox = Sandbox::new();
         let folder = scenes().display().to_string();
         let words = split("engine export --gltf gltf --scenes-dir");

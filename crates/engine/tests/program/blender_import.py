@@ -4,7 +4,8 @@ usage: python3 blender_import.py MODEL SCENE SECONDS RATE     (with bpy)
        blender -b --python blender_import.py -- MODEL SCENE SECONDS RATE
 
 Prints the farthest that a vertex of the scene is from Blender's nearest one, and the other way round, at whole frames from -1 to
-1, in parts of the model's size, and the difference of the cameras. SECONDS is the animation's time at the frame.
+1, in metres or in parts of its distance from the origin if that is larger, and the difference of the cameras.
+SECONDS is the animation's time at the frame.
 """
 
 import os
@@ -78,12 +79,13 @@ def farthest(points, others):
     for index, point in enumerate(others):
         tree.insert(point, index)
     tree.balance()
-    return max(tree.find(point)[2] for point in points)
+    return max(tree.find(point)[2] / max(1.0, point.length) for point in points)
 
 
 def camera_difference(document, time):
     """Returns how far position and axes of the cameras are apart; none if the scene's is framed."""
-    camera = bpy.context.scene.camera
+    cameras = (thing for thing in bpy.context.scene.objects if thing.type == "CAMERA")
+    camera = next(cameras, None)
     if camera is None or "wall" in document["object"]:
         return None
     keys = document["camera"].get("keys")
@@ -113,13 +115,10 @@ def main():
         whole = int(frame // 1)
         scene.frame_set(whole, subframe=frame - whole)
         ours, theirs = scene_points(folder, document, time), blender_points()
-        low = [min(point[axis] for point in theirs) for axis in range(3)]
-        high = [max(point[axis] for point in theirs) for axis in range(3)]
-        size = (Vector(high) - Vector(low)).length
-        there, back = farthest(ours, theirs) / size, farthest(theirs, ours) / size
+        there, back = farthest(ours, theirs), farthest(theirs, ours)
         worst = max(worst, there, back)
         camera = camera_difference(document, time)
-        print(f"frame {time}: vertices {there:.2e} and {back:.2e} of {size:.3g} m; camera "
+        print(f"frame {time}: vertices {there:.2e} and {back:.2e}; camera "
               + ("none" if camera is None else f"{camera:.2e}"))
         worst = max(worst, camera or 0.0)
     print(f"worst: {worst:.2e}")

@@ -39,70 +39,84 @@ pub struct NodeCamera<'a> {
     pub lens: &'a Perspective,
 }
 
+/// A camera that the file shows.
+struct Shown<'a> {
+    node: usize,
+    /// Names of its node and of itself.
+    names: [&'a str; 2],
+    /// Name in messages.
+    title: String,
+    /// None if it is orthographic.
+    lens: Option<&'a Perspective>,
+}
+
+fn list_cameras(stage: &Stage) -> Result<Vec<Shown<'_>>, String> {
+    let json = &stage.file.json;
+    let mut cameras = Vec::new();
+    for node in &stage.tree.shown {
+        let Some(index) = json.nodes[*node].camera else {
+            continue;
+        };
+        let camera = File::entry(&json.cameras, "cameras", index)?;
+        let names = [json.nodes[*node].name.as_str(), camera.name.as_str()];
+        let title = names.iter().find(|name| !name.is_empty());
+        cameras.push(Shown {
+            node: *node,
+            names,
+            title: title.map_or_else(|| index.to_string(), |name| (*name).to_owned()),
+            lens: (camera.perspective.as_ref()).filter(|_| camera.kind == "perspective"),
+        });
+    }
+    Ok(cameras)
+}
+
 /// Returns the camera of a name, of its own or its node's, or the first; none if the file shows
 /// none; with a note about others.
 pub fn choose_camera<'a>(
     stage: &'a Stage,
     name: Option<&str>,
 ) -> Result<(Option<NodeCamera<'a>>, Option<String>), String> {
-    let json = &stage.file.json;
-    let mut cameras = Vec::new();
-    let mut orthographic = Vec::new();
-    for node in &stage.tree.shown {
-        let Some(index) = json.nodes[*node].camera else {
-            continue;
-        };
-        let camera = File::entry(&json.cameras, "cameras", index)?;
-        let names = [&json.nodes[*node].name, &camera.name];
-        let title = names.iter().find(|name| !name.is_empty());
-        let title = title.map_or_else(|| index.to_string(), |name| (*name).clone());
-        match &camera.perspective {
-            Some(lens) if camera.kind == "perspective" => cameras.push((title, names, *node, lens)),
-            _ => orthographic.push((title, names)),
-        }
-    }
-    let titles: Vec<String> = cameras.iter().map(|(title, ..)| title.clone()).collect();
+    let cameras = list_cameras(stage)?;
+    let titles: Vec<String> = (cameras.iter())
+        .filter(|camera| camera.lens.is_some())
+        .map(|camera| camera.title.clone())
+        .collect();
     let list = quote(&titles);
-    let chosen = match name {
-        None => cameras.first(),
-        Some(name) => {
-            let is_named = |title: &String, names: &[&String; 2]| {
-                title == name || names.iter().any(|other| *other == name)
-            };
-            let found = cameras
-                .iter()
-                .find(|(title, names, ..)| is_named(title, names));
-            if found.is_none() {
-                let what = if orthographic
-                    .iter()
-                    .any(|(title, names)| is_named(title, names))
-                {
-                    format!("its camera \"{name}\" is orthographic, which scenes do not have")
-                } else {
-                    format!("has no camera \"{name}\"")
-                };
-                let allowed = if titles.is_empty() {
-                    "none is perspective; leave --camera out, and one is framed on the model"
-                        .to_owned()
-                } else {
-                    format!("allowed: {list}")
-                };
-                return Err(format!("{what}; {allowed}"));
-            }
-            found
-        }
+    let node_camera = |camera: &Shown<'a>| {
+        Some(NodeCamera {
+            node: camera.node,
+            lens: camera.lens?,
+        })
     };
-    let note = match chosen {
-        Some((title, ..)) if name.is_none() && cameras.len() > 1 => Some(format!(
-            "camera \"{title}\" of {list} is imported; choose another with --camera"
-        )),
-        None if !orthographic.is_empty() => {
-            Some("its orthographic camera has no counterpart".to_owned())
-        }
-        _ => None,
+    let Some(name) = name else {
+        let chosen = cameras.iter().find_map(node_camera);
+        let note = match titles.len() {
+            0 if cameras.is_empty() => None,
+            0 => Some("its orthographic camera has no counterpart".to_owned()),
+            1 => None,
+            _ => Some(format!(
+                "camera \"{}\" of {list} is imported; choose another with --camera",
+                titles[0]
+            )),
+        };
+        return Ok((chosen, note));
     };
-    let chosen = chosen.map(|(_, _, node, lens)| NodeCamera { node: *node, lens });
-    Ok((chosen, note))
+    let mut named = (cameras.iter())
+        .filter(|camera| camera.title == name || camera.names.contains(&name))
+        .peekable();
+    let what = match named.peek() {
+        Some(_) => format!("its camera \"{name}\" is orthographic, which scenes do not have"),
+        None => format!("has no camera \"{name}\""),
+    };
+    if let Some(chosen) = named.find_map(node_camera) {
+        return Ok((Some(chosen), None));
+    }
+    let allowed = if titles.is_empty() {
+        "none is perspective; leave --camera out, and one is framed on the model".to_owned()
+    } else {
+        format!("allowed: {list}")
+    };
+    Err(format!("{what}; {allowed}"))
 }
 
 fn quote(names: &[String]) -> String {
