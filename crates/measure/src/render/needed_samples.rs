@@ -72,11 +72,8 @@ impl RunPlan {
 /// Rounds up to samples that every replicate has a power of two of, no fewer than the small render
 /// had; none if they are too many.
 fn round_up(needed: f64, replicates: u32) -> Option<u32> {
-    let each = (needed / f64::from(replicates))
-        .max(1.0)
-        .log2()
-        .ceil()
-        .exp2();
+    let needed = needed.max(f64::from(PILOT.max(replicates)));
+    let each = (needed / f64::from(replicates)).log2().ceil().exp2();
     (each * f64::from(replicates) <= f64::from(MAX_SAMPLES)).then(|| each as u32 * replicates)
 }
 
