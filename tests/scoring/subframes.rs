@@ -184,14 +184,22 @@ fn a_count_by_a_noisy_truth_agrees_with_that_by_a_better_one() {
 #[ignore = "prove: all scenes, and truths of 1,024 samples"]
 fn on_every_scene_64_sub_frames_may_be_64_and_counts_agree() {
     let mut wrong = Vec::new();
+    let mut intervals = 0;
     for listing in list_scenes(tests::scenes()).unwrap() {
         let scene = listing.name;
         for samples in [64, 1024] {
             wrong.extend(check_many(&scene, samples));
+            intervals += EquivalentMetric::ALL.len();
         }
     }
     for scene in ["sliding_panel", "fan", "railing", "two_spheres"] {
         wrong.extend(check_few(scene, [64, 1024]));
+        intervals += EquivalentMetric::ALL.len();
     }
-    assert!(wrong.is_empty(), "{wrong:#?}");
+    println!(
+        "{} of {intervals} intervals of 95 %: {wrong:#?}",
+        wrong.len()
+    );
+    // One in twenty misses by design.
+    assert!(20 * wrong.len() <= intervals, "{wrong:#?}");
 }

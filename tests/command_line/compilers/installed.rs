@@ -40,7 +40,7 @@ fn each_compiler_makes_the_picture_that_wgsl_makes() {
     const README: &str = include_str!("../../../shaders/README.md");
     let block = |language: &str| code_block(README, &format!("```{language}\n"));
     let sandbox = Sandbox::new();
-    sandbox.write_filter("centre_blur", block("toml"), block("rust"));
+    sandbox.write_filter("centre_blur", block("toml"), block("c"));
     let head = block("toml").split_once("[[pass]]").unwrap().0;
     let words = "truths render --quiet --out r --scenes plate --samples-per-pixel 16";
     sandbox.done(&format!("{words} --alignments centred"));

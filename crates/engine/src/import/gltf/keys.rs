@@ -13,7 +13,7 @@ pub struct Tolerance {
 }
 
 /// Most keys of one object.
-const MAX_KEYS: usize = 512;
+const MOST_KEYS: usize = 512;
 
 /// Shortest time between keys that halving makes, in frames.
 const SHORTEST: f64 = 1.0 / 4096.0;
@@ -86,9 +86,9 @@ pub fn find_keys<P: Path>(
                 ends.push((moment, key));
                 ends.push((middle, path.key(middle)));
             }
-            if keys.list.len() + ends.len() > MAX_KEYS {
+            if keys.list.len() + ends.len() > MOST_KEYS {
                 return Err(format!(
-                    "needs more than {MAX_KEYS} keys around frame {:.2} so that nothing strays by more than {} px; raise --fps, \
+                    "needs more than {MOST_KEYS} keys around frame {:.2} so that nothing strays by more than {} px; raise --fps, \
                      or import fewer frames",
                     start.frame, tolerance.stray
                 ));

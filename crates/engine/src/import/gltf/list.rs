@@ -10,7 +10,7 @@ use serde::de::{Deserializer, SeqAccess, Visitor};
 use serde_json::Value;
 
 /// Most entries of any list of a file, such as nodes.
-pub const MAX_ENTRIES: usize = 65_536;
+pub const LONGEST_LIST: usize = 65_536;
 
 /// A list with a bounded length, so that a small file cannot fill the memory.
 #[derive(Debug)]
@@ -37,15 +37,15 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for List<T> {
             type Value = List<T>;
 
             fn expecting(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
-                write!(formatter, "a list of at most {MAX_ENTRIES} entries")
+                write!(formatter, "a list of at most {LONGEST_LIST} entries")
             }
 
             fn visit_seq<A: SeqAccess<'de>>(self, mut entries: A) -> Result<List<T>, A::Error> {
                 let mut list = Vec::new();
                 while let Some(entry) = entries.next_element()? {
-                    if list.len() == MAX_ENTRIES {
+                    if list.len() == LONGEST_LIST {
                         return Err(serde::de::Error::custom(format!(
-                            "a list has more than {MAX_ENTRIES} entries; export less at once"
+                            "a list has more than {LONGEST_LIST} entries; export less at once"
                         )));
                     }
                     list.push(entry);
