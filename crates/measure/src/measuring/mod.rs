@@ -10,6 +10,7 @@ pub mod estimate;
 mod frames;
 pub mod measured_filters;
 mod missing_cases;
+pub mod needed_samples;
 pub mod part;
 pub mod pictures;
 pub mod plan;

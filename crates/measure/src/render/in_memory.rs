@@ -104,7 +104,7 @@ impl MemoryRender<'_> {
     }
 
     /// Predicts from a render with the samples of the settings how many per pixel the noise takes.
-    pub(super) fn predict_samples(&self) -> Result<f64, Error> {
+    pub(crate) fn predict_samples(&self) -> Result<f64, Error> {
         let (truth, traced) = (self.trace_truth()?, self.trace_frame(self.scene)?);
         let worst = worst_noise(&truth, &traced);
         Ok(self.predict(worst / self.noise.unwrap_or(f64::INFINITY)))

@@ -6,7 +6,6 @@ pub mod in_memory;
 pub mod ingested_scene;
 pub mod ladders;
 pub mod memory;
-pub mod needed_samples;
 pub mod rendering;
 pub mod replicates;
 pub mod run_scene;

@@ -3,9 +3,9 @@
 use serde::Serialize;
 use tracer::{MAX_SAMPLES, RenderSettings};
 
-use super::in_memory::MemoryRender;
-use super::run_scene::RunScene;
-use crate::{Error, RenderFile, RunPlan, hash_inputs, look_up, put};
+use super::plan::RunPlan;
+use crate::render::run_scene::RunScene;
+use crate::{Error, MemoryRender, RenderFile, hash_inputs, look_up, put};
 
 /// Samples per pixel of the render that the noise is measured on.
 const PILOT: u32 = 64;
