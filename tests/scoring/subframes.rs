@@ -87,12 +87,12 @@ fn load(name: &str) -> (Scene, Frame) {
 }
 
 /// Counts an independent picture of many sub-frames with as much noise as the truth; returns what
-/// is wrong.
-fn check_many(name: &str, samples: u32) -> Vec<String> {
+/// is wrong, or none if nothing moves.
+fn check_many(name: &str, samples: u32) -> Option<Vec<String>> {
     let (scene, frame) = load(name);
     let rendered = Rendered::new(&scene, &settings([96, 54], samples, 1), &LADDER);
     if !rendered.truth.support.moving.pixels.contains(&true) {
-        return Vec::new();
+        return None;
     }
     let other = Rendered::new(&scene, &settings([96, 54], samples, 2), &[MANY]);
     let (whole, without) = other.pictures();
@@ -103,7 +103,7 @@ fn check_many(name: &str, samples: u32) -> Vec<String> {
         let is_right = contains(&count, f64::from(MANY));
         (!is_right).then(|| format!("{name}, {samples} samples, {metric:?}: {count:?}"))
     });
-    wrong.collect()
+    Some(wrong.collect())
 }
 
 /// Counts one picture of few sub-frames, nearly without noise, by truths of few and of many
@@ -169,7 +169,7 @@ fn a_rung_of_64_sub_frames_has_less_noise_than_the_truth() {
 #[test]
 fn an_independent_picture_of_64_sub_frames_may_be_one_of_64() {
     let wrong = ["fan", "railing"]
-        .map(|scene| check_many(scene, 64))
+        .map(|scene| check_many(scene, 64).expect("something moves"))
         .concat();
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
@@ -188,8 +188,10 @@ fn on_every_scene_64_sub_frames_may_be_64_and_counts_agree() {
     for listing in list_scenes(tests::scenes()).unwrap() {
         let scene = listing.name;
         for samples in [64, 1024] {
-            wrong.extend(check_many(&scene, samples));
-            intervals += EquivalentMetric::ALL.len();
+            if let Some(missed) = check_many(&scene, samples) {
+                wrong.extend(missed);
+                intervals += EquivalentMetric::ALL.len();
+            }
         }
     }
     for scene in ["sliding_panel", "fan", "railing", "two_spheres"] {

@@ -117,6 +117,11 @@ pub fn display_srgb(image: &Image, stops: f32) -> Image {
     image.map(|pixel| pixel.map(|component| encode_srgb(component, stops)))
 }
 
+/// Returns the luminance of a colour in linear Rec.709.
+pub fn luminance([red, green, blue]: [f32; 3]) -> f32 {
+    0.2126 * red + 0.7152 * green + 0.0722 * blue
+}
+
 /// Decodes an sRGB value in [0, 1] (IEC 61966-2-1).
 pub fn decode_srgb(srgb: f32) -> f32 {
     if srgb <= 0.040_45 {

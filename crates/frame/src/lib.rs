@@ -52,7 +52,9 @@ mod words;
 pub use accumulation::{Accumulation, Ladder, MOST_GROUPS, rung_file};
 pub use at_instant::AtInstant;
 pub use camera::{Camera, CameraPose};
-pub use display::{Display, FlipExposures, MAX_STOPS, decode_srgb, display_srgb, scene_linear};
+pub use display::{
+    Display, FlipExposures, MAX_STOPS, decode_srgb, display_srgb, luminance, scene_linear,
+};
 pub use exr::{
     Channel, ColorMeaning, ExrFile, LARGEST_EXR_RATIO, LARGEST_EXR_SIDE, MAX_EXR_BYTES,
     MAX_EXR_CHANNELS, Samples, decode_exr, read_attribute, read_exr, read_exr_header, read_passes,

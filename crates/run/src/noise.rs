@@ -5,19 +5,25 @@ use scene::Scene;
 use terminal::arguments::MeasureArgs;
 use terminal::expected::print_expected_time;
 use terminal::output::{count_text, print_note};
+use terminal::refuse;
 
 /// Noise of scenes that are not built in, whose noise nobody has measured.
 const OWN_SCENES: f64 = 0.005;
 
 /// Chooses the noise: the one asked for; without a number of samples, that of scenes that are not
-/// built in. None leaves the samples as they are.
-pub fn choose_noise(args: &MeasureArgs, scenes: &[Scene]) -> Option<f64> {
+/// built in. None leaves the samples as they are. Refuses a noise if nothing is rendered.
+pub fn choose_noise(args: &MeasureArgs, scenes: &[Scene]) -> Result<Option<f64>, Error> {
+    if scenes.is_empty() && args.noise.is_some() {
+        refuse!(
+            "--noise: engines drew all of these scenes, and none is rendered; leave the option out"
+        );
+    }
     let is_built_in = |scene: &Scene| {
         (catalogue::SCENES.unpack)(&format!("{}/scene.toml", scene.id.name)).is_some()
     };
     let has_own = !scenes.iter().all(is_built_in);
     let default = (has_own && args.scenes.samples_per_pixel.is_none()).then_some(OWN_SCENES);
-    args.noise.or(default)
+    Ok(args.noise.or(default))
 }
 
 /// Gives a plan the samples per pixel that its noisiest scene needs, and prints them.
@@ -25,8 +31,9 @@ pub fn choose_samples(plan: &mut RunPlan) -> Result<(), Error> {
     let Some(noise) = plan.noise else {
         return Ok(());
     };
-    let scenes = count_text(plan.scenes.len(), "scene", "scenes");
-    let seconds = plan.scenes.len() as f64 * estimate_render_seconds(&plan.pilot(), 1);
+    let unknown = plan.count_unknown_samples(noise);
+    let seconds = unknown as f64 * estimate_render_seconds(&plan.pilot(), 1);
+    let scenes = count_text(unknown, "scene", "scenes");
     print_expected_time(seconds, &format!("to measure the noise of {scenes}"));
     let needed = plan.find_needed_samples(noise)?;
     let noisiest = needed.iter().zip(&plan.scenes);

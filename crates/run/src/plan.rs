@@ -60,7 +60,7 @@ pub fn make_plan(args: &MeasureArgs, out: PathBuf) -> Result<(RunPlan, RunBounds
     if let Some(truths) = &plan.truths {
         check_truths(truths)?;
     }
-    let noise = choose_noise(args, &plan.scenes);
+    let noise = choose_noise(args, &plan.scenes)?;
     Ok((RunPlan { noise, ..plan }, bounds))
 }
 

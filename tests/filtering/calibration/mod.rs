@@ -116,7 +116,7 @@ fn check_ramp(outcome: &Outcome) -> Option<String> {
         "    {part:.2} of the promised length, which is {:.2} of the true one",
         promise / trail
     );
-    let stated = stated_lengths(filter, preset);
+    let stated = stated_lengths(filter, preset, promise);
     // three.js rotates the trail, here across the motion. At lower speeds, interpolation and the
     // pixel grid weigh more.
     let is_stated = promise < 1e-9 || trail < 8.0 || stated.contains(&part);

@@ -54,8 +54,8 @@ pub fn promised_smear(filter: &str, preset: &str, steady: &Steady) -> f64 {
 }
 
 /// Returns an edge's spread on the panel according to the filter's text, from 8 pixels on: parts of
-/// the promised length, in whole hundredths.
-pub fn stated_lengths(filter: &str, preset: &str) -> RangeInclusive<f64> {
+/// the promised length, which is `promise` in pixels, in whole hundredths.
+pub fn stated_lengths(filter: &str, preset: &str, promise: f64) -> RangeInclusive<f64> {
     match (filter, preset) {
         ("jump_flood" | "jump_flood_packed", "paper") => 1.26..=1.31,
         ("jump_flood" | "jump_flood_packed", "july_2024") => 1.09..=1.12,
@@ -66,8 +66,9 @@ pub fn stated_lengths(filter: &str, preset: &str) -> RangeInclusive<f64> {
         ("guertin", _) => 0.65..=0.87,
         ("dagor", "default") => 0.77..=1.11,
         ("godot", "addon" | "mended") => 0.88..=1.025,
-        // 1.09 where its turn leaves 4 pixels of 8: the pixel grid weighs more.
-        ("three", _) => 1.03..=1.09,
+        // Where its turn leaves 4 pixels of 8, the pixel grid weighs more.
+        ("three", _) if promise < 5.0 => 1.03..=1.09,
+        ("three", _) => 1.03..=1.05,
         ("centred_gather", "armory") => 1.07..=1.09,
         ("centred_gather", "spartan_2024") => 0.98..=1.00,
         ("babylon", _) => 0.79..=0.96,

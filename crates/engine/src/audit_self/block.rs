@@ -1,5 +1,7 @@
 //! Regions of a picture, and the blocks of their pixels that are compared as a whole.
 
+use std::collections::BTreeMap;
+
 use frame::{Raster, Size};
 
 use crate::audit_self::frame_pair::FramePair;
@@ -44,15 +46,13 @@ pub struct Block {
 pub fn divide(pair: &FramePair) -> Vec<Region> {
     let size = pair.after.color.size();
     let numbers = number_regions(pair.after, size);
-    let count = 1 + numbers.pixels.iter().copied().max().unwrap_or(0) as usize;
-    let mut pixels = vec![Vec::new(); count];
+    // Ids may be any numbers, such as hashes of names.
+    let mut regions = BTreeMap::<u32, Vec<usize>>::new();
     for (at, region) in numbers.pixels.iter().enumerate() {
-        pixels[*region as usize].push(at);
+        regions.entry(*region).or_default().push(at);
     }
     let has_ids = pair.after.object_id.is_some();
-    let regions = pixels.into_iter().enumerate();
-    let regions = regions.filter(|(_, pixels)| !pixels.is_empty());
-    regions
+    (regions.into_iter())
         .map(|(number, pixels)| Region {
             name: name_region(number, has_ids),
             blocks: divide_region(pair, &pixels, size.width as usize),
@@ -71,9 +71,9 @@ fn number_regions(frame: &Capture, size: Size) -> Raster<u32> {
 }
 
 /// Names a region as ingested captures name objects.
-fn name_region(number: usize, has_ids: bool) -> String {
+fn name_region(number: u32, has_ids: bool) -> String {
     match (has_ids, number) {
-        (false, part) => PART_NAMES[part].to_owned(),
+        (false, part) => PART_NAMES[part as usize].to_owned(),
         (true, 0) => "background".to_owned(),
         (true, id) => format!("object_{id}"),
     }
@@ -84,7 +84,7 @@ fn divide_region(pair: &FramePair, pixels: &[usize], width: usize) -> Vec<Block>
     let inside: Vec<usize> = inside.collect();
     let side = (inside.len() as f64 / BLOCKS).sqrt();
     let side = side.clamp(SIDES[0], SIDES[1]) as usize;
-    let mut tiles = std::collections::BTreeMap::<[usize; 2], Vec<usize>>::new();
+    let mut tiles = BTreeMap::<[usize; 2], Vec<usize>>::new();
     for at in inside {
         let tile = [at / width / side, at % width / side];
         tiles.entry(tile).or_default().push(at);

@@ -1,6 +1,6 @@
 //! Smoothed brightness of a picture, also between its pixels.
 
-use frame::{Image, Plane, Raster};
+use frame::{Image, Plane, Raster, luminance};
 use glam::DVec2;
 
 /// Exponent that spreads brightness about as a display does.
@@ -30,8 +30,7 @@ pub struct Sample {
 impl Brightness {
     /// Encodes and smooths the brightness of a picture, relative to `white`.
     pub fn of(color: &Image, white: f32) -> Self {
-        let encode =
-            |pixel: &[f32; 3]| ((luminance(pixel) / white).powf(ENCODING)).min(MAX_BRIGHTNESS);
+        let encode = |pixel: &[f32; 3]| ((light(pixel) / white).powf(ENCODING)).min(MAX_BRIGHTNESS);
         let plane = smooth(&color.map(encode));
         Self {
             splines: find_splines(&plane),
@@ -83,14 +82,15 @@ impl Brightness {
 /// Chooses the radiance that counts as white in some pictures; above 0.
 pub fn choose_white(pictures: [&Image; 2]) -> f32 {
     let all = pictures.iter().flat_map(|picture| &picture.pixels);
-    let mut values: Vec<f32> = all.map(luminance).filter(|value| *value > 0.0).collect();
+    let mut values: Vec<f32> = all.map(light).filter(|value| *value > 0.0).collect();
     values.sort_by(f32::total_cmp);
     let at = (values.len() as f64 * BELOW_WHITE) as usize;
     values.get(at).copied().unwrap_or(1.0)
 }
 
-fn luminance([red, green, blue]: &[f32; 3]) -> f32 {
-    (0.2126 * red + 0.7152 * green + 0.0722 * blue).max(0.0)
+/// Returns the luminance of a pixel; 0 where a filter of the engine has left less.
+fn light(pixel: &[f32; 3]) -> f32 {
+    luminance(*pixel).max(0.0)
 }
 
 /// Smooths with the weights 1, 2, 1 in both directions.

@@ -25,7 +25,7 @@ pub struct AuditArgs {
     pub capture: PathBuf,
     /// Compare consecutive frames with each other instead of a scene: does velocity lead from each
     /// to the frame before?
-    #[arg(long = "self", conflicts_with = "scene")]
+    #[arg(long = "self", conflicts_with_all = ["scene", "scenes_dir"])]
     pub frames_alone: bool,
     /// TOML file with a table [convention] that says which velocity and depth the engine has
     /// [default: engine.toml in DIR].
@@ -38,8 +38,7 @@ pub struct AuditArgs {
     #[command(flatten)]
     pub root: RootArgs,
     /// Folder for audit.json, and for a picture of the worst place of each object that is wrong;
-    /// with --self, a map of each frame
-    /// [default: out/audit/<name of DIR>].
+    /// with --self, a map of each frame [default: out/audit/<name of DIR>].
     #[arg(short, long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Print the audit as JSON.

@@ -2,27 +2,16 @@
 
 use frame::Size;
 
+use crate::import::framing::{self, SIZE, VERTICAL_FOV, VIEW};
 use crate::import::model::{BLENDED, Model, Up};
 use crate::import::plan::ImportPlan;
 use crate::import::set::{STAND_HEIGHT, WALL_DISTANCE};
-
-/// Size of the picture for speeds in pixels.
-const SIZE: Size = Size::new(640, 360);
-
-/// Vertical field of view, in degrees.
-const VERTICAL_FOV: f64 = 40.0;
-
-/// Angles of the camera around and above the model, in degrees.
-const VIEW: [f64; 2] = [25.0, 15.0];
-
-/// Part of the picture's height that the ball around the model fills.
-const FILLED: f64 = 0.75;
 
 /// Writes the whole text. The world's origin is below the model's middle, on the stand's upper
 /// face.
 pub fn scene_toml(plan: &ImportPlan, model: &Model) -> String {
     let half_fov = (0.5 * VERTICAL_FOV).to_radians();
-    let distance = model.radius() / (FILLED * half_fov.sin());
+    let distance = framing::distance(model.radius());
     // Length of a pixel at the model's middle, in metres.
     let pixel = 2.0 * distance * half_fov.tan() / f64::from(SIZE.height);
     let file = plan.model.file_name().unwrap_or_default().to_string_lossy();

@@ -2,6 +2,7 @@
 //! motion; a glTF file with its own animation.
 
 mod document;
+mod framing;
 mod gltf;
 mod model;
 mod plan;

@@ -1,7 +1,6 @@
 //! The imported model: its files in the scene's folder, and its box.
 
 use std::fs;
-use std::ops::RangeInclusive;
 use std::path::{Component, Path, PathBuf};
 
 use frame::{FileError, read_bounded, write_atomically};
@@ -10,6 +9,7 @@ use measure::{Error, named};
 use scene::{Mesh, Scene, SceneError, limits::LARGEST_MESH_FILE, load_scene_and_files};
 
 use crate::files::refuse;
+use crate::import::framing::check_radius;
 use crate::import::series::Series;
 
 /// Name of the folder of the model's files, in the scene's folder.
@@ -17,9 +17,6 @@ const FOLDER: &str = "model";
 
 /// Key of an object with materials that light passes through.
 pub const BLENDED: &str = "alpha = \"blended\"\n";
-
-/// Radii of models that can be imported, in metres.
-const RADII: RangeInclusive<f64> = 1e-6..=1e9;
 
 named! {
     /// An axis that points up.
@@ -105,15 +102,7 @@ impl Model {
 
     /// Refuses a model for which no stand, floor and camera can be made.
     fn check_size(&self, path: &Path) -> Result<(), Error> {
-        let radius = self.radius();
-        if RADII.contains(&radius) {
-            return Ok(());
-        }
-        let [least, greatest] = [RADII.start(), RADII.end()];
-        refuse!(
-            path,
-            "the model's radius is {radius:e} m; allowed: {least:e} to {greatest:e}; scale it"
-        )
+        check_radius(self.radius()).or_else(|reason| refuse!(path, "{reason}"))
     }
 
     /// Returns half of the size along each axis, in metres.

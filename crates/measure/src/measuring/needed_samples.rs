@@ -1,5 +1,8 @@
 //! How many samples per pixel a scene needs for a noise.
 
+use std::path::PathBuf;
+
+use scene::Scene;
 use serde::Serialize;
 use tracer::{MAX_SAMPLES, RenderSettings};
 
@@ -20,6 +23,12 @@ struct Inputs {
     noise: f64,
 }
 
+/// Place of a scene's number of samples, and the hash of what determines it.
+struct Record {
+    path: PathBuf,
+    inputs: String,
+}
+
 impl RunPlan {
     /// Finds the samples per pixel that bring truth and frame of each scene to the noise `target`,
     /// a root mean square of radiance where anything moves. A small render of every scene tells
@@ -29,33 +38,52 @@ impl RunPlan {
     /// More samples than allowed would be needed, a scene cannot be rendered with the plan's
     /// settings, or the monitor interrupted.
     pub fn find_needed_samples(&self, target: f64) -> Result<Vec<u32>, Error> {
-        let alignment = self.alignments()[0];
         let scenes = self.scenes.iter();
-        let needed = scenes.map(|scene| {
-            let settings = self.pilot();
-            let render = MemoryRender {
-                scene,
-                settings,
-                alignment,
-                noise: Some(target),
-                subframes: 0,
-                monitor: self.monitor,
-            };
-            let truth = RenderFile::Truth(alignment);
-            let inputs = hash_inputs(&Inputs {
-                truth: RunScene::from(scene).content_hash(truth, &settings),
-                noise: target,
-            });
-            let path = self.out.join(scene.id.folder()).join(RECORD);
-            if let Some(samples) = look_up(&path, &inputs) {
-                return Ok(samples);
-            }
-            let samples = round_up(render.predict_samples()?, settings.replicates)
-                .ok_or_else(|| too_many(&scene.id.to_string(), target))?;
-            put(&path, inputs, &[], &samples)?;
-            Ok(samples)
+        let needed = scenes.map(|scene| match self.look_up_samples(scene, target) {
+            Some(samples) => Ok(samples),
+            None => self.measure_samples(scene, target),
         });
         needed.collect()
+    }
+
+    /// Counts the scenes that [`RunPlan::find_needed_samples`] renders.
+    pub fn count_unknown_samples(&self, target: f64) -> usize {
+        let scenes = self.scenes.iter();
+        let unknown = scenes.filter(|scene| self.look_up_samples(scene, target).is_none());
+        unknown.count()
+    }
+
+    fn look_up_samples(&self, scene: &Scene, target: f64) -> Option<u32> {
+        let record = self.samples_record(scene, target);
+        look_up(&record.path, &record.inputs)
+    }
+
+    fn measure_samples(&self, scene: &Scene, target: f64) -> Result<u32, Error> {
+        let settings = self.pilot();
+        let render = MemoryRender {
+            scene,
+            settings,
+            alignment: self.alignments()[0],
+            noise: Some(target),
+            subframes: 0,
+            monitor: self.monitor,
+        };
+        let samples = round_up(render.predict_samples()?, settings.replicates)
+            .ok_or_else(|| too_many(&scene.id.to_string(), target))?;
+        let record = self.samples_record(scene, target);
+        put(&record.path, record.inputs, &[], &samples)?;
+        Ok(samples)
+    }
+
+    fn samples_record(&self, scene: &Scene, target: f64) -> Record {
+        let truth = RenderFile::Truth(self.alignments()[0]);
+        Record {
+            path: self.out.join(scene.id.folder()).join(RECORD),
+            inputs: hash_inputs(&Inputs {
+                truth: RunScene::from(scene).content_hash(truth, &self.pilot()),
+                noise: target,
+            }),
+        }
     }
 
     /// Returns the settings of the renders that [`RunPlan::find_needed_samples`] makes.

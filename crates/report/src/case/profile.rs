@@ -1,6 +1,6 @@
 //! Profile of a case: brightness along the motion through one place.
 
-use frame::{Frame, Image, Raster, Vectors};
+use frame::{Frame, Image, Raster, Vectors, luminance};
 use measure::Case;
 
 use crate::pixels::scene_files::{CaseFiles, SceneFiles, TruthFile};
@@ -57,7 +57,7 @@ pub fn trace_profile(
         title: title.to_owned(),
         class,
         points: (pixels.iter())
-            .map(|(distance, [x, y])| (f64::from(*distance), luminance(image.at(*x, *y)).into()))
+            .map(|(distance, [x, y])| (f64::from(*distance), luminance(*image.at(*x, *y)).into()))
             .collect(),
     };
     let mut curves = vec![
@@ -125,11 +125,6 @@ fn pixel_at(place: [u32; 2], direction: [f32; 2], step: f32, size: [u32; 2]) -> 
         (0.0..size[axis] as f32).contains(&at).then_some(at as u32)
     };
     Some([on(0)?, on(1)?])
-}
-
-/// Weighs the components like Rec.709.
-fn luminance([r, g, b]: &[f32; 3]) -> f32 {
-    0.2126 * r + 0.7152 * g + 0.0722 * b
 }
 
 #[cfg(test)]

@@ -1,29 +1,13 @@
 //! A camera framed on a model without one, and floor and wall around it.
 
-use std::ops::RangeInclusive;
-
 use glam::DVec3;
 
 use super::moment::Clip;
 use super::piece::Piece;
 use super::stage::Stage;
 use super::view::{Camera, Film};
-
-/// Picture of a framed camera.
-const FILM: Film = Film {
-    width: 640,
-    height: 360,
-    vertical_fov: 40.0 * std::f64::consts::PI / 180.0,
-};
-
-/// Part of the picture's height that the ball around the model fills.
-const FILLED: f64 = 0.75;
-
-/// Degrees around and above the model.
-const VIEW: [f64; 2] = [25.0, 15.0];
-
-/// Radii of models that can be framed, in metres.
-const RADII: RangeInclusive<f64> = 1e-6..=1e9;
+use crate::import::framing::{self, SIZE, VERTICAL_FOV, VIEW};
+use crate::import::set::WALL_DISTANCE;
 
 /// A model's box around the instant, in metres.
 #[derive(Clone, Copy, Debug)]
@@ -58,36 +42,26 @@ impl Extent {
     pub fn radius(&self) -> f64 {
         0.5 * (self.high - self.low).length()
     }
-
-    /// Refuses a model that no camera can be framed on.
-    pub fn check(&self) -> Result<(), String> {
-        let [least, greatest] = [RADII.start(), RADII.end()];
-        if RADII.contains(&self.radius()) {
-            Ok(())
-        } else {
-            Err(format!(
-                "the model's radius is {:e} m; allowed: {least:e} to {greatest:e}; scale it",
-                self.radius()
-            ))
-        }
-    }
 }
 
 /// Frames a camera on a model, which it goes around by so many degrees per frame.
 pub fn frame_model(extent: &Extent, orbit: f64) -> (Camera, Film) {
     let camera = Camera::Around {
         target: extent.middle(),
-        distance: extent.radius() / (FILLED * (0.5 * FILM.vertical_fov).sin()),
+        distance: framing::distance(extent.radius()),
         direction: VIEW,
         orbit,
     };
-    (camera, FILM)
+    let film = Film {
+        width: SIZE.width,
+        height: SIZE.height,
+        vertical_fov: VERTICAL_FOV.to_radians(),
+    };
+    (camera, film)
 }
 
 /// Tables of a floor below the model and a wall behind it.
 pub fn set_toml(extent: &Extent) -> String {
-    /// Radii from the middle to the wall.
-    const WALL_DISTANCE: f64 = 4.0;
     let radius = extent.radius();
     let middle = extent.middle();
     let around = VIEW[0].to_radians();

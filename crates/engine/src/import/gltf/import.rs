@@ -23,11 +23,9 @@ use super::reading::{choose_clip, read_stage};
 use super::stage::Stage;
 use super::view::{Camera, CameraPath, Film, View};
 use crate::files::{name_of, refuse};
+use crate::import::framing::{SIZE, check_radius};
 use crate::import::set::write_backdrop;
 use crate::import::staging::{Imported, Written, make_folder};
-
-/// Width of pictures of a file's own camera.
-const WIDTH: u32 = 640;
 
 /// Part of the tolerance that the camera's keys use.
 const TOLERANCE: Tolerance = Tolerance {
@@ -128,13 +126,13 @@ impl Import<'_> {
                 );
             }
             let film = Film {
-                width: WIDTH,
-                height: (f64::from(WIDTH) / aspect).round() as u32,
+                width: SIZE.width,
+                height: (f64::from(SIZE.width) / aspect).round() as u32,
                 vertical_fov: fov,
             };
             return Ok((Camera::Node(chosen.node), film));
         }
-        extent.check().or_else(|reason| refuse!(path, "{reason}"))?;
+        check_radius(extent.radius()).or_else(|reason| refuse!(path, "{reason}"))?;
         if chosen.is_some() {
             self.notes
                 .push("the orbiting camera replaces the file's own".to_owned());

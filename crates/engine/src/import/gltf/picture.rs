@@ -3,6 +3,7 @@
 
 use std::ops::ControlFlow;
 
+use frame::luminance;
 use glam::Vec3;
 use measure::Error;
 use scene::{Background, Finish, Material, Scene};
@@ -86,9 +87,4 @@ fn mask(material: &Material, emission: Vec3) -> Material {
         opacity_texture: material.opacity_texture.filter(|_| !is_blended),
         translucency: None,
     }
-}
-
-/// Returns the luminance of a colour in linear Rec.709.
-fn luminance([red, green, blue]: [f32; 3]) -> f32 {
-    0.2126 * red + 0.7152 * green + 0.0722 * blue
 }

@@ -7,18 +7,13 @@ mod picture;
 mod planted;
 mod structure;
 
-use std::path::PathBuf;
-
-use engine::{
-    Buffer, Capture, CaptureAudit, CaptureDescription, Cause, Defect, FRAMES_PER_SECOND,
-    audit_capture,
-};
-use filters::Convention;
+use engine::{Buffer, Capture, CaptureAudit, Cause, Defect, FRAMES_PER_SECOND, audit_capture};
 use frame::{FAR_DEPTH, Vectors, VelocityKind};
 use scene::{Scene, load_scene};
 use tests::unwatched;
 use tracer::{PointMotion, RenderSettings, trace_frame, trace_motion};
 
+use super::capture;
 use crate::{load_shipped, shipped};
 
 const WIDTH: u32 = 96;
@@ -60,32 +55,7 @@ fn draw(scene: &Scene, time: f64) -> Capture {
 fn draw_in_size(scene: &Scene, time: f64, size: [u32; 2]) -> Capture {
     let settings = settings_of_size(size, VelocityKind::PreviousFrame);
     let scene = scene.clone().later_by(time);
-    let frame = trace_frame(&scene, &settings, &unwatched).unwrap();
-    Capture {
-        folder: PathBuf::from("capture"),
-        description: CaptureDescription {
-            raw: Default::default(),
-            engine: "test".to_owned(),
-            scene: None,
-            exposure: None,
-            alignment: None,
-            instant: 0.0,
-            subframes: None,
-            stops: None,
-        },
-        convention: Convention::default(),
-        color: frame.color,
-        lacks: Vec::new(),
-        velocity: frame.velocity,
-        velocity_next: None,
-        velocity_z: None,
-        exclusion: None,
-        depth: frame.depth,
-        object_id: Some(frame.object_id),
-        blurred: None,
-        subframes: Vec::new(),
-        notes: Vec::new(),
-    }
+    capture(trace_frame(&scene, &settings, &unwatched).unwrap())
 }
 
 fn audit(scene: &Scene, capture: &Capture) -> CaptureAudit {

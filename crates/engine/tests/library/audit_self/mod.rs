@@ -4,17 +4,13 @@
 mod coverage;
 mod planted;
 
-use std::path::PathBuf;
-
-use engine::{
-    Capture, CaptureDescription, RegionAudit, SequenceAudit, SimpleCause, Verdict, audit_frames,
-};
-use filters::Convention;
+use engine::{Capture, RegionAudit, SequenceAudit, SimpleCause, Verdict, audit_frames};
 use frame::{Vectors, VelocityKind};
 use scene::Scene;
 use tests::unwatched;
 use tracer::{PointMotion, RenderSettings, trace_frame, trace_motion};
 
+use super::capture;
 use crate::load_shipped;
 
 const SIZE: [u32; 2] = [160, 90];
@@ -35,32 +31,7 @@ fn settings(seed: u64, time: f64) -> RenderSettings {
 /// Captures a scene as an engine draws it some frames after the instant.
 fn draw(scene: &Scene, time: f64, seed: u64) -> Capture {
     let scene = scene.clone().later_by(time);
-    let frame = trace_frame(&scene, &settings(seed, time), &unwatched).unwrap();
-    Capture {
-        folder: PathBuf::from("capture"),
-        description: CaptureDescription {
-            raw: Default::default(),
-            engine: "test".to_owned(),
-            scene: None,
-            exposure: None,
-            alignment: None,
-            instant: 0.0,
-            subframes: None,
-            stops: None,
-        },
-        convention: Convention::default(),
-        color: frame.color,
-        lacks: Vec::new(),
-        velocity: frame.velocity,
-        velocity_next: None,
-        velocity_z: None,
-        exclusion: None,
-        depth: frame.depth,
-        object_id: Some(frame.object_id),
-        blurred: None,
-        subframes: Vec::new(),
-        notes: Vec::new(),
-    }
+    capture(trace_frame(&scene, &settings(seed, time), &unwatched).unwrap())
 }
 
 fn draw_frames(name: &str, times: &[f64], seed: u64) -> Vec<Capture> {
@@ -148,4 +119,18 @@ fn without_ids_the_picture_has_nine_parts() {
     assert_passes("fan without ids", &audit);
     assert_eq!(audit.pairs[0].regions.len(), 9);
     region(&audit, 1, "bottom right");
+}
+
+#[test]
+fn ids_may_be_any_numbers() {
+    let mut frames = draw_frames("fan", &TIMES[..2], 1);
+    for frame in &mut frames {
+        let ids = frame.object_id.as_mut().unwrap();
+        ids.pixels
+            .iter_mut()
+            .for_each(|id| *id = u32::MAX - 1 - *id);
+    }
+    let audit = audit(&frames);
+    assert_passes("fan with large ids", &audit);
+    region(&audit, 1, &format!("object_{}", u32::MAX - 2));
 }

@@ -213,7 +213,7 @@ fn a_capture_without_sub_frames_has_no_truth_to_run_against() {
 }
 
 /// Commands that ask an engine's picture for what it has not, and parts of the message.
-const OTHER_SETTINGS: [(&str, &[&str]); 8] = [
+const OTHER_SETTINGS: [(&str, &[&str]); 9] = [
     (
         "run --scenes out/engine/mine --size 64x32",
         &["was drawn at 96x54", "at its own size"],
@@ -221,6 +221,10 @@ const OTHER_SETTINGS: [(&str, &[&str]); 8] = [
     (
         "run --scenes out/engine/mine --exposure 1",
         &["--exposure", "as Test Engine 1.2 drew it"],
+    ),
+    (
+        "run --scenes out/engine/mine --noise 0.01",
+        &["--noise", "leave the option out"],
     ),
     (
         "run --scenes out/engine/mine --guard-band 8",
