@@ -6,8 +6,11 @@ use tests::text::{assert_contains, squeeze};
 
 use crate::sandbox::Sandbox;
 
-/// Scene, size and noise of every run.
-const RUN: &str = "run --quiet --jitter-frames 0 --samples-per-pixel 16 --size 320x180 --out out";
+/// Size and noise of every run.
+const RUN: &str = "run --quiet --jitter-frames 0 --samples-per-pixel 16 --size 192x108 --out out";
+
+/// The panel of every run: it moves 9.6 pixels during the exposure at this size.
+const PANEL: &str = "sliding_panel@64px_0deg";
 
 const MANIFEST: &str = r#"
 summary = "Averages colours along a part of the motion."
@@ -151,7 +154,7 @@ fn every_wrong_length_side_and_direction_has_its_verdict() {
         names.push(format!("./{name}"));
     }
     let filters = names.join(",");
-    let text = sandbox.done(&format!("{RUN} --scenes sliding_panel --filter {filters}"));
+    let text = sandbox.done(&format!("{RUN} --scenes {PANEL} --filter {filters}"));
     let (_, smears) = text.split_once("smear over the exposure").unwrap();
     let words = squeeze(smears);
     for (number, (.., verdict)) in MISTAKES.into_iter().enumerate() {
@@ -167,7 +170,7 @@ fn every_wrong_length_side_and_direction_has_its_verdict() {
 fn up_and_down_exchanged_show_in_slanted_motion() {
     let sandbox = Sandbox::of(&Vec::new());
     let name = write_blur(&sandbox, Alignment::Trailing);
-    let line = format!("{RUN} --scenes sliding_panel@32px_30deg --filter ./{name}");
+    let line = format!("{RUN} --scenes sliding_panel@64px_30deg --filter ./{name}");
     sandbox.done(&line);
     let right = sandbox.read_filter_cases()[0].smear.unwrap();
     assert_eq!(right.direction, SmearDirection::Along);
@@ -190,7 +193,7 @@ fn a_right_blur_of_three_passes_is_not_halved() {
             "{} --set godot_tiles.strength={strength:?}",
             folder.display()
         );
-        let text = sandbox.done(&format!("{RUN} --scenes sliding_panel --filter {filter}"));
+        let text = sandbox.done(&format!("{RUN} --scenes {PANEL} --filter {filter}"));
         let words = squeeze(&text);
         assert_contains(&words, &[verdict]);
     }
@@ -214,7 +217,7 @@ const GOOD: [&str; 9] = [
 fn good_blurs_of_each_kind_are_right() {
     let sandbox = Sandbox::of(&Vec::new());
     let text = sandbox.done(&format!(
-        "{RUN} --scenes sliding_panel --filter {}",
+        "{RUN} --scenes {PANEL} --filter {}",
         GOOD.join(",")
     ));
     let cases = sandbox.read_filter_cases();
@@ -239,9 +242,9 @@ fn good_blurs_of_each_kind_are_right() {
 fn a_finished_picture_has_the_smear_of_its_filter() {
     let sandbox = Sandbox::of(&Vec::new());
     let name = write_blur(&sandbox, Alignment::Trailing);
-    let scene = "out/sliding_panel";
+    let scene = format!("out/{PANEL}");
     sandbox.done(&format!(
-        "{RUN} --scenes sliding_panel --filter ./{name} --set {name}.last=0.5"
+        "{RUN} --scenes {PANEL} --filter ./{name} --set {name}.last=0.5"
     ));
     let case = sandbox.read_filter_cases().remove(0);
     let image = case.folder.join("output.png");

@@ -14,30 +14,30 @@ pub const APART: Sampling = Sampling {
     seed: Some(99),
 };
 
-/// Makes wrong pictures of a scene, with their names.
-pub fn decoys(scene: &Scene, frame: &Frame) -> Vec<(&'static str, Picture)> {
+/// Makes wrong pictures of a scene, with their names, some of them from the `right` blur.
+pub fn decoys(scene: &Scene, frame: &Frame, right: &Picture) -> Vec<(&'static str, Picture)> {
     let blurred = |blur: Blur| scene.render(&blur, APART);
     let instant = frame.picture();
     let wide = blurred(dilated(6.0));
-    let rescaled = rescale(&blurred(Blur::TRUE), &wide, &instant);
+    let rescaled = rescale(right, &wide, &instant);
     let mut decoys = vec![
         ("identity", instant.clone()),
-        ("constant", constant(&blurred(Blur::TRUE))),
+        ("constant", constant(right)),
         ("half length", blurred(smear(-0.5, 0.0))),
         ("1.5 length", blurred(smear(-1.5, 0.0))),
         ("wrong side", blurred(smear(-0.5, 0.5))),
         ("shift along", blurred(shifted([3.0, 0.0]))),
         ("shift across", blurred(shifted([0.0, 3.0]))),
         ("dilation 2 px", blurred(dilated(2.0))),
-        ("dilation 6 px", blurred(dilated(6.0))),
+        ("dilation 6 px", wide),
         ("isotropic", blur_isotropically(&instant, 7.0)),
         ("fat, rescaled", rescaled),
         ("own velocity", gather(frame)),
-        ("sharp core", sharpen(&blurred(Blur::TRUE), &instant, scene)),
+        ("sharp core", sharpen(right, &instant, scene)),
         ("banding", blurred(Blur::accumulation(4))),
     ];
     let still = regions(&scene.truth([Sampling::CLEAN; 2])).still;
-    decoys.extend(touch(&blurred(Blur::TRUE), &still));
+    decoys.extend(touch(right, &still));
     decoys
 }
 

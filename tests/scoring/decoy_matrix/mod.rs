@@ -27,8 +27,9 @@ fn score_decoys(scene: &Scene) -> Vec<(&'static str, Scores)> {
     let truth = scene.truth([noisy(1024, 1), noisy(1024, 2)]);
     let reference = Reference::new(&frame, &truth, None, &VIEWING).unwrap();
     let score = |picture: &Picture| reference.measure(picture).unwrap().scores;
-    let mut pictures = decoys(scene, &frame);
-    pictures.push(("oracle", scene.render(&Blur::TRUE, APART)));
+    let right = scene.render(&Blur::TRUE, APART);
+    let mut pictures = decoys(scene, &frame, &right);
+    pictures.push(("oracle", right));
     let many = Blur::accumulation(64);
     pictures.push(("accumulate:64", scene.render(&many, APART)));
     let rows = pictures

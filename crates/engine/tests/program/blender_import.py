@@ -44,8 +44,9 @@ def at(keys, time):
 def scene_points(folder, document, time):
     """Returns the vertices of the imported objects in the world at a time."""
     points = []
+    is_framed = find_camera() is None
     for name, table in document["object"].items():
-        if name in ("floor", "wall") or name.startswith("point_light_"):
+        if is_framed and name in ("floor", "wall") or name.startswith("point_light_"):
             continue
         if "shapes" in table:
             points += read_obj(os.path.join(folder, at(table["shapes"], time)["mesh"]))
@@ -82,11 +83,16 @@ def farthest(points, others):
     return max(tree.find(point)[2] / max(1.0, point.length) for point in points)
 
 
+def find_camera():
+    """Returns the file's camera; without one, the import frames the model and adds a floor and a wall."""
+    cameras = (thing for thing in bpy.context.scene.objects if thing.type == "CAMERA")
+    return next(cameras, None)
+
+
 def camera_difference(document, time):
     """Returns how far position and axes of the cameras are apart; none if the scene's is framed."""
-    cameras = (thing for thing in bpy.context.scene.objects if thing.type == "CAMERA")
-    camera = next(cameras, None)
-    if camera is None or "wall" in document["object"]:
+    camera = find_camera()
+    if camera is None:
         return None
     keys = document["camera"].get("keys")
     table = at(keys, time) if keys else document["camera"]

@@ -13,3 +13,5 @@ mod import_series;
 mod ingest;
 #[cfg(unix)]
 mod threejs;
+#[cfg(unix)]
+mod threejs_import;

@@ -18,7 +18,7 @@ use crate::sandbox::{Sandbox, split, stderr, stdout};
 const SUBFRAMES: usize = 4;
 
 /// Copies the example to the target folder, and installs three.js there unless it is installed.
-fn install() -> &'static Path {
+pub fn install() -> &'static Path {
     static FOLDER: OnceLock<PathBuf> = OnceLock::new();
     FOLDER.get_or_init(|| {
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("threejs");

@@ -21,6 +21,9 @@ const REACH: f64 = 2.5;
 /// Steps per exposure that the search starts with, and finer ones around the best.
 const COARSE: usize = 8;
 const FINE: usize = 64;
+/// Change of a picture, in parts of its colours, that may be rounding: half floats are off by up to
+/// 0.0005.
+const ROUNDING: f64 = 1e-3;
 /// Part of the error of the best smear along the motion that one in another direction must stay
 /// below: a real one leaves a small part.
 const CLEARLY_BETTER: f64 = 0.5;
@@ -154,8 +157,9 @@ fn fit(
         .map(|at| trace_ray(frame, picture, *at, displacement, half))
         .collect();
     let none: f64 = rays.par_iter().map(Ray::change).sum();
-    if none <= 0.0 {
-        return None;
+    let colors: f64 = rays.par_iter().map(|ray| square(&ray.frame)).sum();
+    if none <= ROUNDING * ROUNDING * colors {
+        return Some((none, Smear::nothing(displacement, direction)));
     }
     let error = |steps: Steps| {
         let Products { changes, smears } = rays.par_iter().map(|ray| ray.products(steps)).sum();
@@ -201,6 +205,24 @@ fn fit(
         rest: (error / none).sqrt(),
     };
     Some((error, smear))
+}
+
+impl Smear {
+    /// The smear of a filter that changes nothing.
+    fn nothing(displacement: [f64; 2], direction: SmearDirection) -> Self {
+        Self {
+            motion: displacement[0].hypot(displacement[1]),
+            direction,
+            open: 0.0,
+            close: 0.0,
+            weight: 0.0,
+            rest: 1.0,
+        }
+    }
+}
+
+fn square(color: &[f64; 3]) -> f64 {
+    color.iter().map(|part| part * part).sum()
 }
 
 /// Finds the interval with the least error; returns error, weight and interval.
@@ -267,7 +289,7 @@ fn trace_ray(
 impl Ray {
     /// Returns the squared change of the picture from the frame.
     fn change(&self) -> f64 {
-        self.change.iter().map(|part| part * part).sum()
+        square(&self.change)
     }
 
     /// Returns the products for the smear over some steps.

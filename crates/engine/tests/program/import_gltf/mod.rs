@@ -3,6 +3,7 @@
 mod materials;
 pub mod model;
 mod refusals;
+mod round_trip;
 
 use glam::DVec3;
 use scene::{Scene, load_scene};
