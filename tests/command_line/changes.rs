@@ -28,6 +28,7 @@ fn search(sandbox: &Sandbox, filter: &str, words: &str) -> Output {
 const SIX: &str = "--scenes fan,railing,roll,two_spheres,flag,pan_sky";
 
 #[test]
+#[ignore = "prove: a search by hundreds of measurements"]
 fn the_search_finds_a_known_mistake() {
     let sandbox = Sandbox::new();
     // The shipped three.js reads motion upside down and twice as long, and brightens by a

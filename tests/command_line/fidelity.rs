@@ -52,6 +52,7 @@ fn assert_page(scenes: &str) {
 }
 
 #[test]
+#[ignore = "prove: originals beside all presets"]
 fn presets_match_their_originals_as_far_as_the_page_says() {
     assert_page("railing");
 }

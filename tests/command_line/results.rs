@@ -149,6 +149,7 @@ fn check_lengths(of_full_size: bool) {
 }
 
 #[test]
+#[ignore = "prove: a claim of the results, measured anew"]
 fn an_engine_s_smear_is_as_long_as_the_page_says_and_a_tenth_more_is_another_length() {
     check_lengths(false);
 }
@@ -388,6 +389,7 @@ fn write_learnt_filter(sandbox: &Sandbox) {
 }
 
 #[test]
+#[ignore = "prove: a study of the results, measured anew"]
 fn a_filter_that_was_fitted_to_the_scenes_falls_on_sealed_ones() {
     let sandbox = Sandbox::new();
     let names = ["plate", "dim", "bright"];

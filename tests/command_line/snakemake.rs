@@ -67,6 +67,7 @@ fn finish(sandbox: &Sandbox) -> String {
 }
 
 #[test]
+#[ignore = "prove: a job of Snakemake is killed and goes on"]
 fn a_killed_job_is_resumed_and_the_merged_run_equals_that_of_one_process() {
     let [shared, alone] = [(); 2].map(|()| Sandbox::new());
     let folder = shared.path("").canonicalize().unwrap();

@@ -54,11 +54,13 @@ fn parts_of_a_run_make_the_files_of_one_process() {
 }
 
 #[test]
+#[ignore = "prove: the parts of a run are joined in each test run"]
 fn parts_of_a_sequence_make_the_files_of_one_process() {
     assert_parts_equal_one_process("plate", "kino:default,identity", "centred", "--frames 2");
 }
 
 #[test]
+#[ignore = "prove: the parts of a run are joined in each test run"]
 fn parts_of_frame_rates_make_the_files_of_one_process() {
     let rates = "--frame-rate 24 --shutter-time 1/48 --input rule=in_frames";
     assert_parts_equal_one_process("plate", "identity", "trailing", rates);
