@@ -42,9 +42,12 @@ pictures: software_vulkan chromium
 SOFTWARE = VK_DRIVER_FILES="$${VK_DRIVER_FILES:-$$(ls /usr/share/vulkan/icd.d/lvp_icd*.json 2>/dev/null | head -n 1)}"
 TEST = $(SOFTWARE) cargo test --locked
 
-# Tools are installed while cargo compiles: one waits for the network, the other for the processors.
+# Tools are installed while cargo compiles: one waits for the network, the other for the processors. `make --dry-run` runs every line
+# that names MAKE; this one would compile.
+TOOLS = $(MAKE) --no-print-directory python chromium node glslang
+
 test: software_vulkan
-	@$(MAKE) --no-print-directory python chromium node glslang & tools=$$!; \
+	@$(TOOLS) & tools=$$!; \
 	$(TEST) --no-run; compiled=$$?; \
 	wait $$tools && exit $$compiled
 	$(TEST)
@@ -96,9 +99,9 @@ prove:
 breadth: software_vulkan python chromium node glslang blender site
 	$(TEST) --tests --no-fail-fast -- --ignored --skip guides::
 
-# Runs every command of every page, and prints each with its time.
+# Runs every command of every page, and prints each with its time: `make guides PAGES=README.md,docs/your-scene.md` takes two pages.
 guides: software_vulkan python glslang
-	$(TEST) --test command_line -- --ignored --nocapture --test-threads 1 guides
+	PAGES=$(PAGES) $(TEST) --test command_line -- --ignored --nocapture --test-threads 1 guides$(if $(PAGES),::every_command)
 
 # How long to fuzz, what, and from which seed on: `make fuzz MINUTES=1 TARGETS=scene,obj SEED=7`. See docs/fuzzing.md.
 SEED ?= $(shell date +%s)

@@ -13,6 +13,7 @@ mod ranking;
 mod scatter_oracle;
 mod scores;
 mod sequences;
+mod smear;
 mod subframes;
 
 use frame::{Frame, Picture, Truth};

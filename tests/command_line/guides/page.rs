@@ -65,6 +65,10 @@ fn is_name(text: &str) -> bool {
 fn find_command(line: &str) -> Option<Step> {
     let command = line.split(" #").next()?.trim_end();
     let program = command.split(' ').next()?;
+    // Other languages have loops, too.
+    if program == "for" && !command.contains("; do") {
+        return None;
+    }
     (PROGRAMS.split(' ').any(|name| name == program)).then(|| Step::Run(command.to_owned()))
 }
 

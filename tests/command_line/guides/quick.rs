@@ -51,7 +51,12 @@ pub fn shorten(command: &str) -> String {
         let names = [command.as_str(), grouped.as_str()];
         commands.split(", ").any(|name| names.contains(&name))
     };
+    // The noise decides how many samples are rendered.
+    let has_noise = words.iter().any(|word| word == "--noise");
     for (option, value, commands) in QUICK {
+        if has_noise && option == "--samples-per-pixel" {
+            continue;
+        }
         match words.iter().position(|word| word == option) {
             Some(at) if !named("check, limits calibrate") => words[at + 1] = value.to_owned(),
             None if named(commands) => words.extend([option, value].map(str::to_owned)),

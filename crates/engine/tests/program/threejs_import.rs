@@ -105,7 +105,10 @@ fn three_js_places_the_vertices_of_a_gltf_file_where_the_import_does() {
             24.0,
         );
     }
-    for model in [skinned(1), Model::sliding()] {
+    let mut half_turn = Model::new();
+    let rotations = [0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0];
+    half_turn.animate(0, "rotation", "LINEAR", &[0.0, 2.0], &rotations);
+    for model in [skinned(1), Model::sliding(), half_turn] {
         let sandbox = Sandbox::new();
         model.write(&sandbox);
         compare(&sandbox, MODEL, 1.0, 4.0);

@@ -197,12 +197,11 @@ fn fit(
     // A pixel shows at a time what was ahead of it by as much at the instant.
     let [close, open] = steps.map(|step| (half as f64 - step as f64) / FINE as f64);
     let smear = Smear {
-        motion: displacement[0].hypot(displacement[1]),
-        direction,
         open,
         close,
         weight,
         rest: (error / none).sqrt(),
+        ..Smear::nothing(displacement, direction)
     };
     Some((error, smear))
 }
