@@ -23,7 +23,11 @@ fn a_filter_that_changes_nothing_or_rounds_has_a_smear_of_zero_length() {
         let mut is_up = false;
         let rounded = sharp.map(|color| {
             is_up = !is_up;
-            let factor = if is_up { 1.0 + rounding } else { 1.0 - rounding };
+            let factor = if is_up {
+                1.0 + rounding
+            } else {
+                1.0 - rounding
+            };
             color.map(|value| value * factor)
         });
         let smear = measure(&scene, &rounded);
