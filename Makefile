@@ -1,5 +1,5 @@
 # `make run` does the main job, and `make site` makes a site of its results. `make test` proves that the program is right, and
-# `make prove` repeats it at full breadth within an hour: CONTRIBUTING.md. `make archive` makes the release archive; `make action` and
+# `make prove` repeats it at full breadth in about two hours: CONTRIBUTING.md. `make archive` makes the release archive; `make action` and
 # `make image` try it in a bare Debian and in two images. `make wheel` makes the Python wheel, and `make try_wheel` tries it:
 # docs/release.md.
 #
