@@ -72,7 +72,6 @@ fn a_run_scales_a_preset_to_its_width_and_reports_it() {
 }
 
 #[test]
-#[ignore = "prove: runs scale presets in each test run"]
 fn bench_and_tuning_scale_presets_unless_told_not_to() {
     let sandbox = set_up();
     let json = |line: &str| -> Json { serde_json::from_str(&sandbox.done(line)).unwrap() };

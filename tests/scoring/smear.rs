@@ -37,3 +37,10 @@ fn a_filter_that_changes_nothing_or_rounds_has_a_smear_of_zero_length() {
     let blurred = scene.render(&Blur::TRUE, Sampling::CLEAN).color;
     assert!(measure(&scene, &blurred).length() > 0.5);
 }
+
+#[test]
+fn a_picture_of_one_colour_shows_no_smear() {
+    let mut frame = small_disc().frame();
+    frame.color.pixels.fill([0.5; 3]);
+    assert_eq!(measure_smear(&frame, &frame.color), None);
+}

@@ -61,7 +61,6 @@ fn a_bench_prints_and_writes_the_same_times() {
 }
 
 #[test]
-#[ignore = "prove: times a bench"]
 fn costs_come_from_the_bench_beside_the_run() {
     let sandbox = Sandbox::new();
     let words = "--filters identity,mcguire:paper --set mcguire.samples=7";

@@ -6,6 +6,7 @@ use std::process::Command;
 use tests::text::assert_contains;
 use tests::{root, scenes};
 
+use super::export_gltf;
 use super::import_gltf::model::{MODEL, Model};
 use super::import_gltf::skinned;
 use crate::sandbox::{Sandbox, split, stderr, stdout};
@@ -13,13 +14,11 @@ use crate::sandbox::{Sandbox, split, stderr, stdout};
 /// Exports a shipped scene, and draws it in Blender with four sub-frames.
 fn draw(scene: &str, options: &str) -> Sandbox {
     let sandbox = Sandbox::new();
-    let folder = scenes().display().to_string();
-    let words = split("engine export --subframes 4 --gltf gltf --scenes-dir");
-    sandbox.execute(&[&words[..], &[&folder, scene]].concat());
+    let exported = export_gltf(&sandbox, scene, &["--subframes", "4"]);
     let mut command = Command::new("blender");
     command.args(["-b", "--python-exit-code", "1", "--python"]);
     command.arg(root().join("examples/blender/blender.py"));
-    let line = format!("-- gltf/{scene} capture --size 96x54 --samples 4 {options}");
+    let line = format!("-- {exported} capture --size 96x54 --samples 4 {options}");
     command.args(split(&line)).current_dir(sandbox.path(""));
     let output = command.output().unwrap_or_else(|error| {
         panic!("blender does not start ({error}): apt-get install blender python3-numpy, as `make prove` does")
@@ -86,10 +85,7 @@ fn blender_places_the_vertices_and_the_camera_of_a_gltf_file_where_the_import_do
     // Nodes with parents; morph targets; a moving camera.
     for scene in ["walker", "flag", "dolly"] {
         let sandbox = Sandbox::new();
-        let folder = scenes().display().to_string();
-        let words = split("engine export --gltf gltf --scenes-dir");
-        sandbox.execute(&[&words[..], &[&folder, scene]].concat());
-        let model = format!("gltf/{scene}/scene.gltf");
+        let model = export_gltf(&sandbox, scene, &[]) + "/scene.gltf";
         let worst = measure_import(&sandbox, &model, 2.0 / 24.0, 24.0);
         // Blender computes with 32 bits, and the vertices are metres from the origin.
         assert!(worst < 1e-5, "{scene}: {worst}");

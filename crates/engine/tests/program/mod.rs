@@ -1,6 +1,8 @@
 //! The commands of `engine`, as their user sees them. A part of tests/command_line, which is linked
 //! with the program once.
 
+use crate::sandbox::Sandbox;
+
 mod audit;
 mod audit_self;
 #[cfg(unix)]
@@ -15,3 +17,11 @@ mod ingest;
 mod threejs;
 #[cfg(unix)]
 mod threejs_import;
+
+/// Exports a shipped scene to glTF; returns the folder in the sandbox.
+fn export_gltf(sandbox: &Sandbox, scene: &str, more: &[&str]) -> String {
+    let folder = tests::scenes().display().to_string();
+    let words = ["engine", "export", "--gltf", "gltf", "--scenes-dir"];
+    sandbox.execute(&[&words[..], &[folder.as_str(), scene], more].concat());
+    format!("gltf/{scene}")
+}

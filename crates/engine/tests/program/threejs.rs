@@ -11,6 +11,7 @@ use frame::{ExrFile, FAR_DEPTH, Frame, Image, Plane, Raster, Vectors, write_exr}
 use tests::text::assert_contains;
 use tests::{root, scenes};
 
+use super::export_gltf;
 use super::ingest::capture::{HEIGHT, WIDTH, render_instant};
 use crate::sandbox::{Sandbox, split, stderr, stdout};
 
@@ -58,12 +59,10 @@ struct Drawn {
 impl Drawn {
     fn new(scene: &str) -> Self {
         let sandbox = Sandbox::new();
-        let folder = scenes().display().to_string();
-        let words = ["engine", "export", "--gltf", "gltf", "--scenes-dir"];
-        sandbox.execute(&[&words, &[folder.as_str(), scene][..]].concat());
+        let exported = export_gltf(&sandbox, scene, &[]);
         let frame = render_instant(scenes().join(scene), 8, 0.0);
-        let [gltf, out] = [format!("gltf/{scene}"), "capture".to_owned()]
-            .map(|below| sandbox.path(&below).display().to_string());
+        let [gltf, out] =
+            [exported.as_str(), "capture"].map(|below| sandbox.path(below).display().to_string());
         let [size, subframes] = [format!("{WIDTH}x{HEIGHT}"), SUBFRAMES.to_string()];
         let capture = ["run", "-s", "capture", "--", &gltf, "--size", &size];
         let more = ["--subframes", &subframes, "--out", &out];

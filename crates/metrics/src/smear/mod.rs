@@ -21,6 +21,10 @@ const REACH: f64 = 2.5;
 /// Steps per exposure that the search starts with, and finer ones around the best.
 const COARSE: usize = 8;
 const FINE: usize = 64;
+/// Steps from the instant to the end of the search.
+const HALF: usize = (REACH * FINE as f64) as usize;
+/// Steps of a centred exposure.
+const EXPOSURE: Steps = [HALF - FINE / 2, HALF + FINE / 2];
 /// Change of a picture, in parts of its colours, that may be rounding: half floats are off by up to
 /// 0.0005.
 const ROUNDING: f64 = 1e-3;
@@ -80,35 +84,45 @@ type Steps = [usize; 2];
 /// filter does beyond the silhouette. The smear is the interval and its weight, next to the frame's
 /// own colour, that leave the least squared difference.
 /// None if the camera or several objects move, if the object does not translate or touches the
-/// border, or if its motion is too short.
+/// border, if its motion is too short, or if neither the picture nor an even smear differs from the
+/// frame: a mover of one colour shows no smear.
 pub fn measure_smear(frame: &Frame, picture: &Image) -> Option<Smear> {
     let (id, displacement) = only_mover(frame)?;
     let motion = displacement[0].hypot(displacement[1]);
     let pixels = pick_pixels(frame, id, REACH * motion)?;
     let [x, y] = displacement.map(|part| part / motion);
-    let mut ways = vec![
-        (SmearDirection::Along, [x, y]),
-        (SmearDirection::Across, [-y, x]),
-    ];
+    let trace = |along: [f64; 2]| {
+        let step = along.map(|part| part * motion);
+        let rays = (pixels.par_iter()).map(|at| trace_ray(frame, picture, *at, step));
+        rays.collect::<Vec<Ray>>()
+    };
+    let rays = trace([x, y]);
+    let colors: f64 = rays.iter().map(|ray| square(&ray.frame)).sum();
+    let rounding = ROUNDING * ROUNDING * colors;
+    if rays.iter().map(Ray::change).sum::<f64>() <= rounding {
+        let even = rays.iter().map(|ray| ray.products(EXPOSURE).smears);
+        return (even.sum::<f64>() > rounding).then(|| Smear::nothing(motion));
+    }
+    let nothing = Smear::nothing(motion);
+    let mut best = fit(&rays, nothing)?;
+    let mut ways = vec![(SmearDirection::Across, [-y, x])];
     // Level and plumb motion does not change its line.
     if x.abs().min(y.abs()) > 0.1 {
         ways.push((SmearDirection::Flipped, [x, -y]));
     }
-    let mut best: Option<(f64, Smear)> = None;
     for (direction, along) in ways {
-        let (error, smear) = fit(
-            frame,
-            picture,
-            &pixels,
-            along.map(|part| part * motion),
-            direction,
+        let other = fit(
+            &trace(along),
+            Smear {
+                direction,
+                ..nothing
+            },
         )?;
-        let is_better = (best.as_ref()).is_none_or(|(least, _)| error < CLEARLY_BETTER * least);
-        if is_better {
-            best = Some((error, smear));
+        if other.0 < CLEARLY_BETTER * best.0 {
+            best = other;
         }
     }
-    best.map(|(_, smear)| smear)
+    Some(best.1)
 }
 
 /// Finds the only object that moves, and its displacement over the exposure. None if several move,
@@ -144,23 +158,10 @@ fn pick_pixels(frame: &Frame, id: u32, reach: f64) -> Option<Vec<(u32, u32)>> {
     Some(inside.into_iter().step_by(step).collect())
 }
 
-/// Finds the interval along `displacement` that fits best; returns its squared difference, too.
-fn fit(
-    frame: &Frame,
-    picture: &Image,
-    pixels: &[(u32, u32)],
-    displacement: [f64; 2],
-    direction: SmearDirection,
-) -> Option<(f64, Smear)> {
-    let half = (REACH * FINE as f64) as usize;
-    let rays: Vec<Ray> = (pixels.par_iter())
-        .map(|at| trace_ray(frame, picture, *at, displacement, half))
-        .collect();
+/// Finds the interval along rays that fits best; returns its squared difference, and the smear that
+/// `nothing` becomes.
+fn fit(rays: &[Ray], nothing: Smear) -> Option<(f64, Smear)> {
     let none: f64 = rays.par_iter().map(Ray::change).sum();
-    let colors: f64 = rays.par_iter().map(|ray| square(&ray.frame)).sum();
-    if none <= ROUNDING * ROUNDING * colors {
-        return Some((none, Smear::nothing(displacement, direction)));
-    }
     let error = |steps: Steps| {
         let Products { changes, smears } = rays.par_iter().map(|ray| ray.products(steps)).sum();
         let weight = if smears > 0.0 {
@@ -172,7 +173,7 @@ fn fit(
         (error.max(0.0), weight)
     };
     let stride = FINE / COARSE;
-    let coarse = (0..=2 * half).step_by(stride);
+    let coarse = (0..=2 * HALF).step_by(stride);
     let all = coarse.clone().flat_map(|first| {
         (coarse.clone()).filter_map(move |last| (first <= last).then_some([first, last]))
     });
@@ -184,7 +185,7 @@ fn fit(
             [
                 step.saturating_sub(around),
                 step,
-                (step + around).min(2 * half),
+                (step + around).min(2 * HALF),
             ]
         };
         let (firsts, lasts) = (near(best.2[0]), near(best.2[1]));
@@ -195,23 +196,23 @@ fn fit(
     }
     let (error, weight, steps) = best;
     // A pixel shows at a time what was ahead of it by as much at the instant.
-    let [close, open] = steps.map(|step| (half as f64 - step as f64) / FINE as f64);
+    let [close, open] = steps.map(|step| (HALF as f64 - step as f64) / FINE as f64);
     let smear = Smear {
         open,
         close,
         weight,
         rest: (error / none).sqrt(),
-        ..Smear::nothing(displacement, direction)
+        ..nothing
     };
     Some((error, smear))
 }
 
 impl Smear {
     /// The smear of a filter that changes nothing.
-    fn nothing(displacement: [f64; 2], direction: SmearDirection) -> Self {
+    fn nothing(motion: f64) -> Self {
         Self {
-            motion: displacement[0].hypot(displacement[1]),
-            direction,
+            motion,
+            direction: SmearDirection::Along,
             open: 0.0,
             close: 0.0,
             weight: 0.0,
@@ -255,18 +256,12 @@ impl Sum for Products {
     }
 }
 
-/// Follows the frame's colours through a pixel, `half` steps to either side.
-fn trace_ray(
-    frame: &Frame,
-    picture: &Image,
-    (x, y): (u32, u32),
-    displacement: [f64; 2],
-    half: usize,
-) -> Ray {
+/// Follows the frame's colours through a pixel, [`HALF`] steps to either side.
+fn trace_ray(frame: &Frame, picture: &Image, (x, y): (u32, u32), displacement: [f64; 2]) -> Ray {
     let mut sums = vec![[0.0; 3]];
     let mut sum = [0.0; 3];
-    for step in 0..=2 * half {
-        let ahead = (step as f64 - half as f64) / FINE as f64;
+    for step in 0..=2 * HALF {
+        let ahead = (step as f64 - HALF as f64) / FINE as f64;
         let place = [
             f64::from(x) + ahead * displacement[0],
             f64::from(y) + ahead * displacement[1],
