@@ -1,10 +1,12 @@
 //! Targets: files that inputs replace, and the commands that read them.
 
 use std::fs;
+use std::io::Read;
 use std::os::unix::process::ExitStatusExt;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use flate2::read::GzDecoder;
 use serde::Deserialize;
 use walkdir::WalkDir;
 
@@ -16,6 +18,14 @@ const CODES: [i32; 5] = [0, 1, 2, 3, 4];
 
 /// Exit code of a command that reached its time limit.
 const KILLED: i32 = 137;
+
+/// Unpacks an input that repeats itself.
+fn unpack(content: &[u8]) -> Vec<u8> {
+    let mut unpacked = Vec::new();
+    let read = GzDecoder::new(content).read_to_end(&mut unpacked);
+    read.expect("the corpus can be unpacked");
+    unpacked
+}
 
 #[derive(Deserialize)]
 pub struct Target {
@@ -54,7 +64,7 @@ impl Target {
         for path in paths {
             let content = fs::read(&path).unwrap();
             inputs.push(match path.extension() {
-                Some(_) => zstd::decode_all(&*content).expect("the corpus can be unpacked"),
+                Some(_) => unpack(&content),
                 None => content,
             });
         }
