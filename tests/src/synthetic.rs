@@ -80,9 +80,8 @@ impl Scene {
                 let time = blur.from + fraction * (blur.to - blur.from);
                 let (id, radiance) = sees(&near, point, [x, y], time);
                 counts[id] += 1;
-                for (sum, radiance) in sum.iter_mut().zip(radiance) {
-                    *sum += radiance;
-                }
+                let [red, green, blue] = radiance;
+                sum = [sum[0] + red, sum[1] + green, sum[2] + blue];
             }
             let samples = f64::from(sampling.samples);
             for (plane, count) in coverage.iter_mut().zip(counts) {

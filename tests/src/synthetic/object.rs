@@ -131,17 +131,23 @@ impl Posed {
     /// Converts a point to the object's own coordinates, its centre at (0, 0), at `time`
     /// displacements from the instant.
     pub(crate) fn local(&self, point: [f64; 2], time: f64) -> [f64; 2] {
-        // Plain statements: a picture has millions of samples, and this crate is not much
+        // No loops over axes: a picture has millions of samples, and this crate is not much
         // optimised.
         let (object, shift) = (&self.object, self.blur.shift);
-        let mut moved = point;
-        for axis in [0, 1] {
-            moved[axis] = moved[axis]
-                - object.center[axis]
-                - object.displacement[axis] * time
-                - self.along[axis] * shift[0]
-                - self.across[axis] * shift[1];
-        }
+        let (center, displacement) = (object.center, object.displacement);
+        let (along, across) = (self.along, self.across);
+        let moved = [
+            point[0]
+                - center[0]
+                - displacement[0] * time
+                - along[0] * shift[0]
+                - across[0] * shift[1],
+            point[1]
+                - center[1]
+                - displacement[1] * time
+                - along[1] * shift[0]
+                - across[1] * shift[1],
+        ];
         match object.turn {
             0.0 => moved,
             turn => {
@@ -166,25 +172,26 @@ impl Posed {
                 // Steps across the motion that stay within both pairs of sides, and within the
                 // dilation.
                 let (at, step) = (rotate(local, self.tilt), self.step);
-                let mut steps = [-dilation, dilation];
-                for axis in [0, 1] {
-                    if step[axis].abs() < 1e-12 {
-                        if at[axis].abs() > half[axis] {
-                            return false;
-                        }
-                    } else {
-                        let ends = [
-                            (-half[axis] - at[axis]) / step[axis],
-                            (half[axis] - at[axis]) / step[axis],
-                        ];
-                        steps[0] = steps[0].max(ends[0].min(ends[1]));
-                        steps[1] = steps[1].min(ends[0].max(ends[1]));
-                    }
-                }
-                steps[0] <= steps[1]
+                let all = [-dilation, dilation];
+                let steps = steps_within(at[0], step[0], half[0], all)
+                    .and_then(|steps| steps_within(at[1], step[1], half[1], steps));
+                steps.is_some_and(|[first, last]| first <= last)
             }
         }
     }
+}
+
+/// Narrows steps from a place to those that stay within `half` of 0 on one axis; none if no step
+/// changes a place outside.
+fn steps_within(at: f64, step: f64, half: f64, [first, last]: [f64; 2]) -> Option<[f64; 2]> {
+    if step.abs() < 1e-12 {
+        return (at.abs() <= half).then_some([first, last]);
+    }
+    let ends = [(-half - at) / step, (half - at) / step];
+    Some([
+        first.max(ends[0].min(ends[1])),
+        last.min(ends[0].max(ends[1])),
+    ])
 }
 
 fn rotate([x, y]: [f64; 2], [sin, cos]: [f64; 2]) -> [f64; 2] {
