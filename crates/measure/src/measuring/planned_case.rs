@@ -57,7 +57,7 @@ impl<'a> PlannedCase<'a> {
     /// per filter preset and input form. Leaves out filters of an alignment that no truth of the
     /// scene has.
     pub fn all(plan: &RunPlan, scene: RunScene<'a>) -> Vec<Self> {
-        debug_assert!(SUBFRAMES.iter().all(|count| LADDER.contains(count)));
+        assert!(SUBFRAMES.iter().all(|count| LADDER.contains(count)));
         let alignments = scene.alignments(plan.alignments());
         let references = alignments.iter().flat_map(|alignment| {
             let accumulations = scene.accumulations(&SUBFRAMES, *alignment, plan.ladders);
