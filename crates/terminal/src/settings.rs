@@ -118,11 +118,9 @@ impl Settings {
     /// the command line gives all.
     pub fn used_text(&self, command: &ArgMatches, from: &FromFile) -> Option<String> {
         let is_given = |id: &str| {
-            let source = command
-                .try_contains_id(id)
-                .ok()
-                .and(command.value_source(id));
-            source == Some(ValueSource::CommandLine)
+            // Not every command has every option, and clap asserts that it has what is asked for.
+            command.try_contains_id(id).is_ok()
+                && command.value_source(id) == Some(ValueSource::CommandLine)
         };
         // Scenes have a second name, and a finished run has all but its baseline.
         let names = |id: &'static str| match id {
