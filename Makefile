@@ -40,9 +40,9 @@ pictures: software_vulkan chromium
 
 # Tests compare numbers, which graphics cards round in their own ways. They run on Mesa's software driver, or on VK_DRIVER_FILES.
 SOFTWARE = VK_DRIVER_FILES="$${VK_DRIVER_FILES:-$$(ls /usr/share/vulkan/icd.d/lvp_icd*.json 2>/dev/null | head -n 1)}"
-TEST = $(SOFTWARE) $(TEMPORARY) cargo test --locked
+TEST = $(SOFTWARE) cargo test --locked
 
-# Tests make and delete many small files, for which ext4 takes a tenth of their time. These lie in memory where 4 GiB are free in
+# The tests make and delete many small files, for which ext4 takes a tenth of their time. These lie in memory where 4 GiB are free in
 # /dev/shm and programs may run there, unless TMPDIR names a folder.
 TEMPORARY = TMPDIR="$${TMPDIR:-$$(free=$$(df --output=avail /dev/shm 2>/dev/null | tail -n 1); \
     if [ "$${free:-0}" -gt 4194304 ] && ! grep -q ' /dev/shm .*noexec' /proc/mounts; then echo /dev/shm; else echo /tmp; fi)}"
@@ -55,7 +55,7 @@ test: software_vulkan
 	@$(TOOLS) & tools=$$!; \
 	$(TEST) --no-run; compiled=$$?; \
 	wait $$tools && exit $$compiled
-	$(TEST)
+	$(TEMPORARY) $(TEST)
 	$(MAKE) --no-print-directory module
 
 # The Python module, built as the tests are, and tested in a fresh environment; numpy is fetched once. Cargo's default packages leave

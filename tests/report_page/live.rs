@@ -328,33 +328,24 @@ fn unpack(mut zip: &[u8], folder: &Path) {
     }
 }
 
-/// Data of a filter beside a page.
-struct FilterData {
-    path: PathBuf,
-    /// The file's text before and after the data.
-    around: [String; 2],
-    data: Value,
+/// Returns the file beside a page that holds a filter's data.
+fn data_path(page: &Path, filter: usize) -> PathBuf {
+    page.with_file_name(format!("a report_files/live_filter_{filter}.js"))
 }
 
-impl FilterData {
-    fn read(page: &Path, filter: usize) -> Self {
-        let name = format!("live_filter_{filter}");
-        let path = page.with_file_name(format!("a report_files/{name}.js"));
-        let around = [
-            format!("shuttertruth.arrived(\"{name}\", "),
-            ");\n".to_owned(),
-        ];
-        let text = fs::read_to_string(&path).unwrap();
-        let json = text.strip_prefix(&around[0]).unwrap();
-        let json = json.strip_suffix(&around[1]).unwrap();
-        let data = serde_json::from_str(json).unwrap();
-        Self { path, around, data }
-    }
-
-    fn write(&self, data: &Value) {
-        let [start, end] = &self.around;
-        fs::write(&self.path, format!("{start}{data}{end}")).unwrap();
-    }
+/// Changes the data of a filter, as a mistake of the program would.
+fn change_data(page: &Path, filter: usize, change: impl FnOnce(&mut Value)) {
+    let path = data_path(page, filter);
+    let text = fs::read_to_string(&path).unwrap();
+    let (start, end) = (
+        format!("shuttertruth.arrived(\"live_filter_{filter}\", "),
+        ");\n",
+    );
+    let json = text.strip_prefix(&start).unwrap();
+    let json = json.strip_suffix(end).unwrap();
+    let mut data = serde_json::from_str(json).unwrap();
+    change(&mut data);
+    fs::write(&path, format!("{start}{data}{end}")).unwrap();
 }
 
 /// Returns whether the page shows the stored picture of a case.
@@ -402,14 +393,13 @@ fn mistakes_in_the_data_of_a_filter_change_its_picture() {
     let cases = FILTERS.map(|name| find_case(&sandbox, name));
     let page = make_page(&sandbox);
     let mut browser = Browser::new(1280, 900);
-    let sound = [0, 1].map(|filter| FilterData::read(&page, filter));
     for (number, (filter, mistake)) in mistakes.into_iter().enumerate() {
-        let mut data = sound[filter].data.clone();
-        mistake(&mut data);
-        sound[filter].write(&data);
-        let shown = shows_stored(&mut browser, &page, &sandbox, &cases[filter]);
-        assert!(!shown, "{number}");
-        sound[filter].write(&sound[filter].data);
+        let path = data_path(&page, filter);
+        let sound = fs::read(&path).unwrap();
+        change_data(&page, filter, mistake);
+        let is_shown = shows_stored(&mut browser, &page, &sandbox, &cases[filter]);
+        assert!(!is_shown, "{number}");
+        fs::write(&path, sound).unwrap();
     }
     for case in &cases {
         assert!(shows_stored(&mut browser, &page, &sandbox, case));

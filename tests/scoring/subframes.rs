@@ -146,7 +146,7 @@ fn measure_noise(parts: &[&Image], truth: &Truth) -> f64 {
 
 #[test]
 fn a_rung_of_64_sub_frames_has_less_noise_than_the_truth() {
-    for name in ["fan", "two_spheres"] {
+    for name in ["sliding_panel", "fan", "railing", "two_spheres"] {
         let (scene, _) = load(name);
         let settings = settings([96, 54], 64, 1);
         let tracer = TruthTracer::new(&scene, &settings, &[Alignment::Trailing]).unwrap();

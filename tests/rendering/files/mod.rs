@@ -187,10 +187,7 @@ fn a_flipped_bit_in_a_foreign_picture_s_deflated_chunks_is_refused() {
         "the chunks are deflated"
     );
     let (mut kept, mut changed) = (0, 0);
-    // Every third byte: each is eight readings.
-    let places = (chunks..bytes.len()).step_by(3);
-    let all = 8 * places.len();
-    for at in places {
+    for at in chunks..bytes.len() {
         for bit in 0..8 {
             let mut flipped = bytes.clone();
             flipped[at] ^= 1 << bit;
@@ -202,6 +199,7 @@ fn a_flipped_bit_in_a_foreign_picture_s_deflated_chunks_is_refused() {
             }
         }
     }
+    let all = 8 * (bytes.len() - chunks);
     // A flip that permutes bytes may leave both sums of Adler-32 as they are. zlib accepts these
     // 17, too.
     assert!(changed <= 17, "{changed} of {all}");
