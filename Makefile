@@ -47,6 +47,9 @@ TEST = $(SOFTWARE) cargo test --locked
 TEMPORARY = TMPDIR="$${TMPDIR:-$$(free=$$(df --output=avail /dev/shm 2>/dev/null | tail -n 1); \
     if [ "$${free:-0}" -gt 4194304 ] && ! grep -q ' /dev/shm .*noexec' /proc/mounts; then echo /dev/shm; else echo /tmp; fi)}"
 
+# Many tests wait for a program that they run, or for a disk: twice as many run at once as there are processors.
+THREADS = RUST_TEST_THREADS="$${RUST_TEST_THREADS:-$$((2 * $$(nproc)))}"
+
 # Tools are installed while cargo compiles: one waits for the network, the other for the processors. `make --dry-run` runs every line
 # that names MAKE; this one would compile.
 TOOLS = $(MAKE) --no-print-directory python chromium node glslang
@@ -55,7 +58,7 @@ test: software_vulkan
 	@$(TOOLS) & tools=$$!; \
 	$(TEST) --no-run; compiled=$$?; \
 	wait $$tools && exit $$compiled
-	$(TEMPORARY) $(TEST)
+	$(TEMPORARY) $(THREADS) $(TEST)
 	$(MAKE) --no-print-directory module
 
 # The Python module, built as the tests are, and tested in a fresh environment; numpy is fetched once. Cargo's default packages leave

@@ -39,6 +39,7 @@ fn read_expected(sandbox: &Sandbox, line: &str) -> String {
 }
 
 #[test]
+#[ignore = "prove: every command of the README, until it says its time"]
 fn the_times_of_the_readme_are_those_that_the_program_announces() {
     let sandbox = Sandbox::of(&Vec::new());
     sandbox.done("new my_blur --from wgsl");

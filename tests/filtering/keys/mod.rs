@@ -218,6 +218,7 @@ fn every_key_of_filter_toml_has_a_row() {
 }
 
 #[test]
+#[ignore = "prove: every value of every key"]
 fn every_value_of_every_key_changes_what_the_filter_does_or_is_refused() {
     let mut faults = Vec::new();
     for row in read_rows() {

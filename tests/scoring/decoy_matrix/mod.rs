@@ -204,6 +204,7 @@ fn every_wrong_blur_breaks_a_bound_and_the_right_blurs_break_none() {
 }
 
 #[test]
+#[ignore = "prove: the decoys of traced scenes; the closed-form scenes have theirs in every run"]
 fn every_wrong_picture_of_traced_scenes_breaks_a_bound_and_the_right_ones_break_none() {
     let mut failures = Vec::new();
     let columns = traced::SCENES.iter().map(|scene| {

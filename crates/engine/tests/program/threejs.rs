@@ -153,6 +153,7 @@ fn median(sorted: &[f32]) -> f32 {
 }
 
 #[test]
+#[ignore = "prove: a scene in Chromium"]
 fn three_js_s_objects_have_exact_vectors_which_the_audit_tells_from_planted_ones() {
     let drawn = Drawn::new("flat_field");
     let is_object = |id| id > 0;

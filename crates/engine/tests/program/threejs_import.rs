@@ -96,6 +96,7 @@ fn compare(sandbox: &Sandbox, model: &str, seconds: f64, rate: f64) {
 }
 
 #[test]
+#[ignore = "prove: three.js beside the import"]
 fn three_js_places_the_vertices_of_a_gltf_file_where_the_import_does() {
     // Nodes with parents; morph targets.
     for scene in ["walker", "flag"] {

@@ -4,6 +4,8 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
+use std::thread;
+use std::time::Duration;
 
 use serde_json::Value;
 
@@ -124,6 +126,8 @@ fn two_workers_share_a_study_and_one_goes_on_when_the_other_is_killed() {
         let journal = read_journal(&sandbox);
         find_workers(&journal).len() == 2 && count_ended(&journal) >= 2
     });
+    // Optuna waits 30 s for a worker that dies while it writes. A trial takes longer than this.
+    thread::sleep(Duration::from_millis(100));
     killed.kill().unwrap();
     killed.wait().unwrap();
     let before = count_ended(&read_journal(&sandbox));

@@ -7,7 +7,9 @@ mod picture;
 mod planted;
 mod structure;
 
-use engine::{Buffer, Capture, CaptureAudit, Cause, Defect, FRAMES_PER_SECOND, audit_capture};
+use engine::{
+    AuditedScene, Buffer, Capture, CaptureAudit, Cause, Defect, FRAMES_PER_SECOND, audit_capture,
+};
 use frame::{FAR_DEPTH, Vectors, VelocityKind};
 use scene::{Scene, load_scene};
 use tests::unwatched;
@@ -62,10 +64,27 @@ fn audit(scene: &Scene, capture: &Capture) -> CaptureAudit {
     audit_capture(capture, scene).unwrap().0
 }
 
-/// Audits a correct capture with another velocity.
-fn audit_velocity(scene: &Scene, velocity: Vectors) -> CaptureAudit {
-    let drawn = draw(scene, 0.0);
-    audit(scene, &Capture { velocity, ..drawn })
+/// A scene and a correct capture of it, traced once for audits of several velocities.
+struct DrawnScene<'a> {
+    capture: Capture,
+    audited: AuditedScene<'a>,
+}
+
+impl<'a> DrawnScene<'a> {
+    fn new(scene: &'a Scene) -> Self {
+        let capture = draw(scene, 0.0);
+        let audited = AuditedScene::trace(scene, capture.color.size()).unwrap();
+        Self { capture, audited }
+    }
+
+    /// Audits the capture with another velocity.
+    fn audit_velocity(&self, velocity: Vectors) -> CaptureAudit {
+        let capture = Capture {
+            velocity,
+            ..self.capture.clone()
+        };
+        self.audited.audit(&capture).unwrap()
+    }
 }
 
 /// Audits a correct capture with changed depth, except the background's.
@@ -181,10 +200,11 @@ fn assert_motions_named(scenes: &[Scene]) {
         (Cause::MotionOver(30.0), by_the_clock(30.0)),
         (Cause::MotionOver(120.0), by_the_clock(120.0)),
     ];
+    let drawn: Vec<DrawnScene> = scenes.iter().map(DrawnScene::new).collect();
     for (cause, motion) in motions {
         let mut seen = 0;
-        for scene in scenes {
-            let verdict = audit_velocity(scene, trace_velocity(scene, &motion));
+        for (scene, drawn) in scenes.iter().zip(&drawn) {
+            let verdict = drawn.audit_velocity(trace_velocity(scene, &motion));
             seen += usize::from(!verdict.findings.is_empty());
             let is_clock = matches!(cause, Cause::MotionOver(_));
             let is_silent = verdict.findings.is_empty();
@@ -226,6 +246,7 @@ fn a_wrong_sign_is_named_together_with_another_cause() {
     let instant = settings(VelocityKind::Instantaneous);
     let derivative = trace_motion(&scene, &instant, &PointMotion::RIGHT);
     let without_camera = trace_velocity(&scene, &PointMotion::WITHOUT_CAMERA);
+    let drawn = DrawnScene::new(&scene);
     for (cause, velocity) in [
         (Cause::CameraMotionMissing, without_camera),
         (Cause::HalfFrameOff, derivative.unwrap().velocity),
@@ -235,10 +256,8 @@ fn a_wrong_sign_is_named_together_with_another_cause() {
             (Cause::WrongSign, [-1.0, -1.0]),
             (Cause::FlippedY, [1.0, -1.0]),
         ] {
-            let verdict = audit_velocity(
-                &scene,
-                velocity.map(|vector| [x * vector[0], y * vector[1]]),
-            );
+            let turned = velocity.map(|vector| [x * vector[0], y * vector[1]]);
+            let verdict = drawn.audit_velocity(turned);
             assert!(!verdict.findings.is_empty(), "{cause:?}");
             for finding in &verdict.findings {
                 assert!(

@@ -25,9 +25,10 @@ fn other_numbers_of_velocity_are_named() {
     // Eight bits over the width.
     const STEP: f32 = 96.0 / 255.0;
     let scene = load_moving();
-    let right = draw(&scene, 0.0).velocity;
+    let drawn = DrawnScene::new(&scene);
+    let right = &drawn.capture.velocity;
     let changed = |change: fn([f32; 2]) -> [f32; 2]| {
-        audit_velocity(&scene, right.map(|vector| change(*vector)))
+        drawn.audit_velocity(right.map(|vector| change(*vector)))
     };
     type Change = fn([f32; 2]) -> [f32; 2];
     let rows: [(Change, Cause); 13] = [
@@ -78,10 +79,11 @@ fn other_numbers_of_velocity_are_named() {
 fn the_one_object_whose_velocity_is_wrong_is_named() {
     let scene = load_moving();
     let car = id_of(&scene, "car");
-    let drawn = draw(&scene, 0.0);
-    let ids = drawn.object_id.unwrap();
+    let drawn = DrawnScene::new(&scene);
+    let capture = &drawn.capture;
+    let ids = capture.object_id.as_ref().unwrap();
     let still = |velocity: &[f32; 2], id: &u32| if *id == car { [0.0; 2] } else { *velocity };
-    let verdict = audit_velocity(&scene, drawn.velocity.zip(&ids, still));
+    let verdict = drawn.audit_velocity(capture.velocity.zip(ids, still));
     let is_zero = |cause: &Cause| *cause == Cause::Zero;
     let finding = expect(&verdict, Buffer::Velocity, Some("car"), is_zero);
     let text = &finding.text;

@@ -165,8 +165,8 @@ fn an_object_of_another_sign_or_length_is_named_without_advice_on_the_convention
 #[test]
 fn a_buffer_of_half_the_resolution_is_named() {
     let scene = load_moving();
-    let drawn = draw(&scene, 0.0);
-    let velocity = &drawn.velocity;
+    let drawn = DrawnScene::new(&scene);
+    let velocity = &drawn.capture.velocity;
     let block = |x: u32, y: u32| [x / 2 * 2, y / 2 * 2];
     let cornered = Vectors::from_fn(WIDTH, HEIGHT, |x, y| {
         let [x, y] = block(x, y);
@@ -183,7 +183,7 @@ fn a_buffer_of_half_the_resolution_is_named() {
         [0, 1].map(|axis| 0.25 * sum(axis))
     });
     for half in [cornered, mean] {
-        let verdict = audit_velocity(&scene, half);
+        let verdict = drawn.audit_velocity(half);
         let is_half = |cause: &Cause| *cause == Cause::LowResolution(2);
         let finding = expect(&verdict, Buffer::Velocity, None, is_half);
         let words = "velocity has 1/2 of the resolution: 2x2 pixels share a vector";
