@@ -115,7 +115,7 @@ guides: software_vulkan python glslang
 SEED ?= $(shell date +%s)
 
 fuzz: software_vulkan
-	MINUTES=$(MINUTES) SEED=$(SEED) TARGETS=$(TARGETS) $(TEST) --test fuzz
+	$(TEMPORARY) MINUTES=$(MINUTES) SEED=$(SEED) TARGETS=$(TARGETS) $(TEST) --test fuzz
 
 # Changes shipped kernels in small ways and counts the changes that the limits notice: results/studies/mutation.md.
 mutants: software_vulkan

@@ -9,6 +9,9 @@
 The blur is the compositor's Vector Blur, which reads the vector pass as a real-time blur reads its velocity buffer, or with
 `--blur cycles` the motion blur of Cycles, which opens a shutter. `--blur none` draws neither blur nor sub-frames.
 
+For a scene that `engine import` made of a glTF file, `--original FILE --at SECONDS --fps RATE` draws the meshes of that file, at the
+time and rate that the import was given, in the place of the exported ones: pictures of the original beside those of its import.
+
 The importer keeps places, motion, colours and the sun. The script adds what glTF cannot say: the lens, the sky, light without limits on
 bounces, and diffuse surfaces without Blender's own gloss. Tried with Blender 3.4.1.
 """
@@ -40,6 +43,9 @@ parser.add_argument("folder", help="folder of an exported scene")
 parser.add_argument("out", help="folder to write: the capture")
 parser.add_argument("--size", default="160x90", help="columns x rows")
 parser.add_argument("--samples", type=int, default=64, help="samples per pixel of every picture")
+parser.add_argument("--original", help="the glTF file that the scene was imported from")
+parser.add_argument("--at", type=float, default=0, help="time of the frame in that file, in seconds")
+parser.add_argument("--fps", type=int, default=24, help="frames per second of that file")
 parser.add_argument("--blur", choices=["vectors", "cycles", "none"], default="vectors")
 parser.add_argument("--alignment", choices=["centred", "trailing", "leading"], default="centred", help="shutter of Cycles")
 options = parser.parse_args(sys.argv[sys.argv.index("--") + 1 :])
@@ -54,6 +60,22 @@ bpy.context.scene.render.fps = round(1 / manifest["seconds_per_frame"])
 bpy.ops.import_scene.gltf(filepath=f"{folder}/scene.gltf")
 scene = bpy.context.scene
 scene.camera = next(o for o in bpy.data.objects if o.type == "CAMERA")
+
+
+def put_original_in_place():
+    """Exchanges the meshes of the scene for those of the glTF file; camera, lights, floor and wall stay, and stand still."""
+    for thing in [o for o in bpy.data.objects if o.type == "MESH" and o.name not in ("floor", "wall")]:
+        # With its mesh, so that its name is free.
+        bpy.data.meshes.remove(thing.data)
+    stay = set(bpy.data.objects)
+    bpy.context.scene.render.fps = options.fps
+    bpy.ops.import_scene.gltf(filepath=options.original)
+    for thing in [o for o in bpy.data.objects if o.type in ("CAMERA", "LIGHT") and o not in stay]:
+        bpy.data.objects.remove(thing)
+
+
+if options.original:
+    put_original_in_place()
 
 
 def add_sky():
@@ -238,14 +260,25 @@ def set_quality():
 
 
 def number_objects():
-    """Numbers the objects as the manifest does; the background is 0."""
-    for number, name in enumerate(manifest["objects"][1:], 1):
-        bpy.data.objects[name].pass_index = number
+    """Numbers the objects as the manifest does; the background is 0.
+
+    The import writes `_` for other signs in the names of a glTF file, and invents a name where there is none.
+    """
+    things = {re.sub(r"\W", "_", o.name): o for o in bpy.data.objects if o.type == "MESH"}
+    numbers = dict(zip(manifest["objects"][1:], range(1, len(manifest["objects"]))))
+    named = {name: things.pop(name) for name in numbers if name in things}
+    unnamed = [name for name in numbers if name not in named]
+    if len(unnamed) != len(things) or len(unnamed) > 1:
+        sys.exit(f"{unnamed} of the scene are not in Blender, and {list(things)} in Blender are not in the scene")
+    for name, thing in [*named.items(), *zip(unnamed, things.values())]:
+        thing.pass_index = numbers[name]
 
 
 def render(name, seconds, *passes):
     """Renders a time of the animation to a file, with passes in layers if there are any."""
     frame = seconds / manifest["seconds_per_frame"]
+    if options.original:
+        frame += options.at * options.fps - manifest["instant"] / manifest["seconds_per_frame"]
     whole = math.floor(frame + 1e-6)
     scene.frame_set(whole, subframe=max(frame - whole, 0))
     layer = scene.view_layers[0]

@@ -15,6 +15,12 @@ use crate::sandbox::{Sandbox, split, stderr, stdout};
 fn draw(scene: &str, options: &str) -> Sandbox {
     let sandbox = Sandbox::new();
     let exported = export_gltf(&sandbox, scene, &["--subframes", "4"]);
+    draw_exported(&sandbox, &exported, options);
+    sandbox
+}
+
+/// Draws an exported scene in Blender, to the folder `capture`.
+fn draw_exported(sandbox: &Sandbox, exported: &str, options: &str) {
     let mut command = Command::new("blender");
     command.args(["-b", "--python-exit-code", "1", "--python"]);
     command.arg(root().join("examples/blender/blender.py"));
@@ -25,7 +31,6 @@ fn draw(scene: &str, options: &str) -> Sandbox {
     });
     let said = stdout(&output) + &stderr(&output);
     assert!(output.status.success(), "blender: {said}");
-    sandbox
 }
 
 /// Runs a command on the shipped scenes; it must succeed.
@@ -58,6 +63,26 @@ fn blender_shows_the_colours_of_an_unlit_scene_without_sub_frames() {
     assert!(!sandbox.path("capture/subframes").exists());
     let told = run(&sandbox, "engine audit capture");
     assert_contains(&told, &["PASS: velocity, depth and colour are right"]);
+}
+
+#[test]
+#[ignore = "prove: needs Blender"]
+fn blender_draws_the_velocity_and_depth_that_the_import_of_a_gltf_file_has() {
+    for (model, seconds, rate) in [(skinned(1), 1.0, 4), (Model::sliding(), 1.0, 24)] {
+        let sandbox = Sandbox::new();
+        model.write(&sandbox);
+        let line = format!("engine import {MODEL} --time {seconds}s --fps {rate}");
+        sandbox.done(&format!("{line} --out scenes/imported"));
+        sandbox.done("engine export imported --gltf gltf");
+        let original = format!("--original {MODEL} --at {seconds} --fps {rate}");
+        draw_exported(
+            &sandbox,
+            "gltf/imported",
+            &format!("{original} --blur none"),
+        );
+        let told = sandbox.done("engine audit capture --scene imported");
+        assert_contains(&told, &["PASS: velocity and depth are right"]);
+    }
 }
 
 /// Imports a glTF file, and measures the farthest that a vertex or an axis of the camera is from
