@@ -64,9 +64,10 @@ scene.camera = next(o for o in bpy.data.objects if o.type == "CAMERA")
 
 def put_original_in_place():
     """Exchanges the meshes of the scene for those of the glTF file; camera, lights, floor and wall stay, and stand still."""
-    for thing in [o for o in bpy.data.objects if o.type == "MESH" and o.name not in ("floor", "wall")]:
-        # With its mesh, so that its name is free.
-        bpy.data.meshes.remove(thing.data)
+    replaced = [o for o in bpy.data.objects if o.type == "MESH" and o.name not in ("floor", "wall")]
+    # With their meshes, so that the names are free. Several objects may share one.
+    for mesh in {o.data for o in replaced}:
+        bpy.data.meshes.remove(mesh)
     stay = set(bpy.data.objects)
     bpy.context.scene.render.fps = options.fps
     bpy.ops.import_scene.gltf(filepath=options.original)
