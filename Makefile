@@ -10,7 +10,7 @@
 # shaders in GLSL. `make prove` needs Blender and mdBook, too.
 # On macOS and Windows plain cargo commands work.
 
-.PHONY: run site pictures test module wheel try_wheel prove breadth guides fuzz mutants growth archive action release image publish vulkan software_vulkan python chromium node glslang blender mdbook
+.PHONY: run site pictures test module wheel try_wheel prove breadth guides fuzz mutants growth archive action release image publish debootstrap vulkan software_vulkan python chromium node glslang blender mdbook
 
 # Mesa complains on every start where a login session has not set it, as in containers; nothing is written there.
 export XDG_RUNTIME_DIR ?= /tmp
@@ -138,7 +138,7 @@ archive:
 ARCHIVE = $(shell ls -t target/archive/shuttertruth-*-$(shell rustc -vV | sed -n 's/^host: //p').tar.gz | head -n 1)
 
 # As root: makes a bare Debian with debootstrap, and runs the steps of action.yml in it.
-action: archive python
+action: archive python debootstrap
 	"$(PYTHON)" -c 'import yaml' 2>/dev/null || "$(PYTHON)" -m pip install -q pyyaml==6.0.3
 	"$(PYTHON)" release/try_action.py "$(ARCHIVE)" $(if $(ROOT),--root "$(ROOT)")
 
@@ -154,6 +154,11 @@ publish:
 	cargo publish --dry-run --locked -p shuttertruth-bvh -p shuttertruth-frame -p shuttertruth-metrics -p shuttertruth-scene \
 		-p shuttertruth-source-hash -p shuttertruth-tracer
 	RUSTDOCFLAGS="-D warnings" cargo doc --no-deps --locked -p shuttertruth-bvh -p shuttertruth-frame -p shuttertruth-metrics -p shuttertruth-scene -p shuttertruth-tracer
+
+debootstrap:
+	@command -v debootstrap >/dev/null && exit 0; \
+	$(call INSTALL,program that makes a bare Debian,debootstrap,install debootstrap; it makes Debian and Ubuntu on any Linux); \
+	command -v debootstrap >/dev/null || { echo "still no debootstrap after the installation" >&2; exit 1; }
 
 # The Python that has these packages; one of your own is used as it is. Its pip is called through it: in a copied folder the script
 # `pip` still belongs to the original.
