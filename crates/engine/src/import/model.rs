@@ -8,7 +8,7 @@ use glam::DVec3;
 use measure::{Error, named};
 use scene::{Mesh, Scene, SceneError, limits::LARGEST_MESH_FILE, load_scene_and_files};
 
-use crate::files::refuse;
+use crate::files::{refusal, refuse};
 use crate::import::framing::check_radius;
 use crate::import::series::Series;
 
@@ -102,7 +102,7 @@ impl Model {
 
     /// Refuses a model for which no stand, floor and camera can be made.
     fn check_size(&self, path: &Path) -> Result<(), Error> {
-        check_radius(self.radius()).or_else(|reason| refuse!(path, "{reason}"))
+        check_radius(self.radius()).map_err(|reason| refusal(path, reason))
     }
 
     /// Returns half of the size along each axis, in metres.

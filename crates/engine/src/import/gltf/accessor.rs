@@ -9,13 +9,15 @@ use super::schema::{Accessor, Sparse};
 #[derive(Clone, Copy)]
 struct Component {
     size: usize,
-    /// Reads a number, and divides it by the largest of its type if it is normalised.
-    read: fn(&[u8], bool) -> f32,
+    read: ReadNumber,
 }
+
+/// Reads a number, and divides it by the largest of its type if it is normalised.
+type ReadNumber = fn(&[u8], bool) -> f32;
 
 impl Component {
     fn of(number: u32) -> Result<Self, String> {
-        let (size, read): (usize, fn(&[u8], bool) -> f32) = match number {
+        let (size, read): (usize, ReadNumber) = match number {
             5120 => (1, |bytes, scaled| {
                 scale(f32::from(i8::from_le_bytes([bytes[0]])), 127.0, scaled)
             }),

@@ -198,11 +198,11 @@ impl Channel {
         let from = after - 1;
         let [start, end] = [from, after].map(|key| f64::from(self.times[key]));
         let (length, part) = (end - start, (seconds - start) / (end - start));
-        let mixed = match self.interpolation {
+        match self.interpolation {
             Interpolation::Step => self.key(from, 1),
             Interpolation::Linear if self.part == Part::Rotation => {
                 let [a, b] = [from, after].map(|key| quaternion(&self.key(key, 1)));
-                return DVec4::from(a.slerp(b, part)).to_array().to_vec();
+                DVec4::from(a.slerp(b, part)).to_array().to_vec()
             }
             Interpolation::Linear => {
                 let pairs = self.key(from, 1).into_iter().zip(self.key(after, 1));
@@ -220,8 +220,7 @@ impl Channel {
                 };
                 (0..self.width).map(mix).collect()
             }
-        };
-        mixed
+        }
     }
 
     /// Returns a key's value; `which` chooses 0, the slope before, 1, the value, or 2, the slope

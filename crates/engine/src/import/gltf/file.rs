@@ -9,7 +9,7 @@ use scene::limits::{LARGEST_IMAGE_FILE, LARGEST_MESH_FILE};
 use super::data_uri::{decode_data_uri, decode_percent};
 use super::extensions::check_required;
 use super::schema::{BufferView, Gltf};
-use crate::files::refuse;
+use crate::files::{refusal, refuse};
 
 /// Largest JSON, in bytes: keys and vertices are in buffers.
 const LARGEST_JSON: usize = 67_108_864;
@@ -29,7 +29,7 @@ impl File {
     /// Reads a `.gltf` or `.glb` file with its buffers.
     pub fn read(path: &Path) -> Result<Self, Error> {
         let bytes = read_bounded(path, LARGEST_MESH_FILE)?;
-        let chunks = split(&bytes).or_else(|reason| refuse!(path, "{reason}"))?;
+        let chunks = split(&bytes).map_err(|reason| refusal(path, reason))?;
         if chunks.json.len() > LARGEST_JSON {
             return refuse!(
                 path,
@@ -48,14 +48,14 @@ impl File {
                 json.asset.version
             );
         }
-        check_required(&json, path).or_else(|reason| refuse!(path, "{reason}"))?;
+        check_required(&json, path).map_err(|reason| refusal(path, reason))?;
         let mut file = Self {
             path: path.to_owned(),
             json,
             buffers: Vec::new(),
         };
         let buffers = file.read_buffers(chunks.binary);
-        file.buffers = buffers.or_else(|reason| refuse!(path, "{reason}"))?;
+        file.buffers = buffers.map_err(|reason| refusal(path, reason))?;
         Ok(file)
     }
 

@@ -12,7 +12,7 @@ use scene::limits::MAX_TEXELS;
 use super::extensions::{refuse_removable, removable_extension};
 use super::file::File;
 use super::material_schema::TextureInfo;
-use crate::files::refuse;
+use crate::files::{refusal, refuse};
 
 /// Folder of the pictures, next to the MTL file.
 const FOLDER: &str = "textures";
@@ -74,7 +74,7 @@ impl<'a> Images<'a> {
     fn source(&self, info: &TextureInfo) -> Result<Option<(usize, bool, bool)>, Error> {
         let path = &self.file.path;
         let texture = File::entry(&self.file.json.textures, "textures", info.index);
-        let texture = texture.or_else(|reason| refuse!(path, "{reason}"))?;
+        let texture = texture.map_err(|reason| refusal(path, reason))?;
         let Some(image) = texture.source else {
             return match removable_extension(texture.extensions.keys()) {
                 Some(name) => {
@@ -104,7 +104,7 @@ impl<'a> Images<'a> {
         let bytes = self
             .file
             .image(image)
-            .or_else(|reason| refuse!(path, "{reason}"))?;
+            .map_err(|reason| refusal(path, reason))?;
         let ending = match image::guess_format(&bytes) {
             Ok(ImageFormat::Png) => "png",
             Ok(ImageFormat::Jpeg) => "jpg",
@@ -148,9 +148,9 @@ impl<'a> Images<'a> {
         let bytes = self
             .file
             .image(image)
-            .or_else(|reason| refuse!(self.file.path, "{reason}"))?;
-        let decoded =
-            decode(&bytes).or_else(|reason| refuse!(self.file.path, "images[{image}] {reason}"))?;
+            .map_err(|reason| refusal(&self.file.path, reason))?;
+        let decoded = decode(&bytes)
+            .map_err(|reason| refusal(&self.file.path, format_args!("images[{image}] {reason}")))?;
         let alphas = decoded.into_rgba16();
         let mapped = image::ImageBuffer::from_fn(alphas.width(), alphas.height(), |x, y| {
             let alpha = f32::from(alphas.get_pixel(x, y).0[3]) / 65535.0;

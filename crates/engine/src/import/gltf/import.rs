@@ -22,7 +22,7 @@ use super::plan::GltfPlan;
 use super::reading::{choose_clip, read_stage};
 use super::stage::Stage;
 use super::view::{Camera, CameraPath, Film, View};
-use crate::files::{name_of, refuse};
+use crate::files::{name_of, refusal, refuse};
 use crate::import::framing::{SIZE, check_radius};
 use crate::import::set::write_backdrop;
 use crate::import::staging::{Imported, Written, make_folder};
@@ -41,8 +41,8 @@ pub fn import_gltf(plan: &GltfPlan) -> Result<Imported, Error> {
     let path = &plan.model;
     let file = File::read(path)?;
     let mut notes = Vec::new();
-    let stage = read_stage(plan, file, &mut notes).or_else(|reason| refuse!(path, "{reason}"))?;
-    let clip = choose_clip(plan, &stage).or_else(|reason| refuse!(path, "{reason}"))?;
+    let stage = read_stage(plan, file, &mut notes).map_err(|reason| refusal(path, reason))?;
+    let clip = choose_clip(plan, &stage).map_err(|reason| refusal(path, reason))?;
     make_folder(&plan.out, |folder| {
         Import {
             plan,
@@ -90,7 +90,7 @@ impl Import<'_> {
         }
         let moment = self.clip.moment(0.0);
         let lights = Lights::read(stage, moment, &mut materials.lost);
-        let lights = lights.or_else(|reason| refuse!(path, "{reason}"))?;
+        let lights = lights.map_err(|reason| refusal(path, reason))?;
         self.write_lights(&lights, &extent, &mut objects, &mut materials)?;
         if matches!(camera, Camera::Around { .. }) {
             objects.toml += &set_toml(&extent);
@@ -113,7 +113,7 @@ impl Import<'_> {
     fn choose_camera(&mut self, extent: &Extent) -> Result<(Camera, Film), Error> {
         let (plan, path) = (self.plan, &self.plan.model);
         let chosen = choose_camera(self.stage, plan.camera.as_deref());
-        let (chosen, note) = chosen.or_else(|reason| refuse!(path, "{reason}"))?;
+        let (chosen, note) = chosen.map_err(|reason| refusal(path, reason))?;
         if let (Some(chosen), None) = (&chosen, plan.orbit) {
             self.notes.extend(note);
             let lens = chosen.lens;
@@ -132,7 +132,7 @@ impl Import<'_> {
             };
             return Ok((Camera::Node(chosen.node), film));
         }
-        check_radius(extent.radius()).or_else(|reason| refuse!(path, "{reason}"))?;
+        check_radius(extent.radius()).map_err(|reason| refusal(path, reason))?;
         if chosen.is_some() {
             self.notes
                 .push("the orbiting camera replaces the file's own".to_owned());
@@ -162,7 +162,7 @@ impl Import<'_> {
             points: points.into_iter().step_by(step).collect(),
         };
         let keys = find_keys(&path, &shot.marks, TOLERANCE);
-        keys.or_else(|reason| refuse!(self.plan.model, "its camera {reason}"))
+        keys.map_err(|reason| refusal(&self.plan.model, format_args!("its camera {reason}")))
     }
 
     /// Writes a small ball for each point light.

@@ -43,7 +43,8 @@ fn assert_named(audit: &SequenceAudit, object: &str, cause: SimpleCause) {
 #[test]
 fn a_wrong_velocity_of_one_object_is_named() {
     let right = draw_frames("fan", &TIMES[..2], 1);
-    let mistakes: [(SimpleCause, fn([f32; 2]) -> [f32; 2]); 4] = [
+    type Change = fn([f32; 2]) -> [f32; 2];
+    let mistakes: [(SimpleCause, Change); 4] = [
         (SimpleCause::Zero, |_| [0.0; 2]),
         (SimpleCause::WrongSign, |[x, y]| [-x, -y]),
         (SimpleCause::FlippedY, |[x, y]| [x, -y]),

@@ -83,7 +83,7 @@ fn a_texture_transform_is_applied_to_coordinates() {
     let texcoords = model.floats("VEC2", &[0.0, 0.0, 1.0, 0.0, 0.0, 1.0]);
     model.json["images"] = json!([{ "uri": "two%20dots.png" }]);
     model.json["textures"] = json!([{ "source": 0 }]);
-    let transform = json!({ "offset": [0.5, 0.25], "rotation": 0.5236, "scale": [2, 3] });
+    let transform = json!({ "offset": [0.5, 0.25], "rotation": 0.5, "scale": [2, 3] });
     let texture = json!({ "index": 0, "extensions": { "KHR_texture_transform": transform } });
     model.push(
         "materials",
@@ -98,7 +98,7 @@ fn a_texture_transform_is_applied_to_coordinates() {
     sandbox.done(&format!("engine import {MODEL} --out scenes/thing"));
     let scene = load_scene(sandbox.path("scenes/thing"), None).unwrap();
     assert_eq!(scene.textures.len(), 1);
-    let (sine, cosine) = 0.5236f32.sin_cos();
+    let (sine, cosine) = 0.5_f32.sin_cos();
     // Turned counter-clockwise on screen, where v points down: (x, y) to (cx + sy, cy - sx).
     let expected = [
         [0.5, 0.25],
