@@ -10,7 +10,7 @@
 # shaders in GLSL. `make prove` needs Blender and mdBook, too.
 # On macOS and Windows plain cargo commands work.
 
-.PHONY: run site pictures test module wheel try_wheel prove breadth guides fuzz mutants growth archive action release image publish debootstrap vulkan software_vulkan python chromium node glslang blender mdbook
+.PHONY: run site pictures test module wheel try_wheel prove breadth guides engines fuzz mutants growth archive action release image publish debootstrap vulkan software_vulkan python chromium node glslang blender mdbook
 
 # Mesa complains on every start where a login session has not set it, as in containers; nothing is written there.
 export XDG_RUNTIME_DIR ?= /tmp
@@ -110,6 +110,16 @@ breadth: software_vulkan python chromium node glslang blender site
 # Runs every command of every page, and prints each with its time: `make guides PAGES=README.md,docs/your-scene.md` takes two pages.
 guides: software_vulkan python glslang
 	PAGES=$(PAGES) $(TEST) --test command_line -- --ignored --nocapture --test-threads 1 guides$(if $(PAGES),::every_command)
+
+# Real engines draw our scenes, and their blur and vectors are measured: results/engines. Building Bevy takes some ten minutes on two
+# cores.
+ENGINES = $(abspath $(TARGET_DIR))/engines
+
+engines: software_vulkan python
+	cargo build --locked --bin shuttertruth
+	cargo build --locked --manifest-path engines/bevy/Cargo.toml --target-dir "$(ENGINES)/build"
+	PATH="$(dir $(abspath $(PROGRAM))):$$PATH" $(SOFTWARE) "$(PYTHON)" engines/measure.py bevy "$(ENGINES)/bevy" -- \
+	    "$(ENGINES)/build/debug/shuttertruth-bevy"
 
 # How long to fuzz, what, and from which seed on: `make fuzz MINUTES=1 TARGETS=scene,obj SEED=7`. See docs/fuzzing.md.
 SEED ?= $(shell date +%s)
