@@ -6,8 +6,8 @@
 # All look for a Vulkan driver first and, on Debian and Ubuntu, install the software one where there is none. The tests need Python:
 # Optuna drives the tuning service, Snakemake runs the jobs of a plan, numpy and OpenEXR compare presets with their originals, and
 # flip-evaluator computes FLIP as its authors do. maturin builds the Python module.
-# They need Chromium to open reports and to draw scenes with three.js, node to install three.js and to drive it, and glslang to compile
-# shaders in GLSL. `make prove` needs Blender and mdBook, too.
+# They need Chromium to open reports, and glslang to compile shaders in GLSL. `make prove` needs Blender, mdBook, and node, which installs
+# and drives three.js, too. `make engines` builds real engines and lets them draw our scenes: engines/README.md.
 # On macOS and Windows plain cargo commands work.
 
 .PHONY: run site pictures test module wheel try_wheel prove breadth guides engines fuzz mutants growth archive action release image publish debootstrap vulkan software_vulkan python chromium node glslang blender mdbook
@@ -52,7 +52,7 @@ THREADS = RUST_TEST_THREADS="$${RUST_TEST_THREADS:-$$((2 * $$(nproc)))}"
 
 # Tools are installed while cargo compiles: one waits for the network, the other for the processors. `make --dry-run` runs every line
 # that names MAKE; this one would compile.
-TOOLS = $(MAKE) --no-print-directory python chromium node glslang
+TOOLS = $(MAKE) --no-print-directory python chromium glslang
 
 test: software_vulkan
 	@$(TOOLS) & tools=$$!; \
