@@ -38,7 +38,7 @@ def read_color(path):
         return planes.reshape(*planes.shape[:2], -1, 3).mean(axis=2)
 
 
-def draw(engine, folder, command, scene):
+def draw(folder, command, scene):
     """Exports a scene, draws and audits it; returns the folder of the capture, and what the audit says."""
     exported, capture = folder / "gltf" / scene, folder / "captures" / scene.partition("@")[0]
     shuttertruth("engine", "export", scene, "--gltf", exported.parent, "--subframes", SUBFRAMES)
@@ -70,7 +70,7 @@ def main():
     rows, version = [], None
     for name in SCENES:
         scene = f"{name}@unlit"
-        capture, verdict = draw(engine, folder, command, scene)
+        capture, verdict = draw(folder, command, scene)
         version = re.search(r'^engine = "(.*)"', (capture / "capture.toml").read_text(), re.M)[1]
         flip, ratio, median = measure(engine, folder, scene, capture)
         own = re.sub(r" ", "_", version) + ":"
