@@ -265,8 +265,9 @@ def number_objects():
 
     The import writes `_` for other signs in the names of a glTF file, and invents a name where there is none.
     """
-    things = {re.sub(r"\W", "_", o.name): o for o in bpy.data.objects if o.type == "MESH"}
-    numbers = dict(zip(manifest["objects"][1:], range(1, len(manifest["objects"]))))
+    plain = lambda name: re.sub(r"\W", "_", name)
+    things = {plain(o.name): o for o in bpy.data.objects if o.type == "MESH"}
+    numbers = {plain(name): number for number, name in enumerate(manifest["objects"]) if number > 0}
     named = {name: things.pop(name) for name in numbers if name in things}
     unnamed = [name for name in numbers if name not in named]
     if len(unnamed) != len(things) or len(unnamed) > 1:

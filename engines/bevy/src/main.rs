@@ -2,7 +2,7 @@
 //! it, and sub-frames.
 //!
 //!     shuttertruth engine export fan@unlit --gltf out/gltf
-//!     cargo run --release -- out/gltf/fan@unlit captures/fan 160 90
+//!     cargo run -- out/gltf/fan@unlit captures/fan 160 90
 
 mod files;
 mod readout;
@@ -19,7 +19,7 @@ use bevy::post_process::motion_blur::MotionBlur;
 use bevy::prelude::*;
 use bevy::render::RenderPlugin;
 use bevy::render::pipelined_rendering::PipelinedRenderingPlugin;
-use bevy::render::render_resource::{Extent3d, TextureDimension, TextureFormat};
+use bevy::render::render_resource::{Extent3d, TextureDimension, TextureFormat, TextureUsages};
 use serde_json::Value;
 
 use files::{box_filter, write_description, write_exr};
@@ -214,8 +214,7 @@ impl Stage {
             TextureFormat::Rgba16Float,
             RenderAssetUsages::RENDER_WORLD,
         );
-        image.texture_descriptor.usage |=
-            bevy::render::render_resource::TextureUsages::RENDER_ATTACHMENT;
+        image.texture_descriptor.usage |= TextureUsages::RENDER_ATTACHMENT;
         let target: RenderTarget = self
             .app
             .world_mut()
@@ -295,7 +294,7 @@ impl Stage {
     }
 
     /// Distance of the near plane, in metres.
-    fn near(&mut self) -> f32 {
+    fn near(&self) -> f32 {
         match self.app.world().get::<Projection>(self.camera).unwrap() {
             Projection::Perspective(lens) => lens.near,
             _ => panic!("exported cameras are perspective ones"),
