@@ -20,7 +20,7 @@ const HELP = `
   --out DIR        folder for the capture [default: out/capture/SCENE]
   --backend NAME   what draws for WebGL, as Chromium's --use-angle has it [default: gl-egl, else swiftshader]`;
 const more = { out: { type: "string" }, backend: { type: "string" } };
-const { scene, manifest, settings, values } = readOptions("capture", more, HELP);
+const { scene, folders, manifest, settings, values } = readOptions("capture", more, HELP);
 const out = values.out ?? path.join("out/capture", manifest.scene);
 fs.rmSync(path.join(out, "subframes"), { recursive: true, force: true });
 fs.mkdirSync(path.join(out, "subframes"), { recursive: true });
@@ -37,7 +37,7 @@ console.log(`written: ${out}: color, velocity, depth, object, blurred, ${setting
 async function capture(backend) {
   let finish;
   const finished = new Promise((resolve) => (finish = resolve));
-  const { server, address } = await startServer(scene, (name, url, body) => {
+  const { server, address } = await startServer(folders, (name, url, body) => {
     if (name === "done") finish(null);
     else if (name === "failed") finish(body.toString());
     else if (name === "about") writeTables(JSON.parse(body.toString()));

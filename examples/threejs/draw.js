@@ -6,6 +6,7 @@ import { EXRLoader } from "three/addons/loaders/EXRLoader.js";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { motionBlur } from "three/addons/tsl/display/MotionBlur.js";
 import { MESHES } from "./meshes.js";
+import { putOriginalInPlace } from "./original.js";
 
 // A pixel's colour is the mean over its square, of this many places in each direction.
 const COLOR_SAMPLES = 4;
@@ -139,7 +140,7 @@ function arrange(read, width, height, channels) {
 }
 
 // Loads the scene, its sky and its manifest, and stops its animation.
-async function loadScene({ meshes, near }, aspect) {
+async function loadScene({ meshes, near, original, at, fps }, aspect) {
   const manifest = await (await fetch("/scene/manifest.json")).json();
   const gltf = await new GLTFLoader().loadAsync("/scene/scene.gltf");
   const { cameras, animations, parser } = gltf;
@@ -154,20 +155,31 @@ async function loadScene({ meshes, near }, aspect) {
   camera.aspect = aspect;
   if (near !== "exported") camera.near = near;
   camera.updateProjectionMatrix();
-  const follow = MESHES[meshes](scene);
-
-  const mixer = new THREE.AnimationMixer(gltf.scene);
-  for (const clip of animations) {
-    const action = mixer.clipAction(clip).setLoop(THREE.LoopOnce);
-    action.clampWhenFinished = true;
-    action.play();
+  const players = [{ mixer: play(gltf.scene, animations), secondsAt: (time) => time }];
+  if (original) {
+    const file = await new GLTFLoader().loadAsync(`/original/${original}`);
+    putOriginalInPlace(scene, file, manifest);
+    const secondsAt = (time) => at + (time - manifest.instant) / manifest.seconds_per_frame / fps;
+    players.push({ mixer: play(file.scene, file.animations.slice(0, 1)), secondsAt });
   }
+  const follow = MESHES[meshes](scene);
   const setTime = (time) => {
-    mixer.setTime(time);
+    for (const { mixer, secondsAt } of players) mixer.setTime(secondsAt(time));
     scene.updateMatrixWorld(true);
     follow();
   };
   return { manifest, scene, camera, setTime };
+}
+
+// Plays clips of a file that stop at their ends.
+function play(root, clips) {
+  const mixer = new THREE.AnimationMixer(root);
+  for (const clip of clips) {
+    const action = mixer.clipAction(clip).setLoop(THREE.LoopOnce);
+    action.clampWhenFinished = true;
+    action.play();
+  }
+  return mixer;
 }
 
 // Gives every mesh its object's id, which is its node's number.

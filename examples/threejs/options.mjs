@@ -12,15 +12,20 @@ const HELP = `SCENE  folder of an exported scene: shuttertruth engine export NAM
   --meshes KIND    how objects are drawn: plain, unculled (outside the picture too), instanced (an InstancedMesh each) or
                    skinned (a bone each) [default: plain]
   --near METRES    near plane of the camera [default: the exported camera's, 0.01]
+  --original FILE  the glTF file that the scene was imported from: its meshes are drawn in the place of the imported ones
+  --at SECONDS     time of the frame in that file [default: 0]
+  --fps RATE       frames per second of that file [default: 24]
   --before FRAMES  when the frame before the instant's is drawn; 0 stands still, none draws none [default: 1]`;
 
 // npm runs scripts in the package's folder, and names the caller's folder in a variable.
 process.chdir(process.env.INIT_CWD ?? ".");
 
+const ORIGINAL = { original: { type: "string" }, at: { type: "string" }, fps: { type: "string" } };
+
 // Parses the words of a command; `more` are its own options, for parseArgs.
 export function readOptions(command, more = {}, help = "") {
   const text = { type: "string" };
-  const known = { size: text, subframes: text, exposure: text, samples: text, meshes: text, near: text, before: text };
+  const known = { size: text, subframes: text, exposure: text, samples: text, meshes: text, near: text, before: text, ...ORIGINAL };
   const usage = `npm run ${command} -- SCENE [options]\n\n${HELP}${help}`;
   let parsed;
   try {
@@ -40,6 +45,7 @@ export function readOptions(command, more = {}, help = "") {
   const meshes = values.meshes ?? "plain";
   const kinds = ["plain", "unculled", "instanced", "skinned"];
   if (!kinds.includes(meshes)) fail(`--meshes ${meshes}: one of ${kinds.join(", ")}`);
+  if (values.original && !fs.existsSync(values.original)) fail(`--original ${values.original}: no such file`);
   const settings = {
     width: Number(size[1]),
     height: Number(size[2]),
@@ -50,8 +56,12 @@ export function readOptions(command, more = {}, help = "") {
     meshes,
     near: number(values, "near", "exported", 1e-4, 1e4),
     before: values.before === "none" ? "none" : number(values, "before", 1, 0, 2),
+    original: path.basename(values.original ?? ""),
+    at: number(values, "at", 0, 0, 1e6),
+    fps: number(values, "fps", 24, 1e-3, 1e6),
   };
-  return { scene, manifest, settings, values };
+  const folders = { scene, original: values.original ? path.dirname(values.original) : scene };
+  return { scene, folders, manifest, settings, values };
 }
 
 // Formats settings as the query of the page's address.

@@ -1,4 +1,4 @@
-// A web server for the page, three.js and one exported scene, on this machine only.
+// A web server for the page, three.js, one exported scene and its original, on this machine only.
 
 import fs from "node:fs";
 import http from "node:http";
@@ -11,12 +11,16 @@ const TYPES = {
   ".js": "text/javascript",
   ".json": "application/json",
   ".gltf": "model/gltf+json",
+  ".glb": "model/gltf-binary",
+  ".jpg": "image/jpeg",
+  ".jpeg": "image/jpeg",
   ".png": "image/png",
 };
 
 // Starts a server and returns it with its address. `receive(name, url, body)` handles what the page posts.
-export async function startServer(scene, receive) {
-  const folders = { "/scene/": scene, "/": HERE };
+// `files` has the folders of the scene and of the original.
+export async function startServer(files, receive) {
+  const folders = { "/scene/": files.scene, "/original/": files.original, "/": HERE };
   const server = http.createServer(async (request, response) => {
     const url = new URL(request.url, "http://localhost");
     try {

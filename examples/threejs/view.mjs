@@ -3,6 +3,6 @@
 import { query, readOptions } from "./options.mjs";
 import { startServer } from "./server.mjs";
 
-const { scene, settings } = readOptions("view");
-const { address } = await startServer(scene, () => {});
+const { folders, settings } = readOptions("view");
+const { address } = await startServer(folders, () => {});
 console.log(`${address}${query(settings)}`);
