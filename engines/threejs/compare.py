@@ -1,7 +1,7 @@
 """Compares captures of three.js with the tracer's renders, and three.js's blur with the mean of its own sub-frames.
 
     shuttertruth truths render railing --size 320x180 --velocity previous_frame --out out/render
-    python3 examples/threejs/compare.py out/capture/railing out/render/railing
+    python3 engines/threejs/compare.py out/capture/railing out/render/railing
 
 Arguments are pairs: a capture, and the folder of the rendered scene, or the word `still` for a capture with `--before 0`, in which
 nothing may move. Velocity is in pixels per frame. Its error is the length of the difference, at pixels where both have the same object
