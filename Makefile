@@ -115,11 +115,14 @@ guides: software_vulkan python glslang
 # cores.
 ENGINES = $(abspath $(TARGET_DIR))/engines
 
-engines: software_vulkan python
+DRAWN = PATH="$(dir $(abspath $(PROGRAM))):$$PATH" $(SOFTWARE) "$(PYTHON)" engines/measure.py
+
+engines: software_vulkan python chromium node
 	cargo build --locked --bin shuttertruth
 	cargo build --locked --manifest-path engines/bevy/Cargo.toml --target-dir "$(ENGINES)/build"
-	PATH="$(dir $(abspath $(PROGRAM))):$$PATH" $(SOFTWARE) "$(PYTHON)" engines/measure.py bevy "$(ENGINES)/bevy" -- \
-	    "$(ENGINES)/build/debug/shuttertruth-bevy"
+	$(DRAWN) bevy "$(ENGINES)/bevy" -- "$(ENGINES)/build/debug/shuttertruth-bevy" {scene} {capture} {width} {height}
+	npm ci --prefix engines/threejs --no-audit --no-fund
+	$(DRAWN) threejs "$(ENGINES)/threejs" -- node engines/threejs/capture.mjs {scene} --out {capture} --size {width}x{height}
 
 # How long to fuzz, what, and from which seed on: `make fuzz MINUTES=1 TARGETS=scene,obj SEED=7`. See docs/fuzzing.md.
 SEED ?= $(shell date +%s)

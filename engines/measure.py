@@ -1,13 +1,18 @@
 """Lets an engine draw our scenes, audits and measures what it drew, and writes results/engines/NAME.md: `make engines`.
 
-    python3 engines/measure.py bevy target/engines/bevy -- PROGRAM AND ITS ARGUMENTS
+With CHECK set in the environment it compares the measured numbers with that page instead.
 
-PROGRAM gets the folder of an exported scene, the folder of the capture to write, and the picture's width and height.
+    python3 engines/measure.py bevy target/engines/bevy -- PROGRAM {scene} {capture} {width} {height}
+
+The command after `--` draws one scene: {scene} is the folder of the exported scene, {capture} the folder to write. Its
+`blurred.exr` is the engine's own blur over half a frame; beside it, `blurred_default.exr` is the blur with its defaults, if it differs.
 """
 
 import json
+import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 from datetime import date
@@ -17,8 +22,13 @@ import OpenEXR
 
 SCENES = ["sliding_panel", "fan", "railing", "crossing", "walker", "flag", "dolly", "roll"]
 # Ports of each engine's own blur.
-PORTS = {"bevy": ["bevy:default", "bevy:msaa"]}
+PORTS = {
+    "bevy": ["bevy:default", "bevy:msaa"],
+    "threejs": ["three:default", "three:corrected"],
+}
 SIZE, SUBFRAMES = (160, 90), 32
+# How far a number may be from the page's.
+TOLERANCE = 0.003
 RESULTS = pathlib.Path(__file__).resolve().parent.parent / "results/engines"
 
 
@@ -42,43 +52,65 @@ def draw(folder, command, scene):
     """Exports a scene, draws and audits it; returns the folder of the capture, and what the audit says."""
     exported, capture = folder / "gltf" / scene, folder / "captures" / scene.partition("@")[0]
     shuttertruth("engine", "export", scene, "--gltf", exported.parent, "--subframes", SUBFRAMES)
-    subprocess.run([*command, exported, capture, *map(str, SIZE)], check=True)
+    shutil.rmtree(capture, ignore_errors=True)
+    known = {"scene": exported, "capture": capture, "width": SIZE[0], "height": SIZE[1]}
+    subprocess.run([word.format(**known) for word in command], check=True)
     said = shuttertruth("engine", "audit", capture, "--out", folder / "audit", allowed=(0, 1, 2))
     findings = [" ".join(text.split()) for text in re.findall(r"^  - (.*?)(?=^  - |^[A-Z])", said, re.M | re.S)]
     verdict = re.search(r"^(PASS|FAIL|UNDECIDED)", said, re.M)[1]
     return capture, verdict if verdict == "PASS" else f"{verdict}: {'; '.join(findings)}"
 
 
-def measure(engine, folder, scene, capture):
-    """Scores the engine's blur and our port of it on the engine's frame; returns FLIP by filter, and how far sub-frames are from ours."""
-    size = "x".join(map(str, SIZE))
-    ingested = folder / "ingested" / capture.name
+def score(engine, folder, scene, capture):
+    """Scores what the engine blurred, ports of its blur on its frame, and no blur; returns FLIP by filter."""
+    ingested, out = folder / "ingested" / capture.name, folder / "runs" / scene
     shuttertruth("engine", "ingest", capture, "--out", ingested)
-    shuttertruth("run", ingested, "--filter", ",".join(PORTS[engine]), "--quiet", "--out", folder / "runs" / scene)
-    run = json.loads((folder / "runs" / scene / "run.json").read_text())
-    flip = {f"{case['filter']}:{case['preset']}": case["scores"]["moving"]["flip"]["value"] for case in run["cases"]}
+    shuttertruth("run", ingested, "--filter", ",".join(PORTS[engine]), "--quiet", "--out", out)
+    run = json.loads((out / "run.json").read_text())
+    return {f"{case['filter']}:{case['preset']}": case["scores"]["moving"]["flip"]["value"] for case in run["cases"]}
+
+
+def score_default(engine, folder, scene, capture, own):
+    """Scores the engine's own blur with its defaults, if it differs from that over half a frame; else returns None."""
+    if not (capture / "blurred_default.exr").exists():
+        return None
+    other = folder / "captures_default" / capture.name
+    shutil.rmtree(other, ignore_errors=True)
+    shutil.copytree(capture, other)
+    (other / "blurred_default.exr").replace(other / "blurred.exr")
+    return score(engine, folder / "default", scene, other)[own]
+
+
+def compare_subframes(folder, scene, capture):
+    """Returns how bright the engine's sub-frames are beside our truth, and the median difference of a pixel."""
+    size = "x".join(map(str, SIZE))
     shuttertruth("truths", "render", scene, "--size", size, "--samples-per-pixel", 256, "--alignments", "centred", "--quiet", "--out", folder / "truths")
     theirs = np.mean([read_color(path) for path in sorted((capture / "subframes").glob("*.exr"))], axis=0)
     ours = read_color(folder / "truths" / scene / "truth_centred.exr")
-    return flip, theirs.mean() / ours.mean(), float(np.median(np.abs(theirs - ours)))
+    return theirs.mean() / ours.mean(), float(np.median(np.abs(theirs - ours)))
 
 
-def main():
-    engine, folder, _, *command = sys.argv[1:]
-    folder = pathlib.Path(folder)
-    ports = PORTS[engine]
-    rows, version = [], None
+def measure(engine, folder, command):
+    """Measures all scenes; returns the engine's version, and rows of the table, the first of them its head."""
+    ports, version = PORTS[engine], None
+    head = ["scene", "own blur", "own, half a frame", *(f"`{port}`" for port in ports), "no blur", "ratio", "median"]
+    rows = [[*head, "audit of velocity, depth and colour"]]
     for name in SCENES:
         scene = f"{name}@unlit"
         capture, verdict = draw(folder, command, scene)
         version = re.search(r'^engine = "(.*)"', (capture / "capture.toml").read_text(), re.M)[1]
-        flip, ratio, median = measure(engine, folder, scene, capture)
-        own = re.sub(r" ", "_", version) + ":"
-        scores = [flip[name] for name in (own, *ports, "identity:")]
+        own = re.sub(r" ", "_", re.sub(r" *\(.*?\)", "", version)) + ":"
+        flip = score(engine, folder, scene, capture)
+        default = score_default(engine, folder, scene, capture, own) or flip[own]
+        ratio, median = compare_subframes(folder, scene, capture)
+        scores = [default, flip[own], *(flip[name] for name in (*ports, "identity:"))]
         rows.append([name, *(f"{score:.3f}" for score in scores), f"{ratio:.4f}", f"{median:.4f}", verdict])
         print(" | ".join(rows[-1]), flush=True)
-    head = ["scene", "own blur", *(f"`{port}`" for port in ports), "no blur", "ratio", "median", "audit of velocity, depth and colour"]
-    table = "\n".join(f"| {' | '.join(row)} |" for row in [head, ["---"] * len(head), *rows])
+    return version, rows
+
+
+def write_page(engine, version, rows):
+    table = "\n".join(f"| {' | '.join(row)} |" for row in [rows[0], ["---"] * len(rows[0]), *rows[1:]])
     RESULTS.mkdir(parents=True, exist_ok=True)
     (RESULTS / f"{engine}.md").write_text(f"""# {version}, drawn by the engine itself
 
@@ -86,10 +118,33 @@ Made by `make engines` on {date.today()}, at {SIZE[0]}x{SIZE[1]}, from scenes wi
 
 {table}
 
-The first columns are FLIP where anything moves, against the mean of {SUBFRAMES} sub-frames that the engine drew; lower is better. Own blur is the
-engine's, with its defaults; the others run on the engine's frame. Ratio and median compare those sub-frames with our truth of the scene:
-mean radiance over ours, and the median difference of a pixel.
+The first columns are FLIP where anything moves, against the mean of {SUBFRAMES} sub-frames that the engine drew over half a frame; lower
+is better. Own blur is the engine's, with its defaults, then set to half a frame; the ports of it run on the engine's frame. Ratio and
+median compare those sub-frames with our truth of the scene: mean radiance over ours, and the median difference of a pixel.
 """)
+
+
+def differences(engine, rows):
+    """Lists the cells that are not those of the page: numbers by more than TOLERANCE, verdicts by their first word."""
+    page = (RESULTS / f"{engine}.md").read_text().splitlines()
+    written = [[cell.strip() for cell in line.strip("|").split("|")] for line in page if line.startswith("|")]
+    if [row[0] for row in written] != ["scene", "---", *SCENES]:
+        return [f"the page has rows for {[row[0] for row in written[2:]]}, not for {SCENES}"]
+    found = []
+    for old, new in zip(written[2:], rows[1:]):
+        far = [abs(float(a) - float(b)) > TOLERANCE for a, b in zip(old[1:-1], new[1:-1], strict=True)]
+        if any(far) or old[-1].split(":")[0] != new[-1].split(":")[0]:
+            found.append(f"{old[0]}: the page says {old[1:]}, measured {new[1:]}")
+    return found
+
+
+def main():
+    engine, folder, _, *command = sys.argv[1:]
+    version, rows = measure(engine, pathlib.Path(folder), command)
+    if not os.environ.get("CHECK"):
+        write_page(engine, version, rows)
+    elif found := differences(engine, rows):
+        sys.exit(f"results/engines/{engine}.md: " + "\n".join(found))
 
 
 if __name__ == "__main__":

@@ -99,6 +99,8 @@ function planDrawing({ width, height, exposure, samples }, { scene, camera }) {
   const blur = (name, scale) => picture(name, motionBlur(input, motion.mul(scale), samples));
   const blurs = [
     blur("blurred", vec2(amount, amount)),
+    // As the example of three.js has it: velocity as it is.
+    blur("blurred_default", vec2(1, 1)),
     // The result if the blur mistook velocity up for coordinates down.
     blur("blurred_y_turned", vec2(amount, -amount)),
   ];
