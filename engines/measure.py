@@ -18,15 +18,23 @@ import sys
 from datetime import date
 
 import numpy as np
-import OpenEXR
+
+from pictures import read_color, read_png, sheet, write_png
 
 SCENES = ["sliding_panel", "fan", "railing", "crossing", "walker", "flag", "dolly", "roll"]
 # Ports of each engine's own blur.
 PORTS = {
     "bevy": ["bevy:default", "bevy:msaa"],
     "threejs": ["three:default", "three:corrected"],
+    "three_rs": ["three:default", "three:corrected"],
+    "babylon": ["babylon:default"],
+    "eevee": ["blender:eevee", "blender:eevee_mean"],
+    "vector_blur": ["blender:compositor"],
 }
+# Where the program that draws lies, if not in a folder of the engine's name.
+PROGRAMS = {"vector_blur": "examples/blender", "eevee": "examples/blender"}
 SIZE, SUBFRAMES = (160, 90), 32
+SHOWN = "fan"
 # How far a number may be from the page's.
 TOLERANCE = 0.003
 RESULTS = pathlib.Path(__file__).resolve().parent.parent / "results/engines"
@@ -38,14 +46,6 @@ def shuttertruth(*words, allowed=(0,)):
     if done.returncode not in allowed:
         sys.exit(f"shuttertruth {' '.join(map(str, words))}: {done.stdout}")
     return done.stdout
-
-
-def read_color(path):
-    with OpenEXR.File(str(path), separate_channels=True) as file:
-        channels = file.parts[0].channels
-        names = [f"{half}{part}" for half in ("A.", "B.") for part in "RGB"] if "A.R" in channels else list("RGB")
-        planes = np.stack([channels[name].pixels for name in names], axis=-1).astype(float)
-        return planes.reshape(*planes.shape[:2], -1, 3).mean(axis=2)
 
 
 def draw(folder, command, scene):
@@ -62,23 +62,27 @@ def draw(folder, command, scene):
 
 
 def score(engine, folder, scene, capture):
-    """Scores what the engine blurred, ports of its blur on its frame, and no blur; returns FLIP by filter."""
+    """Scores what the engine blurred, ports of its blur on its frame, and no blur; returns FLIP by preset, `own` and `identity`."""
     ingested, out = folder / "ingested" / capture.name, folder / "runs" / scene
     shuttertruth("engine", "ingest", capture, "--out", ingested)
-    shuttertruth("run", ingested, "--filter", ",".join(PORTS[engine]), "--quiet", "--out", out)
+    shuttertruth("run", ingested, "--filter", ",".join(PORTS[engine]), "--as-written", "--quiet", "--out", out)
     run = json.loads((out / "run.json").read_text())
-    return {f"{case['filter']}:{case['preset']}": case["scores"]["moving"]["flip"]["value"] for case in run["cases"]}
+    flip = {}
+    for case in run["cases"]:
+        name = f"{case['filter']}:{case['preset']}" if case["preset"] else case["filter"]
+        flip[name if name in (*PORTS[engine], "identity") else "own"] = case["scores"]["moving"]["flip"]["value"]
+    return flip
 
 
-def score_default(engine, folder, scene, capture, own):
-    """Scores the engine's own blur with its defaults, if it differs from that over half a frame; else returns None."""
+def score_default(engine, folder, scene, capture):
+    """Scores likewise with the engine's blur as its defaults make it; None if that is the blur over half a frame."""
     if not (capture / "blurred_default.exr").exists():
         return None
     other = folder / "captures_default" / capture.name
     shutil.rmtree(other, ignore_errors=True)
     shutil.copytree(capture, other)
     (other / "blurred_default.exr").replace(other / "blurred.exr")
-    return score(engine, folder / "default", scene, other)[own]
+    return score(engine, folder / "default", scene, other)
 
 
 def compare_subframes(folder, scene, capture):
@@ -99,33 +103,48 @@ def measure(engine, folder, command):
         scene = f"{name}@unlit"
         capture, verdict = draw(folder, command, scene)
         version = re.search(r'^engine = "(.*)"', (capture / "capture.toml").read_text(), re.M)[1]
-        own = re.sub(r" ", "_", re.sub(r" *\(.*?\)", "", version)) + ":"
         flip = score(engine, folder, scene, capture)
-        default = score_default(engine, folder, scene, capture, own) or flip[own]
+        default = score_default(engine, folder, scene, capture) or flip
         ratio, median = compare_subframes(folder, scene, capture)
-        scores = [default, flip[own], *(flip[name] for name in (*ports, "identity:"))]
+        scores = [default["own"], *(flip[name] for name in ("own", *ports, "identity"))]
         rows.append([name, *(f"{score:.3f}" for score in scores), f"{ratio:.4f}", f"{median:.4f}", verdict])
         print(" | ".join(rows[-1]), flush=True)
     return version, rows
 
 
-def write_page(engine, version, rows):
+def show(folder):
+    """Shows a scene's frame, the mean of its sub-frames, the engine's own blur, and our truth."""
+    capture = folder / "captures" / SHOWN
+    subframes = np.mean([read_color(path) for path in sorted((capture / "subframes").glob("*.exr"))], axis=0)
+    truth = read_color(folder / "truths" / f"{SHOWN}@unlit" / "truth_centred.exr")
+    return sheet([read_color(capture / "color.exr"), subframes, read_color(capture / "blurred.exr"), truth])
+
+
+def write_page(engine, version, rows, picture):
+    notes = pathlib.Path(__file__).parent / "notes" / f"{engine}.md"
+    notes = "\n" + notes.read_text() if notes.exists() else ""
+    program = PROGRAMS.get(engine, f"engines/{engine}")
     table = "\n".join(f"| {' | '.join(row)} |" for row in [rows[0], ["---"] * len(rows[0]), *rows[1:]])
     RESULTS.mkdir(parents=True, exist_ok=True)
-    (RESULTS / f"{engine}.md").write_text(f"""# {version}, drawn by the engine itself
+    write_png(RESULTS / f"{engine}.png", picture)
+    (RESULTS / f"{engine}.md").write_text(f"""# {version.partition(" (")[0]}, drawn by the engine itself
 
-Made by `make engines` on {date.today()}, at {SIZE[0]}x{SIZE[1]}, from scenes without light. `engines/{engine}` draws them.
+Made by `make engines` on {date.today()}, at {SIZE[0]}x{SIZE[1]}, from scenes without light. [{program}](../../{program}) draws them.
 
 {table}
 
 The first columns are FLIP where anything moves, against the mean of {SUBFRAMES} sub-frames that the engine drew over half a frame; lower
 is better. Own blur is the engine's, with its defaults, then set to half a frame; the ports of it run on the engine's frame. Ratio and
 median compare those sub-frames with our truth of the scene: mean radiance over ours, and the median difference of a pixel.
-""")
+
+![{SHOWN}: the frame, the mean of the sub-frames, its own blur, and our truth]({engine}.png)
+
+*From `{SHOWN}`, all but the last drawn by the engine: the frame, the mean of its sub-frames, its own blur over half a frame; our truth.*
+{notes}""")
 
 
-def differences(engine, rows):
-    """Lists the cells that are not those of the page: numbers by more than TOLERANCE, verdicts by their first word."""
+def differences(engine, rows, picture):
+    """Lists what is not as on the page: numbers that are TOLERANCE apart, verdicts by their first word, the picture by its mean."""
     page = (RESULTS / f"{engine}.md").read_text().splitlines()
     written = [[cell.strip() for cell in line.strip("|").split("|")] for line in page if line.startswith("|")]
     if [row[0] for row in written] != ["scene", "---", *SCENES]:
@@ -135,15 +154,19 @@ def differences(engine, rows):
         far = [abs(float(a) - float(b)) > TOLERANCE for a, b in zip(old[1:-1], new[1:-1], strict=True)]
         if any(far) or old[-1].split(":")[0] != new[-1].split(":")[0]:
             found.append(f"{old[0]}: the page says {old[1:]}, measured {new[1:]}")
+    apart = np.abs(read_png(RESULTS / f"{engine}.png").astype(float) - picture).mean()
+    if apart > 1:
+        found.append(f"the picture is {apart:.1f} of 255 off in the mean")
     return found
 
 
 def main():
     engine, folder, _, *command = sys.argv[1:]
     version, rows = measure(engine, pathlib.Path(folder), command)
+    picture = show(pathlib.Path(folder))
     if not os.environ.get("CHECK"):
-        write_page(engine, version, rows)
-    elif found := differences(engine, rows):
+        write_page(engine, version, rows, picture)
+    elif found := differences(engine, rows, picture):
         sys.exit(f"results/engines/{engine}.md: " + "\n".join(found))
 
 

@@ -1,4 +1,4 @@
-// A web server for the page, three.js, one exported scene and its original, on this machine only.
+// A web server for the page, its engine, one exported scene and its original, on this machine only.
 
 import fs from "node:fs";
 import http from "node:http";
@@ -6,6 +6,8 @@ import path from "node:path";
 import { fileURLToPath } from "node:url";
 
 const HERE = path.dirname(fileURLToPath(import.meta.url));
+// The page is that of the program which was started; other engines' pages import modules from /threejs/.
+const PAGE = path.dirname(process.argv[1]);
 const TYPES = {
   ".html": "text/html",
   ".js": "text/javascript",
@@ -20,7 +22,7 @@ const TYPES = {
 // Starts a server and returns it with its address. `receive(name, url, body)` handles what the page posts.
 // `files` has the folders of the scene and of the original.
 export async function startServer(files, receive) {
-  const folders = { "/scene/": files.scene, "/original/": files.original, "/": HERE };
+  const folders = { "/scene/": files.scene, "/original/": files.original, "/threejs/": HERE, "/": PAGE };
   const server = http.createServer(async (request, response) => {
     const url = new URL(request.url, "http://localhost");
     try {

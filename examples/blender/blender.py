@@ -7,13 +7,15 @@
     shuttertruth run railing out/engine/railing
 
 The blur is the compositor's Vector Blur, which reads the vector pass as a real-time blur reads its velocity buffer, or with
-`--blur cycles` the motion blur of Cycles, which opens a shutter. `--blur none` draws neither blur nor sub-frames.
+`--blur cycles` the motion blur of Cycles, which opens a shutter. `--blur eevee` draws everything with EEVEE and its motion blur; it
+needs Blender 5.0 and OpenGL, but no display. `--blur none` draws neither blur nor sub-frames.
 
 For a scene that `engine import` made of a glTF file, `--original FILE --at SECONDS --fps RATE` draws the meshes of that file, at the
 time and rate that the import was given, in the place of the exported ones: pictures of the original beside those of its import.
 
 The importer keeps places, motion, colours and the sun. The script adds what glTF cannot say: the lens, the sky, light without limits on
-bounces, and diffuse surfaces without Blender's own gloss. Tried with Blender 3.4.1.
+bounces, and diffuse surfaces without Blender's own gloss. Tried with Blender 3.4.1, and with the module bpy 5.0.1 as
+`python examples/blender/blender.py -- FOLDER OUT`.
 """
 
 import argparse
@@ -32,6 +34,8 @@ import bpy  # noqa: E402
 
 # Blender 4.0 renamed this and some inputs of surfaces.
 LINEAR = "Linear" if bpy.app.version < (4, 0) else "Linear Rec.709"
+# Blender 5.0 changed the compositor's tree and the settings of files, and made the second EEVEE the only one.
+IS_5 = bpy.app.version >= (5, 0)
 # Vectors lead back to the frame before, in pixels with y up; depth is in metres.
 CONVENTION = """[convention]
 velocity_sign = "previous_minus_current"
@@ -46,11 +50,13 @@ parser.add_argument("--samples", type=int, default=64, help="samples per pixel o
 parser.add_argument("--original", help="the glTF file that the scene was imported from")
 parser.add_argument("--at", type=float, default=0, help="time of the frame in that file, in seconds")
 parser.add_argument("--fps", type=int, default=24, help="frames per second of that file")
-parser.add_argument("--blur", choices=["vectors", "cycles", "none"], default="vectors")
-parser.add_argument("--alignment", choices=["centred", "trailing", "leading"], default="centred", help="shutter of Cycles")
+parser.add_argument("--blur", choices=["vectors", "cycles", "eevee", "none"], default="vectors")
+parser.add_argument("--alignment", choices=["centred", "trailing", "leading"], default="centred", help="shutter of Cycles or EEVEE")
 options = parser.parse_args(sys.argv[sys.argv.index("--") + 1 :])
+if options.blur == "eevee" and not IS_5:
+    parser.error(f"--blur eevee needs Blender 5.0; this is {bpy.app.version_string}")
 if options.blur == "vectors" and options.alignment != "centred":
-    parser.error("Vector Blur is centred; allowed for another shutter: --blur cycles")
+    parser.error("Vector Blur is centred; allowed for another shutter: --blur cycles or eevee")
 folder = options.folder
 with open(f"{folder}/manifest.json") as file:
     manifest = json.load(file)
@@ -213,10 +219,14 @@ def decode_textures():
 
 
 def open_shutter(alignment):
-    """Blurs over the scene's exposure: a box in time, with a pose at each of 129 instants, the most that Cycles accepts."""
+    """Blurs over the scene's exposure: a box in time. Cycles has a pose at each of 129 instants, the most that it accepts.
+
+    EEVEE keeps its defaults: one pose, and at most 32 pixels of blur.
+    """
     scene.render.use_motion_blur = True
     scene.render.motion_blur_shutter = manifest["exposure"]
-    scene.cycles.motion_blur_position = {"trailing": "END", "centred": "CENTER", "leading": "START"}[alignment]
+    shutter = scene.render if IS_5 else scene.cycles
+    shutter.motion_blur_position = {"trailing": "END", "centred": "CENTER", "leading": "START"}[alignment]
     curve = scene.render.motion_blur_shutter_curve.curves[0]
     while len(curve.points) > 2:
         curve.points.remove(curve.points[1])
@@ -231,24 +241,43 @@ def open_shutter(alignment):
 def blur_vectors():
     """Blurs the sharp frame in the compositor, centred on it.
 
-    The factor of Vector Blur is the shutter's time in frames in Blender 3.4, and half of it in Blender 4.2.
+    Vector Blur has the shutter's time in frames in Blender 3.4 and 5.0, and half of it in Blender 4.2.
     """
-    scene.use_nodes = True
-    nodes, links = scene.node_tree.nodes, scene.node_tree.links
-    nodes.clear()
-    drawn = nodes.new("CompositorNodeRLayers")
-    blur = nodes.new("CompositorNodeVecBlur")
-    blur.factor = manifest["exposure"] / (1 if bpy.app.version < (4, 0) else 2)
+    # In Blender 5.0, the node of the view layer has only the outputs that are on.
+    scene.view_layers[0].use_pass_z = scene.view_layers[0].use_pass_vector = True
+    if IS_5:
+        tree = scene.compositing_node_group = bpy.data.node_groups.new("blur", "CompositorNodeTree")
+        tree.interface.new_socket("Image", in_out="OUTPUT", socket_type="NodeSocketColor")
+    else:
+        scene.use_nodes = True
+        tree = scene.node_tree
+        tree.nodes.clear()
+    drawn = tree.nodes.new("CompositorNodeRLayers")
+    blur = tree.nodes.new("CompositorNodeVecBlur")
+    if IS_5:
+        blur.inputs["Shutter"].default_value = manifest["exposure"]
+    else:
+        blur.factor = manifest["exposure"] / (1 if bpy.app.version < (4, 0) else 2)
     for output, socket in (("Image", "Image"), ("Depth", "Z"), ("Vector", "Speed")):
-        links.new(drawn.outputs[output], blur.inputs[socket])
-    links.new(blur.outputs["Image"], nodes.new("CompositorNodeComposite").inputs["Image"])
+        tree.links.new(drawn.outputs[output], blur.inputs[socket])
+    shown = tree.nodes.new("NodeGroupOutput" if IS_5 else "CompositorNodeComposite")
+    tree.links.new(blur.outputs["Image"], shown.inputs["Image"])
 
 
 def set_quality():
     """Draws light without limits, and the mean over a pixel's square. The seed is the same in every picture."""
-    scene.render.engine = "CYCLES"
+    scene.render.engine = "BLENDER_EEVEE" if options.blur == "eevee" else "CYCLES"
+    scene.eevee.taa_render_samples = options.samples
+    if options.blur == "eevee":
+        # The importer gives a camera without a far plane one at 1e12 metres. EEVEE loses the sky, the ground and their vectors then.
+        scene.camera.data.clip_end = min(scene.camera.data.clip_end, 1e5)
+        # Without light there are none, but a software driver clears all their memory for every sample.
+        scene.eevee.use_shadows = not manifest["scene"].endswith("@unlit")
+    scene.render.filter_size = 1.5
     scene.cycles.samples = options.samples
     scene.cycles.seed = 0
+    # Blender 3.4 has wrong vectors with it.
+    scene.render.use_persistent_data = IS_5
     scene.cycles.use_adaptive_sampling = False
     scene.cycles.use_denoising = False
     scene.cycles.max_bounces = scene.cycles.diffuse_bounces = 16
@@ -276,6 +305,16 @@ def number_objects():
         thing.pass_index = numbers[name]
 
 
+def add_ids():
+    """Makes every material write its object's number, in a layer of the name of the pass that EEVEE lacks."""
+    ids = scene.view_layers[0].aovs.add()
+    ids.name, ids.type = "IndexOB", "VALUE"
+    for nodes in [m.node_tree.nodes for m in bpy.data.materials if m.use_nodes]:
+        written = nodes.new("ShaderNodeOutputAOV")
+        written.aov_name = ids.name
+        written.id_data.links.new(nodes.new("ShaderNodeObjectInfo").outputs["Object Index"], written.inputs["Value"])
+
+
 def render(name, seconds, *passes):
     """Renders a time of the animation to a file, with passes in layers if there are any."""
     frame = seconds / manifest["seconds_per_frame"]
@@ -287,7 +326,11 @@ def render(name, seconds, *passes):
     for one in ("z", "vector", "object_index"):
         setattr(layer, f"use_pass_{one}", one in passes)
     settings = scene.render.image_settings
-    settings.file_format = "OPEN_EXR_MULTILAYER" if passes and not scene.use_nodes else "OPEN_EXR"
+    is_layered = passes and name != "blurred"
+    if IS_5:
+        settings.media_type = "MULTI_LAYER_IMAGE" if is_layered else "IMAGE"
+        settings.use_exr_interleave = True
+    settings.file_format = "OPEN_EXR_MULTILAYER" if is_layered else "OPEN_EXR"
     settings.color_depth = "32"
     scene.render.filepath = os.path.abspath(f"{options.out}/{name}.exr")
     bpy.ops.render.render(write_still=True)
@@ -297,7 +340,8 @@ def render_buffers():
     """Renders vectors, depth and ids at the pixels' centres, as a rasteriser does, through a pinhole."""
     has_lens = scene.camera.data.dof.use_dof
     scene.camera.data.dof.use_dof = False
-    scene.cycles.samples = 1
+    scene.cycles.samples = scene.eevee.taa_render_samples = 1
+    scene.render.filter_size = 0
     scene.cycles.pixel_filter_type = "BLACKMAN_HARRIS"
     scene.cycles.filter_width = 0.01
     render("buffers", manifest["instant"], "z", "vector", "object_index")
@@ -307,7 +351,7 @@ def render_buffers():
 
 def describe():
     """Writes engine.toml and capture.toml, the latter from the export's template."""
-    blur = {"vectors": " Vector Blur", "cycles": " Cycles", "none": ""}[options.blur]
+    blur = {"vectors": " Vector Blur", "cycles": " Cycles", "eevee": " EEVEE", "none": ""}[options.blur]
     lines = {"engine": f"Blender {bpy.app.version_string}{blur}", "alignment": options.alignment}
     with open(f"{folder}/capture.toml") as file:
         text = file.read().split("\n", 1)[1]
@@ -328,16 +372,19 @@ set_sun()
 number_objects()
 for material in [m for m in bpy.data.materials if m.use_nodes]:
     make_diffuse(material)
+if options.blur == "eevee":
+    add_ids()
 set_quality()
 render("color", manifest["instant"])
 render_buffers()
 if options.blur != "none":
     for index, seconds in enumerate(manifest["subframes"][options.alignment]):
-        render(f"subframes/{index:04}", seconds, "object_index")
+        # EEVEE's ids are means of its samples.
+        render(f"subframes/{index:04}", seconds, *([] if options.blur == "eevee" else ["object_index"]))
 if options.blur == "vectors":
     blur_vectors()
     render("blurred", manifest["instant"], "z", "vector")
-if options.blur == "cycles":
+if options.blur in ("cycles", "eevee"):
     open_shutter(options.alignment)
     scene.cycles.samples = 4 * options.samples
     render("blurred", manifest["instant"])

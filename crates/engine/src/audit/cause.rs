@@ -32,6 +32,8 @@ pub enum Cause {
     CameraMotionMissing,
     /// The objects' motion and the camera's zoom, without the camera's own motion.
     ViewMissing,
+    /// The camera's turn alone, as of things at infinity.
+    CameraTurnAlone,
     /// All but the camera's zoom.
     ZoomMissing,
     /// The motion since two frames ago.

@@ -57,6 +57,7 @@ impl Cause {
             Self::ViewMissing => {
                 "lacks the motion of the camera, not its zoom: today's view serves both frames"
             }
+            Self::CameraTurnAlone => "holds the camera's turn alone, as of things at infinity",
             Self::ZoomMissing => {
                 "lacks the zoom of the camera: today's projection serves both frames"
             }
@@ -186,6 +187,9 @@ impl Cause {
                 "keep the camera's view and projection for the frame after"
             }
             Self::ViewMissing => "keep the camera's view for the frame after",
+            Self::CameraTurnAlone => {
+                "draw the objects into the pass that writes velocity; their pixels have the background's"
+            }
             Self::ZoomMissing => "keep the camera's projection for the frame after",
             Self::TwoFrames | Self::OlderMatrix => {
                 "replace what is kept once in every frame, also in one that draws nothing new"

@@ -40,7 +40,8 @@ const PASSES: [Pass; 5] = [
     },
     Pass {
         names: &["object"],
-        layers: &["IndexOB"],
+        // Blender 5 renamed it.
+        layers: &["IndexOB", "Object Index"],
         channels: [&["X"], &["V"]],
     },
 ];

@@ -22,10 +22,25 @@ impl Pinhole {
 
     /// Makes a camera that is placed as at one time and zooms as at another.
     pub fn new(camera: &Camera, placed_at: f64, zooms_at: f64, size: Size) -> Self {
+        let placed = camera.motion.at(placed_at);
+        Self::with_pose(placed, 0.5 * camera.vertical_fov_at(zooms_at), size)
+    }
+
+    /// Makes a camera that stays where it is at the instant, and is turned and zoomed as at a time.
+    pub fn turned(camera: &Camera, time: f64, size: Size) -> Self {
+        let pose = DAffine3 {
+            translation: camera.motion.at(0.0).translation,
+            ..camera.motion.at(time)
+        };
+        Self::with_pose(pose, 0.5 * camera.vertical_fov_at(time), size)
+    }
+
+    /// Makes a camera with half an angle of view, in radians.
+    fn with_pose(pose: DAffine3, half_angle: f64, size: Size) -> Self {
         let half = [size.width, size.height].map(|side| 0.5 * f64::from(side));
         Self {
-            to_camera: camera.motion.at(placed_at).inverse(),
-            focal: half[1] / (0.5 * camera.vertical_fov_at(zooms_at)).tan(),
+            to_camera: pose.inverse(),
+            focal: half[1] / half_angle.tan(),
             half,
         }
     }

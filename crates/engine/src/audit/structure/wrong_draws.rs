@@ -59,6 +59,7 @@ impl<'a> WrongDraws<'a> {
             Cause::ZoomMissing,
             Cause::CameraMotionMissing,
             Cause::ViewMissing,
+            Cause::CameraTurnAlone,
             Cause::FrameLate,
             Cause::LateMatrix,
             Cause::FrameEarly,
@@ -68,7 +69,10 @@ impl<'a> WrongDraws<'a> {
         ];
         let clocks = CLOCK_RATES.map(Cause::MotionOver);
         let all: Vec<usize> = (0..self.points.len()).collect();
-        let candidates = motions.into_iter().chain(clocks).flat_map(|cause| {
+        let is_distinct =
+            |cause: &Cause| *cause != Cause::CameraTurnAlone || self.turns_and_moves();
+        let causes = motions.into_iter().filter(is_distinct).chain(clocks);
+        let candidates = causes.flat_map(|cause| {
             let velocity = self.velocity(&all, &|object| self.draw_wrongly(&cause, object));
             let kept_shape = self.keeps_shape(&cause).then(|| {
                 self.velocity(&all, &|object| {
@@ -81,6 +85,13 @@ impl<'a> WrongDraws<'a> {
             velocities.map(move |velocity| (cause.clone(), velocity))
         });
         candidates.collect()
+    }
+
+    /// Returns whether the camera turns and moves. Where it does only one of both, the turn alone
+    /// looks like right vectors of still things, or like none.
+    fn turns_and_moves(&self) -> bool {
+        let [before, now] = [-1.0, 0.0].map(|time| self.scene.camera.motion.at(time));
+        before.matrix3 != now.matrix3 && before.translation != now.translation
     }
 
     /// Returns whether an engine may make a mistake with matrices and still move vertices rightly.
@@ -201,6 +212,10 @@ impl<'a> WrongDraws<'a> {
         let last = match cause {
             Cause::CameraMotionMissing => camera(0.0, 0.0),
             Cause::ViewMissing => camera(0.0, -1.0),
+            Cause::CameraTurnAlone => Drawn {
+                camera: Pinhole::turned(&self.scene.camera, -1.0, self.size),
+                ..right.this
+            },
             Cause::ZoomMissing => camera(-1.0, 0.0),
             Cause::FrameLate | Cause::TwoFrames => self.drawn_at(object, -2.0),
             Cause::FrameEarly => right.this,

@@ -35,6 +35,7 @@ pub enum PlantedDefect {
     ObjectMotionMissing,
     CameraMissing,
     TodaysViewProjection,
+    CameraTurnAlone,
     MatrixOfAnother,
     InstancesShareMatrix,
     JitterInOnePass,
@@ -50,13 +51,14 @@ pub enum PlantedDefect {
 
 impl PlantedDefect {
     /// All of them.
-    pub const ALL: [Self; 17] = [
+    pub const ALL: [Self; 18] = [
         Self::DeformationMissing,
         Self::RestPose,
         Self::OwnMotionMissing,
         Self::ObjectMotionMissing,
         Self::CameraMissing,
         Self::TodaysViewProjection,
+        Self::CameraTurnAlone,
         Self::MatrixOfAnother,
         Self::InstancesShareMatrix,
         Self::JitterInOnePass,
@@ -79,6 +81,7 @@ impl PlantedDefect {
             Self::ObjectMotionMissing => "an object has the camera's motion alone",
             Self::CameraMissing => "the camera stands still",
             Self::TodaysViewProjection => "one object takes today's view and projection twice",
+            Self::CameraTurnAlone => "objects are not drawn, and have the background's vectors",
             Self::MatrixOfAnother => "an object comes from another one's matrix",
             Self::InstancesShareMatrix => "instances come from the first one's matrix",
             Self::JitterInOnePass => "jitter is left in in the pass of one object",
@@ -102,6 +105,7 @@ impl PlantedDefect {
             Self::ObjectMotionMissing => &["lacks its motion", "lacks its own motion"],
             Self::CameraMissing => &["lacks the motion of the camera"],
             Self::TodaysViewProjection => &["lacks the motion of the camera"],
+            Self::CameraTurnAlone => &["the camera's turn alone"],
             Self::MatrixOfAnother | Self::InstancesShareMatrix => {
                 &["comes from the last matrix of `"]
             }
@@ -129,6 +133,8 @@ impl PlantedDefect {
             Self::DeformationMissing | Self::RestPose if !deforms => return None,
             Self::OwnMotionMissing if object.parent == Parent::World => return None,
             Self::ZoomMissing if scene.camera.vertical_fov.len() < 2 => return None,
+            Self::CameraTurnAlone if !turns_and_moves(scene) => return None,
+            Self::CameraTurnAlone => everything[1..].to_vec(),
             Self::MatrixOfAnother if case.donor.is_empty() => return None,
             Self::InstancesShareMatrix => instances(scene, target)?,
             Self::CameraMissing
@@ -167,6 +173,11 @@ impl PlantedDefect {
                 draw.cameras[LAST] = draw.cameras[THIS];
                 draw.fields_of_view[LAST] = draw.fields_of_view[THIS];
             }
+            Self::CameraTurnAlone => {
+                draw.shapes[LAST] = shape(0.0);
+                draw.matrices[LAST] = matrix(0.0);
+                draw.cameras[LAST].translation = draw.cameras[THIS].translation;
+            }
             Self::MatrixOfAnother | Self::InstancesShareMatrix => {
                 draw.matrices[LAST] = memory.matrix;
             }
@@ -188,6 +199,12 @@ impl PlantedDefect {
             }
         }
     }
+}
+
+/// Returns whether the background's vectors differ from right ones and from none.
+fn turns_and_moves(scene: &Scene) -> bool {
+    let [before, now] = [-1.0, 0.0].map(|time| scene.camera.motion.at(time));
+    before.matrix3 != now.matrix3 && before.translation != now.translation
 }
 
 /// What an engine takes for an object's own.

@@ -1,0 +1,43 @@
+"""Pictures of the pages: read from OpenEXR, shown side by side in a PNG."""
+
+import struct
+import zlib
+
+import numpy as np
+import OpenEXR
+
+SCALE = 2
+
+
+def read_color(path):
+    """Reads scene-linear colour: that of Blender's layer Combined, or the mean of both halves of a truth."""
+    with OpenEXR.File(str(path), separate_channels=True) as file:
+        channels = file.parts[0].channels
+        layers = [name[:-1] for name in channels if name in ("R", "A.R", "B.R") or name.endswith("Combined.R")]
+        colors = [np.stack([channels[layer + part].pixels for part in "RGB"], axis=-1) for layer in layers]
+        return np.mean(colors, axis=0, dtype=float)
+
+
+def sheet(colors):
+    """Puts pictures side by side, by the curve of sRGB, each pixel as a square: bytes of shape (rows, columns, 3)."""
+    linear = np.clip(np.concatenate(colors, axis=1), 0, 1)
+    srgb = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+    return np.round(255 * srgb).astype(np.uint8).repeat(SCALE, axis=0).repeat(SCALE, axis=1)
+
+
+def write_png(path, pixels):
+    height, width, _ = pixels.shape
+    rows = np.concatenate([np.zeros((height, 1), np.uint8), pixels.reshape(height, -1)], axis=1)
+    chunk = lambda kind, data: struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
+    parts = [chunk(b"IHDR", header), chunk(b"IDAT", zlib.compress(rows.tobytes(), 9)), chunk(b"IEND", b"")]
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + b"".join(parts))
+
+
+def read_png(path):
+    """Reads what `write_png` wrote."""
+    data = path.read_bytes()
+    width, height = struct.unpack(">II", data[16:24])
+    (length,) = struct.unpack(">I", data[33:37])
+    rows = np.frombuffer(zlib.decompress(data[41 : 41 + length]), np.uint8).reshape(height, -1)
+    return rows[:, 1:].reshape(height, width, 3)
