@@ -123,6 +123,8 @@ engines: software_vulkan python chromium node
 	cargo build --locked --bin shuttertruth
 	cargo build --locked --manifest-path engines/bevy/Cargo.toml --target-dir "$(ENGINES)/build"
 	$(DRAWN) bevy "$(ENGINES)/bevy" -- "$(ENGINES)/build/debug/shuttertruth-bevy" {scene} {capture} {width} {height}
+	cargo build --locked --manifest-path engines/three_rs/Cargo.toml --target-dir "$(ENGINES)/build"
+	$(DRAWN) three_rs "$(ENGINES)/three_rs" -- "$(ENGINES)/build/debug/shuttertruth-three-rs" {scene} {capture} {width} {height}
 	npm ci --prefix engines/threejs --no-audit --no-fund
 	$(DRAWN) threejs "$(ENGINES)/threejs" -- node engines/threejs/capture.mjs {scene} --out {capture} --size {width}x{height} --near 0.1
 	npm ci --prefix engines/babylon --no-audit --no-fund
