@@ -57,8 +57,10 @@ def draw(folder, command, scene):
     subprocess.run([word.format(**known) for word in command], check=True)
     said = shuttertruth("engine", "audit", capture, "--out", folder / "audit", allowed=(0, 1, 2))
     findings = [" ".join(text.split()) for text in re.findall(r"^  - (.*?)(?=^  - |^[A-Z])", said, re.M | re.S)]
-    verdict = re.search(r"^(PASS|FAIL|UNDECIDED)", said, re.M)[1]
-    return capture, verdict if verdict == "PASS" else f"{verdict}: {'; '.join(findings)}"
+    verdict = re.search(r"^(PASS|FAIL|UNDECIDED)", said, re.M)
+    if not verdict:
+        sys.exit(f"{capture}: {said}")
+    return capture, verdict[1] if verdict[1] == "PASS" else f"{verdict[1]}: {'; '.join(findings)}"
 
 
 def score(engine, folder, scene, capture):
