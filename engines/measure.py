@@ -20,6 +20,7 @@ from datetime import date
 import numpy as np
 
 from pictures import read_color, read_png, sheet, write_png
+from program import audit, shuttertruth
 
 SCENES = ["sliding_panel", "fan", "railing", "crossing", "walker", "flag", "dolly", "roll"]
 # Ports of each engine's own blur.
@@ -28,24 +29,17 @@ PORTS = {
     "threejs": ["three:default", "three:corrected"],
     "three_rs": ["three:default", "three:corrected"],
     "babylon": ["babylon:default"],
-    "eevee": ["blender:eevee", "blender:eevee_mean"],
     "vector_blur": ["blender:compositor"],
 }
 # Where the program that draws lies, if not in a folder of the engine's name.
-PROGRAMS = {"vector_blur": "examples/blender", "eevee": "examples/blender"}
+PROGRAMS = {"vector_blur": "examples/blender"}
 SIZE, SUBFRAMES = (160, 90), 32
 SHOWN = "fan"
+# The heading of what people wrote of an engine.
+NOTES = "\n## What it shows\n"
 # How far a number may be from the page's.
 TOLERANCE = 0.003
 RESULTS = pathlib.Path(__file__).resolve().parent.parent / "results/engines"
-
-
-def shuttertruth(*words, allowed=(0,)):
-    """Runs the program; returns what it printed."""
-    done = subprocess.run(["shuttertruth", *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-    if done.returncode not in allowed:
-        sys.exit(f"shuttertruth {' '.join(map(str, words))}: {done.stdout}")
-    return done.stdout
 
 
 def draw(folder, command, scene):
@@ -55,12 +49,8 @@ def draw(folder, command, scene):
     shutil.rmtree(capture, ignore_errors=True)
     known = {"scene": exported, "capture": capture, "width": SIZE[0], "height": SIZE[1]}
     subprocess.run([word.format(**known) for word in command], check=True)
-    said = shuttertruth("engine", "audit", capture, "--out", folder / "audit", allowed=(0, 1, 2))
-    findings = [" ".join(text.split()) for text in re.findall(r"^  - (.*?)(?=^  - |^[A-Z])", said, re.M | re.S)]
-    verdict = re.search(r"^(PASS|FAIL|UNDECIDED)", said, re.M)
-    if not verdict:
-        sys.exit(f"{capture}: {said}")
-    return capture, verdict[1] if verdict[1] == "PASS" else f"{verdict[1]}: {'; '.join(findings)}"
+    verdict, findings = audit(capture, "--out", folder / "audit", allowed=(0, 1, 2))
+    return capture, f"{verdict}: {'; '.join(findings)}" if findings else verdict
 
 
 def score(engine, folder, scene, capture):
@@ -123,13 +113,15 @@ def show(folder):
 
 
 def write_page(engine, version, rows, picture):
-    notes = pathlib.Path(__file__).parent / "notes" / f"{engine}.md"
-    notes = "\n" + notes.read_text() if notes.exists() else ""
+    page = RESULTS / f"{engine}.md"
+    # What people wrote below stays.
+    written = page.read_text() if page.exists() else ""
+    notes = written[written.index(NOTES) :] if NOTES in written else ""
     program = PROGRAMS.get(engine, f"engines/{engine}")
     table = "\n".join(f"| {' | '.join(row)} |" for row in [rows[0], ["---"] * len(rows[0]), *rows[1:]])
     RESULTS.mkdir(parents=True, exist_ok=True)
     write_png(RESULTS / f"{engine}.png", picture)
-    (RESULTS / f"{engine}.md").write_text(f"""# {version.partition(" (")[0]}, drawn by the engine itself
+    page.write_text(f"""# {version.partition(" (")[0]}, drawn by the engine itself
 
 Made by `make engines` on {date.today()}, at {SIZE[0]}x{SIZE[1]}, from scenes without light. [{program}](../../{program}) draws them.
 

@@ -16,9 +16,9 @@ import textwrap
 from datetime import date
 
 import numpy as np
-import OpenEXR
 
-from pictures import read_color
+from pictures import read_color, read_colors
+from program import shuttertruth
 
 TOP = pathlib.Path(__file__).resolve().parent.parent
 PAGE = TOP / "results/studies/oracles.md"
@@ -26,12 +26,6 @@ SIZE, SAMPLES = "160x90", 256
 # How far a mean may be from ours, and how far a page's.
 BOUND = 0.002
 TOLERANCE = 0.001
-
-
-def shuttertruth(*words):
-    done = subprocess.run(["shuttertruth", *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-    if done.returncode:
-        sys.exit(f"shuttertruth {' '.join(map(str, words))}: {done.stdout}")
 
 
 def copy_flat(scenes, out):
@@ -43,12 +37,6 @@ def copy_flat(scenes, out):
         corner = lambda match: match[1] + ("/" + match[2] if match[2] else "")
         flat = [re.sub(r"(\d+)/(\d*)/\d+", corner, line) if line.startswith("f ") else line for line in lines]
         path.write_text("\n".join(flat) + "\n")
-
-
-def read_halves(path):
-    with OpenEXR.File(str(path), separate_channels=True) as file:
-        channels = file.parts[0].channels
-        return [np.stack([channels[half + part].pixels for part in "RGB"], axis=-1).astype(float) for half in ("A.", "B.")]
 
 
 def compare(theirs, ours):
@@ -74,7 +62,7 @@ def main():
         render = ["truths", "render", scene, "--scenes-dir", scenes, "--alignments", "centred", "--size", SIZE]
         shuttertruth(*render, "--samples-per-pixel", SAMPLES, "--quiet", "--out", folder / "truths")
         theirs = [read_color(folder / "drawn" / scene / f"{half}.exr") for half in "ab"]
-        ratio, noise = compare(theirs, read_halves(folder / "truths" / scene / "truth_centred.exr"))
+        ratio, noise = compare(theirs, read_colors(folder / "truths" / scene / "truth_centred.exr"))
         rows.append([scene, ratio, noise])
         print(f"{scene} {ratio:.5f} {noise:.3f}", flush=True)
     version = subprocess.run([draw[0], "-c", "import pyluxcore; pyluxcore.Init(); print(pyluxcore.Version())"], stdout=subprocess.PIPE, text=True)

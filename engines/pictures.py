@@ -9,20 +9,34 @@ import OpenEXR
 SCALE = 2
 
 
-def read_color(path):
-    """Reads scene-linear colour: that of Blender's layer Combined, or the mean of both halves of a truth."""
+def read_channels(path):
+    """Reads the channels of a file, by name."""
     with OpenEXR.File(str(path), separate_channels=True) as file:
-        channels = file.parts[0].channels
-        layers = [name[:-1] for name in channels if name in ("R", "A.R", "B.R") or name.endswith("Combined.R")]
-        colors = [np.stack([channels[layer + part].pixels for part in "RGB"], axis=-1) for layer in layers]
-        return np.mean(colors, axis=0, dtype=float)
+        return {name: np.array(channel.pixels) for name, channel in file.parts[0].channels.items()}
+
+
+def read_colors(path):
+    """Reads scene-linear colours: one, that of Blender's layer Combined, or both halves of a truth."""
+    channels = read_channels(path)
+    layers = [name[:-1] for name in channels if name in ("R", "A.R", "B.R") or name.endswith("Combined.R")]
+    return [np.stack([channels[layer + part] for part in "RGB"], axis=-1).astype(float) for layer in layers]
+
+
+def read_color(path):
+    """Reads a scene-linear colour; the mean of both halves of a truth."""
+    return np.mean(read_colors(path), axis=0)
+
+
+def encode_srgb(linear):
+    """Encodes scene-linear colour as 8-bit numbers by the curve of sRGB; it clips above 1."""
+    linear = np.clip(linear, 0, 1)
+    return np.round(255 * np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055))
 
 
 def sheet(colors):
-    """Puts pictures side by side, by the curve of sRGB, each pixel as a square: bytes of shape (rows, columns, 3)."""
-    linear = np.clip(np.concatenate(colors, axis=1), 0, 1)
-    srgb = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
-    return np.round(255 * srgb).astype(np.uint8).repeat(SCALE, axis=0).repeat(SCALE, axis=1)
+    """Puts pictures side by side, each pixel as a square: bytes of shape (rows, columns, 3)."""
+    encoded = encode_srgb(np.concatenate(colors, axis=1)).astype(np.uint8)
+    return encoded.repeat(SCALE, axis=0).repeat(SCALE, axis=1)
 
 
 def write_png(path, pixels):

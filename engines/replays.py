@@ -12,7 +12,6 @@ import os
 import pathlib
 import re
 import shutil
-import subprocess
 import sys
 from collections import Counter
 from dataclasses import dataclass
@@ -20,6 +19,9 @@ from typing import Callable
 
 import numpy as np
 import OpenEXR
+
+from pictures import encode_srgb, read_channels, read_color
+from program import audit, shuttertruth
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGE = ROOT / "results/studies/replays.md"
@@ -30,19 +32,6 @@ CAPTURE_SAMPLES, TRUTH_SAMPLES = 16, 64
 SHADER_SCENES = ["fan", "railing", "roll", "two_spheres", "sliding_panel"]
 # Half a frame.
 EXPOSURE = 0.5
-
-
-def shuttertruth(*words, allowed=(0,)):
-    """Runs the program; returns what it printed."""
-    done = subprocess.run(["shuttertruth", *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-    if done.returncode not in allowed:
-        sys.exit(f"shuttertruth {' '.join(map(str, words))}: {done.stdout}")
-    return done.stdout
-
-
-def read_channels(path, names):
-    with OpenEXR.File(str(path), separate_channels=True) as file:
-        return {name: np.array(file.parts[0].channels[name].pixels) for name in names}
 
 
 def write_channels(path, channels):
@@ -87,7 +76,8 @@ def render(folder, scene):
     """Renders the frame of a scene in `folder`; returns its colour, velocity, depth and object ids."""
     settings = ["--size", SIZE, "--samples-per-pixel", CAPTURE_SAMPLES, "--velocity", "previous_frame", "--exposure", EXPOSURE]
     shuttertruth("truths", "render", scene, "--scenes-dir", folder, *settings, "--quiet", "--out", folder / "rendered")
-    return read_channels(folder / "rendered" / scene / "frame.exr", ["R", "G", "B", "Z", "velocity.X", "velocity.Y", "object.id"])
+    channels = read_channels(folder / "rendered" / scene / "frame.exr")
+    return {name: channels[name] for name in ["R", "G", "B", "Z", "velocity.X", "velocity.Y", "object.id"]}
 
 
 FLAG_KEYS = """    { time = -1, mesh = "flag_0.obj" },
@@ -207,13 +197,8 @@ def write_capture(folder, scene, frame):
     (folder / "capture.toml").write_text(f'engine = "replay"\nscene = "{scene}"\n')
 
 
-def audit(folder, scenes):
-    """Audits a capture; returns its findings, none if it passes."""
-    said = shuttertruth("engine", "audit", folder, "--scenes-dir", scenes, "--out", folder / "audit", allowed=(0, 1))
-    findings = [" ".join(text.split()) for text in re.findall(r"^  - (.*?)(?=^  - |^[A-Z])", said, re.M | re.S)]
-    if findings == [] and not re.search("^PASS", said, re.M):
-        sys.exit(f"{folder}: {said}")
-    return findings
+def audit_capture(capture, scenes):
+    return audit(capture, "--scenes-dir", scenes, "--out", capture / "audit")
 
 
 def blur(frame, own_blur):
@@ -232,10 +217,11 @@ def replay_capture(folder, plant, own_blur):
     captures = {"right": right, "wrong": wrong}
     for name, frame in captures.items():
         write_capture(folder / "captures" / name, scene, frame)
-    if findings := audit(folder / "captures/right", scenes):
+    _, findings = audit_capture(folder / "captures/right", scenes)
+    if findings:
         sys.exit(f"{folder}: the capture without the defect fails: {findings}")
     pictures = [blur(folder / "captures" / name / "frame.exr", own_blur) for name in captures]
-    return audit(folder / "captures/wrong", scenes), {scene: pictures}
+    return audit_capture(folder / "captures/wrong", scenes)[1], {scene: pictures}
 
 
 # Shaders
@@ -318,10 +304,7 @@ def check_words(said):
 
 def read_picture(path):
     """Reads a picture as an 8-bit sRGB screenshot."""
-    channels = read_channels(path, "RGB")
-    linear = np.clip(np.stack([channels[name] for name in "RGB"], axis=-1), 0, 1)
-    encoded = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
-    return np.round(encoded * 255)
+    return encode_srgb(read_color(path))
 
 
 def yiq_difference(right, wrong):

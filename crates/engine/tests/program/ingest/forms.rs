@@ -57,6 +57,13 @@ fn one_file_of_blender_s_passes_gives_the_same_frame() {
     }
     write_exr(&capture.path("color.exr"), &file).unwrap();
     assert_eq!(show(&sandbox), expected);
+    // Blender 5 renamed a pass.
+    let mut renamed = file.clone();
+    for channel in &mut renamed.channels {
+        channel.name = channel.name.replace("IndexOB", "Object Index");
+    }
+    write_exr(&capture.path("color.exr"), &renamed).unwrap();
+    assert_eq!(show(&sandbox), expected);
     // The compositor's copy of the view layer, as Blender adds it.
     let mut both = file.clone();
     both.push_color(
