@@ -18,7 +18,8 @@ def read_channels(path):
 def read_colors(path):
     """Reads scene-linear colours: one, that of Blender's layer Combined, or both halves of a truth."""
     channels = read_channels(path)
-    layers = [name[:-1] for name in channels if name in ("R", "A.R", "B.R") or name.endswith("Combined.R")]
+    halves = [half for half in ("A.", "B.") if half + "R" in channels]
+    layers = halves or [name[:-1] for name in channels if name == "R" or name.endswith("Combined.R")]
     return [np.stack([channels[layer + part] for part in "RGB"], axis=-1).astype(float) for layer in layers]
 
 
