@@ -36,6 +36,8 @@ import bpy  # noqa: E402
 LINEAR = "Linear" if bpy.app.version < (4, 0) else "Linear Rec.709"
 # Blender 5.0 changed the compositor's tree and the settings of files, and made the second EEVEE the only one.
 IS_5 = bpy.app.version >= (5, 0)
+# The far plane that EEVEE gets, in metres.
+FAR = 1e5
 # Vectors lead back to the frame before, in pixels with y up; depth is in metres.
 CONVENTION = """[convention]
 velocity_sign = "previous_minus_current"
@@ -77,8 +79,14 @@ def put_original_in_place():
     stay = set(bpy.data.objects)
     bpy.context.scene.render.fps = options.fps
     bpy.ops.import_scene.gltf(filepath=options.original)
-    for thing in [o for o in bpy.data.objects if o.type in ("CAMERA", "LIGHT") and o not in stay]:
+    for thing in [o for o in bpy.data.objects if o not in stay and is_left_out(o)]:
         bpy.data.objects.remove(thing)
+
+
+def is_left_out(thing):
+    """Cameras and lights stay the scene's, and the importer of Blender 5 adds a mesh that only shows where bones are."""
+    shows_bones = any(collection.name.startswith("glTF_not_exported") for collection in thing.users_collection)
+    return thing.type in ("CAMERA", "LIGHT") or shows_bones
 
 
 if options.original:
@@ -270,7 +278,7 @@ def set_quality():
     scene.eevee.taa_render_samples = options.samples
     if options.blur == "eevee":
         # The importer gives a camera without a far plane one at 1e12 metres. EEVEE loses the sky, the ground and their vectors then.
-        scene.camera.data.clip_end = min(scene.camera.data.clip_end, 1e5)
+        scene.camera.data.clip_end = min(scene.camera.data.clip_end, FAR)
         # Without light there are none, but a software driver clears all their memory for every sample.
         scene.eevee.use_shadows = not manifest["scene"].endswith("@unlit")
     scene.render.filter_size = 1.5
@@ -357,7 +365,9 @@ def describe():
         text = file.read().split("\n", 1)[1]
     for key, value in lines.items():
         text = re.sub(f"(?m)^{key} = .*$", f'{key} = "{value}"', text)
-    for name, content in (("capture", text), ("engine", CONVENTION)):
+    # EEVEE writes the far plane where nothing is, and Cycles 1e10 metres.
+    far = f"far = {scene.camera.data.clip_end}\n" if options.blur == "eevee" else ""
+    for name, content in (("capture", text), ("engine", CONVENTION + far)):
         with open(f"{options.out}/{name}.toml", "w") as file:
             file.write(content)
 

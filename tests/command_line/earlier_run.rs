@@ -17,10 +17,17 @@ fn sorted_names(sandbox: &Sandbox) -> Vec<String> {
     names
 }
 
+/// Makes a sandbox with a run of three filters on two scenes.
+fn wide() -> Sandbox {
+    Sandbox::once(|sandbox| {
+        sandbox.add_slow_scene();
+        sandbox.measure("--filters identity,velocity_gather:fine,mcguire:paper");
+    })
+}
+
 #[test]
 fn a_narrower_run_keeps_the_cases_of_a_wider_one() {
-    let sandbox = Sandbox::two_scenes();
-    sandbox.measure("--filters identity,velocity_gather:fine,mcguire:paper");
+    let sandbox = wide();
     let before = sorted_names(&sandbox);
     assert_eq!(before.len(), 6);
     let narrow = sandbox.run(&split("--scenes slow --filters velocity_gather:fine"));
@@ -100,14 +107,14 @@ fn an_earlier_run_that_cannot_be_read_is_not_replaced() {
 
 #[test]
 fn cases_of_a_scene_that_has_changed_are_dropped() {
-    let sandbox = Sandbox::two_scenes();
-    sandbox.measure("--filters identity,velocity_gather:fine");
+    let sandbox = wide();
     let scene = sandbox.text("scenes/plate/scene.toml");
     sandbox.write("scene.toml", &scene.replace("-1.6", "-1.2"));
     let narrow = sandbox.run(&split("--scenes plate --filters identity"));
     assert_done(&narrow);
-    assert_contains(&stderr(&narrow), &["1 other was dropped"]);
-    let left = "plate identity:default, slow identity:default, slow velocity_gather:fine";
+    assert_contains(&stderr(&narrow), &["2 others were dropped"]);
+    let left = "plate identity:default, slow identity:default, slow mcguire:paper, \
+        slow velocity_gather:fine";
     assert_eq!(sorted_names(&sandbox).join(", "), left);
 }
 

@@ -1,14 +1,14 @@
-//! Tables as CSV and Markdown.
+//! Tables as CSV and Markdown. Those of `bench` are tested beside its times.
 
 use std::collections::BTreeMap;
 
 use measure::Run;
 use metrics::Metric;
 
-use crate::sandbox::{Sandbox, split};
+use crate::sandbox::Sandbox;
 
 /// Reads CSV without quoted cells into rows by title.
-fn read_csv(text: &str) -> Vec<BTreeMap<&str, &str>> {
+pub fn read_csv(text: &str) -> Vec<BTreeMap<&str, &str>> {
     let mut lines = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
     let titles = lines.next().unwrap();
     let row = |cells: Vec<_>| {
@@ -60,8 +60,7 @@ fn markdown_is_the_printed_table_and_a_dash_prints_it_alone() {
 
 #[test]
 fn compare_writes_each_change_and_its_tables() {
-    let sandbox = Sandbox::new();
-    sandbox.measure("--filters velocity_gather:fine");
+    let sandbox = Sandbox::gathered();
     sandbox.measure("--filters velocity_gather:fine --set velocity_gather.samples=2");
     let text = sandbox.done("compare --csv -");
     let rows = read_csv(&text);
@@ -87,21 +86,4 @@ fn compare_writes_each_change_and_its_tables() {
         "{markdown}"
     );
     assert!(markdown.contains("| flip_moving |"), "{markdown}");
-}
-
-#[test]
-fn bench_writes_each_pass() {
-    let sandbox = Sandbox::new();
-    let line = "bench --quiet --filter jump_flood:paper --size 32x18 --csv times.csv --markdown -";
-    let printed = sandbox.execute(&split(line));
-    assert!(printed.starts_with("| filter / pass | ms |"), "{printed}");
-    let text = sandbox.text("times.csv");
-    let rows = read_csv(&text);
-    let passes = rows.iter().filter(|row| !row["pass"].is_empty()).count();
-    assert!(passes >= 2 && rows.len() == passes + 1, "{text}");
-    for row in rows {
-        assert_eq!(row["filter"], "jump_flood:paper");
-        assert!(row["milliseconds"].parse::<f64>().unwrap() > 0.0);
-    }
-    assert!(sandbox.path("out/bench.json").is_file());
 }

@@ -85,14 +85,9 @@ fn assert_broken(scene: &str, changes: &[(&str, &str)]) {
 }
 
 /// Presets, each with one changed value.
-const CHANGES: [(&str, &str); 8] = [
+const CHANGES: [(&str, &str); 3] = [
     ("bevy:default", "metric=pixel"),
-    ("jimenez:o3de", "tile_lookup=nearest"),
-    ("three:default", "divisor=fetches"),
     ("centred_gather:armory", "taps=middles"),
-    ("centred_gather:spartan_2024", "smoothing=none"),
-    ("babylon:default", "storage=exact"),
-    ("kino:default", "least_motion=1"),
     ("jump_flood:july_2024", "map=float32"),
 ];
 
@@ -100,6 +95,15 @@ const CHANGES: [(&str, &str); 8] = [
 fn a_changed_filter_does_not_match_its_original() {
     assert_broken("railing", &CHANGES);
 }
+
+/// Presets that `make prove` changes on the same scene.
+const OTHER_CHANGES: [(&str, &str); 5] = [
+    ("jimenez:o3de", "tile_lookup=nearest"),
+    ("three:default", "divisor=fetches"),
+    ("centred_gather:spartan_2024", "smoothing=none"),
+    ("babylon:default", "storage=exact"),
+    ("kino:default", "least_motion=1"),
+];
 
 /// Further presets, each with one changed value.
 const MORE_CHANGES: [(&str, &str); 13] = [
@@ -121,5 +125,6 @@ const MORE_CHANGES: [(&str, &str); 13] = [
 #[test]
 #[ignore = "prove: more changes of filters"]
 fn no_change_of_a_filter_matches_its_original() {
+    assert_broken("railing", &OTHER_CHANGES);
     assert_broken("fan", &MORE_CHANGES);
 }

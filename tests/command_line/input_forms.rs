@@ -48,21 +48,43 @@ fn flip(cases: &[Case], name: &str) -> f64 {
 
 #[test]
 fn buffers_samples_jitter_and_scale_change_what_filters_get() {
+    assert_forms_count(&["quarter", "quarter_dilated"], &[50]);
+}
+
+#[test]
+#[ignore = "prove: all sizes of buffers and pictures"]
+fn all_sizes_of_buffers_and_pictures_change_what_filters_get() {
+    let sizes = BufferSize::ALL.iter().skip(1).map(|size| size.name());
+    assert_forms_count(&sizes.collect::<Vec<_>>(), &[50, 67]);
+}
+
+/// Checks forms of the input: some sizes of buffers in addition to the full one, and scales of the
+/// picture in percent.
+fn assert_forms_count(sizes: &[&str], scales: &[u32]) {
     let sandbox = Sandbox::new();
-    let printed = sandbox.measure(
+    let scaled = scales
+        .iter()
+        .map(|scale| format!("{scale}_blur_first,{scale}_upscale_first"));
+    let printed = sandbox.measure(&format!(
         "--filters identity,velocity_gather:fine --input msaa=first,nearest,farthest \
-         --input buffers=full,full_dilated,half,half_dilated,quarter,quarter_dilated \
-         --input jitter=removed,left_in,resolved \
-         --input scale=50_blur_first,50_upscale_first,67_blur_first,67_upscale_first",
-    );
+         --input buffers=full,{} --input jitter=removed,left_in,resolved --input scale={}",
+        sizes.join(","),
+        scaled.collect::<Vec<_>>().join(",")
+    ));
     let cases = sandbox.read_filter_cases();
-    assert_eq!(cases.len(), 2 * 16);
-    assert_buffers_count(&cases, &printed);
+    assert_eq!(cases.len(), 2 * (7 + sizes.len() + 2 * scales.len()));
+    assert_buffers_count(&cases, &printed, sizes);
     assert_sizes_fit(&sandbox, &cases);
-    let unblurred = |change: &str| flip(&cases, &format!("identity:default {change}"));
-    let gathered = |change: &str| flip(&cases, &format!("velocity_gather:fine {change}"));
+    assert_samples_and_jitter_count(&cases);
+    assert_scales_count(&cases, scales);
+}
+
+/// Checks where a buffer's samples come from, and how jitter leaves them.
+fn assert_samples_and_jitter_count(cases: &[Case]) {
+    let unblurred = |change: &str| flip(cases, &format!("identity:default {change}"));
+    let gathered = |change: &str| flip(cases, &format!("velocity_gather:fine {change}"));
     let [identity, whole] =
-        ["identity:default", "velocity_gather:fine"].map(|name| flip(&cases, name));
+        ["identity:default", "velocity_gather:fine"].map(|name| flip(cases, name));
 
     // Colour is the same whichever sample velocity comes from; four samples are coarser than the
     // whole pixel.
@@ -77,9 +99,18 @@ fn buffers_samples_jitter_and_scale_change_what_filters_get() {
     assert_ne!(unblurred("jitter=removed"), identity);
     assert_ne!(gathered("jitter=removed"), gathered("jitter=left_in"));
     assert_ne!(gathered("jitter=resolved"), whole);
+    let other = find_case(cases, "identity:default jitter=left_in");
+    assert_eq!(other.input.jitter, CameraJitter::LeftIn);
+    assert_eq!(other.input.msaa, Multisampling::None);
+}
 
+/// Checks blurs of smaller pictures.
+fn assert_scales_count(cases: &[Case], scales: &[u32]) {
+    let unblurred = |change: &str| flip(cases, &format!("identity:default {change}"));
+    let gathered = |change: &str| flip(cases, &format!("velocity_gather:fine {change}"));
+    let identity = flip(cases, "identity:default");
     // Without a blur, the order of blur and upscaling does not matter.
-    for scale in [50, 67] {
+    for scale in scales {
         let [before, after] =
             ["blur_first", "upscale_first"].map(|order| format!("scale={scale}_{order}"));
         assert!((unblurred(&before) - unblurred(&after)).abs() < 1e-6);
@@ -90,17 +121,14 @@ fn buffers_samples_jitter_and_scale_change_what_filters_get() {
         assert!(gathered(&before) < 0.8 * unblurred(&before));
         assert!(gathered(&after) < 0.8 * unblurred(&after));
     }
-    let other = find_case(&cases, "identity:default jitter=left_in");
-    assert_eq!(other.input.jitter, CameraJitter::LeftIn);
-    assert_eq!(other.input.msaa, Multisampling::None);
 }
 
 /// Smaller buffers only change filters that read them.
-fn assert_buffers_count(cases: &[Case], printed: &str) {
+fn assert_buffers_count(cases: &[Case], printed: &str, sizes: &[&str]) {
     let [identity, whole] =
         ["identity:default", "velocity_gather:fine"].map(|name| flip(cases, name));
-    for size in BufferSize::ALL.iter().skip(1) {
-        let change = format!("buffers={}", size.name());
+    for size in sizes {
+        let change = format!("buffers={size}");
         let same = flip(cases, &format!("identity:default {change}"));
         assert_eq!(same, identity);
         let changed = flip(cases, &format!("velocity_gather:fine {change}"));

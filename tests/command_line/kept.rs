@@ -41,7 +41,7 @@ pub fn assert_whole(sandbox: &Sandbox, out: &str) {
 #[test]
 fn a_killed_render_resumes_to_the_same_bytes() {
     let sandbox = Sandbox::new();
-    let render = "truths render --quiet --samples-per-pixel 1024 --threads 1 --out";
+    let render = "truths render --quiet --samples-per-pixel 512 --threads 1 --out";
     sandbox.done(&format!("{render} whole"));
     let killed = format!("{render} killed");
     let truth = sandbox.path("killed/plate/truth_trailing");

@@ -21,7 +21,8 @@ fn wait_for(what: &str, mut is_done: impl FnMut() -> bool) {
 
 #[test]
 fn open_gives_the_page_to_the_browser() {
-    let sandbox = Sandbox::new();
+    let sandbox = Sandbox::measured();
+    fs::remove_file(sandbox.path("out/report.html")).unwrap();
     fs::create_dir(sandbox.path("bin")).unwrap();
     write_script(
         &sandbox.path("bin/xdg-open"),

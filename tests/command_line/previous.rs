@@ -8,8 +8,7 @@ const GATHER: &str = "--filters velocity_gather:fine";
 
 #[test]
 fn compare_alone_shows_what_the_last_run_changed_with_its_noise_and_pictures() {
-    let sandbox = Sandbox::new();
-    sandbox.measure(GATHER);
+    let sandbox = Sandbox::gathered();
     let alone = ["there was one run only", "name two runs"];
     sandbox.refuse("compare", &alone);
     let copy = read_below(&sandbox.path("out"));

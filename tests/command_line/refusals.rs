@@ -73,7 +73,7 @@ fn a_bad_scene_is_refused_with_file_and_line_and_leaves_nothing_behind() {
 
 #[test]
 fn bad_bounds_are_refused_with_file_and_line_and_leave_nothing_behind() {
-    let sandbox = Sandbox::new();
+    let sandbox = Sandbox::checked();
     sandbox.write_bound(0.0001);
     assert_eq!(
         sandbox.check(&["--filters", "identity"]).status.code(),

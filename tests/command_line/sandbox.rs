@@ -118,6 +118,19 @@ impl Sandbox {
         Self::once(|sandbox| drop(sandbox.measure("--filters identity")))
     }
 
+    /// Makes a sandbox with a finished run of a gather in `out`.
+    pub fn gathered() -> Self {
+        Self::once(|sandbox| drop(sandbox.measure("--filters velocity_gather:fine")))
+    }
+
+    /// Makes a sandbox with a finished check of the identity in `out`, which keeps its only bound.
+    pub fn checked() -> Self {
+        Self::once(|sandbox| {
+            sandbox.write_bound(0.9);
+            assert_done(&sandbox.check(&IDENTITY));
+        })
+    }
+
     /// Makes a sandbox with these files.
     pub fn of(files: &Files) -> Self {
         let folder = tempfile::tempdir().unwrap();

@@ -45,8 +45,7 @@ fn read_times(sandbox: &Sandbox) -> BTreeMap<String, SystemTime> {
 
 #[test]
 fn a_sequence_begins_with_the_frame_without_one_and_goes_on_where_it_ended() {
-    let sandbox = Sandbox::new();
-    sandbox.measure("--filters identity");
+    let sandbox = Sandbox::measured();
     let single = sandbox.read_run();
     let read = || {
         let names = "frame.exr truth_trailing.exr identity_default/output.exr";
@@ -173,10 +172,12 @@ fn frames_at_which_a_scene_is_not_defined_are_refused() {
     ];
     assert_refused(&refused, 2, &parts);
     assert!(!sandbox.path("out/plate").exists(), "nothing was rendered");
-    sandbox.measure(THREE);
+    sandbox.done("truths render --quiet --size 64x32 --samples-per-pixel 16 --frames 3");
 }
 
+/// `merge::truths` joins the parts of a frame.
 #[test]
+#[ignore = "prove: the parts of a sequence"]
 fn parts_of_a_rendered_sequence_merge_to_what_a_run_reads_back() {
     let sandbox = Sandbox::new();
     for part in ["0..3 --out one", "3..8 --out two"] {

@@ -14,9 +14,17 @@ fn make() -> Sandbox {
     sandbox
 }
 
+/// Makes a sandbox with a run of these settings.
+fn measured() -> Sandbox {
+    Sandbox::once(|sandbox| {
+        sandbox.write_files("", &make().read_files());
+        sandbox.done("run --quiet");
+    })
+}
+
 #[test]
 fn the_file_s_values_hold_until_the_command_line_says_otherwise() {
-    let sandbox = make();
+    let sandbox = measured();
     let output = sandbox.shuttertruth(&["run"]);
     assert_done(&output);
     let note = "note: scenes plate, size 64x32, samples_per_pixel 16, filters identity \
@@ -42,8 +50,7 @@ fn the_file_s_values_hold_until_the_command_line_says_otherwise() {
 
 #[test]
 fn report_compare_and_accept_find_the_folder_and_the_baseline() {
-    let sandbox = make();
-    sandbox.done("run --quiet");
+    let sandbox = measured();
     sandbox.done("run --quiet --set velocity_gather.samples=2");
     assert_contains(&sandbox.done("report"), &["written: results/report.html"]);
     let changes = sandbox.done("compare");

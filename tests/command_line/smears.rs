@@ -1,7 +1,11 @@
 //! Measured smears: length, side and direction, in words.
 
+use std::fs;
+
 use frame::Alignment;
 use metrics::{Smear, SmearDirection};
+use tests::filter_folder::copy_folder;
+use tests::root;
 use tests::text::{assert_contains, squeeze};
 
 use crate::sandbox::Sandbox;
@@ -137,9 +141,41 @@ const MISTAKES: [Mistake; 10] = [
     ),
 ];
 
-#[test]
-fn every_wrong_length_side_and_direction_has_its_verdict() {
-    let sandbox = Sandbox::of(&Vec::new());
+/// Blurs of three passes: a factor on the length of the trail, and the verdict.
+const THREE_PASSES: [(&str, &str); 3] = [
+    ("0.5", "too short: multiply the intensity by 2."),
+    ("1.0", "right:"),
+    ("2.0", "too long: multiply the intensity by 0.5"),
+];
+
+/// Makes a sandbox with a run of all mistakes, and of the blurs of three passes; its output is in
+/// the file `printed`.
+fn measured() -> Sandbox {
+    Sandbox::once(|sandbox| {
+        let mut names = write_mistakes(sandbox);
+        for (number, (strength, _)) in THREE_PASSES.into_iter().enumerate() {
+            let name = format!("tiles_{number}");
+            copy_folder(&root().join(TILES), &sandbox.path(&name));
+            let manifest = format!("{name}/filter.toml");
+            sandbox.edit(&manifest, "\"godot_tiles\"", &format!("\"{name}\""));
+            let default = |strength: &str| {
+                format!("name = \"strength\"\nkind = \"real\"\ndefault = {strength}")
+            };
+            sandbox.edit(&manifest, &default("1.0"), &default(strength));
+            names.push(format!("./{name}"));
+        }
+        fs::remove_dir_all(sandbox.path("scenes")).unwrap();
+        let filters = names.join(",");
+        let printed = sandbox.done(&format!("{RUN} --scenes {PANEL} --filter {filters}"));
+        sandbox.put("printed", printed);
+    })
+}
+
+/// An example of three passes.
+const TILES: &str = "examples/first_blur/godot_tiles";
+
+/// Writes a filter for each mistake; returns their folders.
+fn write_mistakes(sandbox: &Sandbox) -> Vec<String> {
     let mut names = Vec::new();
     for (number, ([first, last], turned, alignment, _)) in MISTAKES.into_iter().enumerate() {
         let name = format!("blur_{number}");
@@ -153,16 +189,24 @@ fn every_wrong_length_side_and_direction_has_its_verdict() {
         sandbox.write_filter(&name, &manifest, KERNEL);
         names.push(format!("./{name}"));
     }
-    let filters = names.join(",");
-    let text = sandbox.done(&format!("{RUN} --scenes {PANEL} --filter {filters}"));
+    names
+}
+
+/// Checks the verdict on the smear of a filter.
+#[track_caller]
+fn assert_verdict(text: &str, filter: &str, verdict: &str) {
     let (_, smears) = text.split_once("smear over the exposure").unwrap();
     let words = squeeze(smears);
+    let (_, row) = words.split_once(&format!("{filter}:default ")).unwrap();
+    let row = row.split(":default").next().unwrap();
+    assert_contains(row, &[verdict]);
+}
+
+#[test]
+fn every_wrong_length_side_and_direction_has_its_verdict() {
+    let text = measured().text("printed");
     for (number, (.., verdict)) in MISTAKES.into_iter().enumerate() {
-        let (_, row) = words
-            .split_once(&format!("blur_{number}:default "))
-            .unwrap();
-        let row = row.split(":default").next().unwrap();
-        assert_contains(row, &[verdict]);
+        assert_verdict(&text, &format!("blur_{number}"), verdict);
     }
 }
 
@@ -181,21 +225,11 @@ fn up_and_down_exchanged_show_in_slanted_motion() {
 
 #[test]
 fn a_right_blur_of_three_passes_is_not_halved() {
-    let sandbox = Sandbox::of(&Vec::new());
-    let folder = tests::root().join("examples/first_blur/godot_tiles");
-    let verdicts = [
-        "too short: multiply the intensity by 2.",
-        "right:",
-        "too long: multiply the intensity by 0.5",
-    ];
-    for (strength, verdict) in [0.5, 1.0, 2.0].into_iter().zip(verdicts) {
-        let filter = format!(
-            "{} --set godot_tiles.strength={strength:?}",
-            folder.display()
-        );
-        let text = sandbox.done(&format!("{RUN} --scenes {PANEL} --filter {filter}"));
-        let words = squeeze(&text);
-        assert_contains(&words, &[verdict]);
+    // A run prints the smears of twelve filters at most, so another one reads these back.
+    let filters = "./tiles_0,./tiles_1,./tiles_2";
+    let text = measured().done(&format!("{RUN} --scenes {PANEL} --filter {filters}"));
+    for (number, (_, verdict)) in THREE_PASSES.into_iter().enumerate() {
+        assert_verdict(&text, &format!("tiles_{number}"), verdict);
     }
 }
 
@@ -243,13 +277,11 @@ fn good_blurs_of_each_kind_are_right() {
 
 #[test]
 fn a_finished_picture_has_the_smear_of_its_filter() {
-    let sandbox = Sandbox::of(&Vec::new());
-    let name = write_blur(&sandbox, Alignment::Trailing);
+    let sandbox = measured();
     let scene = format!("out/{PANEL}");
-    sandbox.done(&format!(
-        "{RUN} --scenes {PANEL} --filter ./{name} --set {name}.last=0.5"
-    ));
-    let case = sandbox.read_filter_cases().remove(0);
+    let cases = sandbox.read_filter_cases();
+    // The fourth mistake is a trail half as long as the exposure.
+    let case = cases.iter().find(|case| case.filter == "blur_3").unwrap();
     let image = case.folder.join("output.png");
     let line = format!(
         "score --truth {scene}/truth_trailing.exr --frame {scene}/frame.exr --image out/{}",
@@ -263,7 +295,7 @@ fn a_finished_picture_has_the_smear_of_its_filter() {
 
 #[test]
 fn lengths_of_all_built_in_filters_and_of_other_scenes_are_not_printed() {
-    let sandbox = Sandbox::once(|sandbox| drop(sandbox.measure("--filters velocity_gather:fine")));
+    let sandbox = Sandbox::gathered();
     let text = sandbox
         .done("run --out out --size 64x32 --samples-per-pixel 16 --filters velocity_gather:fine");
     assert!(!text.contains("smear over the exposure"), "{text}");

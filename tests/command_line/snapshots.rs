@@ -51,7 +51,7 @@ fn lists() {
 #[test]
 fn runs() {
     let sandbox = Sandbox::two_scenes();
-    let forms = "--frame-rate 24,48 --input velocity=linear8 --input depth=float16";
+    let forms = "--scenes plate --frame-rate 24,48 --input velocity=linear8 --input depth=float16";
     for (more, file) in [
         ("", "run.txt"),
         ("--table", "run_table.txt"),

@@ -1,7 +1,5 @@
 //! Kinds of frames that filters can get.
 
-use std::fs;
-
 use measure::{Case, Run};
 
 use crate::sandbox::{IDENTITY, Sandbox, assert_refused, split};
@@ -40,14 +38,14 @@ fn a_guard_band_removes_the_error_at_the_border() {
 
 #[test]
 fn kinds_of_frames_are_recorded_and_sealed_scenes_have_other_truths_and_no_limits() {
-    let sandbox = Sandbox::new();
+    let sandbox = Sandbox::gathered();
+    let plain = sandbox.read_run();
     let kinds = "--velocity camera_only --frame-sampling point --sky-velocity off";
-    let run = measure(&sandbox, kinds);
+    sandbox.measure_into("kinds", &format!("--filters velocity_gather:fine {kinds}"));
+    let run: Run = sandbox.read_json("kinds/run.json");
     let json = serde_json::to_value(&run).unwrap();
     let recorded = ["velocity", "color", "sky_velocity"].map(|key| json[key].to_string());
     assert_eq!(recorded, ["\"camera_only\"", "\"point\"", "false"]);
-    fs::remove_dir_all(sandbox.path("out")).unwrap();
-    let plain = measure(&sandbox, "");
     // A camera-only velocity lacks the plate's own motion.
     assert_ne!(error(&run), error(&plain));
 

@@ -96,6 +96,12 @@ fn expect_disc(alignment: Alignment, angle: f64, exposure: f64) {
     let what = format!("disc at {angle}");
     expect_coverage(&what, &scene, alignment, |pixel, shutter| {
         let travel = [SPEED * shutter.open, SPEED * shutter.close];
+        // Outside of the smear, nothing is covered.
+        let middle = pixel + 0.5 - centre;
+        let nearest = along * middle.dot(along).clamp(travel[0], travel[1]);
+        if middle.distance(nearest) > radius + 1.0 {
+            return 0.0;
+        }
         let share = |point: DVec2| {
             let place = point - centre;
             let across = place.dot(along.perp());
@@ -123,6 +129,10 @@ fn a_rotating_bar_covers_its_sector_of_the_annulus() {
     add(&mut scene, bar, glowing(1.0), spin(centre, DVec3::Z, rate));
     for alignment in Alignment::ALL {
         expect_coverage("bar", &scene, alignment, |pixel, shutter| {
+            // Outside of the annulus, nothing is covered.
+            if (pixel + 0.5).length() > outer + half_width + 1.0 {
+                return 0.0;
+            }
             let swept = [rate * shutter.open, rate * shutter.close];
             let share = |point: DVec2| {
                 let distance = point.length();

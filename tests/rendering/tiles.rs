@@ -55,8 +55,9 @@ fn a_tile_of_a_replicate_holds_what_the_replicate_holds_there() {
         };
         let both = [Alignment::Trailing, Alignment::Centred];
         let whole = tracer(&both).trace(1, &unwatched).unwrap();
+        let of_tiles = tracer(&both);
         for tile in tiles(40, 24) {
-            let parts = tracer(&both).trace_tile(1, tile, &unwatched).unwrap();
+            let parts = of_tiles.trace_tile(1, tile, &unwatched).unwrap();
             for (actual, whole) in parts.iter().zip(&whole) {
                 assert_eq!(*actual, part(whole, tile), "{tile:?}");
             }

@@ -192,8 +192,8 @@ fn the_motion_mask_is_the_coverage_of_objects_that_move_on_screen() {
     ] {
         scene.camera.motion = camera;
         let truth = render_truth(&scene, &own_settings(32), Alignment::Centred);
+        let mean = truth.mean().coverage;
         for (pixel, motion) in truth.motion.pixels.iter().enumerate() {
-            let mean = truth.mean().coverage;
             let moving = mean.iter().zip(moving).filter(|(_, moves)| *moves);
             let expected: f32 = moving.map(|(coverage, _)| coverage.pixels[pixel]).sum();
             assert!((motion - expected).abs() < 1e-6);

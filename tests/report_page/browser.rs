@@ -4,6 +4,7 @@ use std::io::{BufRead, BufReader};
 use std::net::TcpStream;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
+use std::sync::{Arc, Mutex, PoisonError, Weak};
 use std::time::{Duration, Instant};
 
 use base64::Engine;
@@ -17,48 +18,88 @@ const PATIENCE: Duration = Duration::from_secs(60);
 /// Options of a headless Chromium with pictures that are the same everywhere; a processor runs the
 /// shaders of its pages.
 const OPTIONS: &str = "--headless --no-sandbox --disable-gpu --hide-scrollbars --no-first-run --remote-debugging-port=0 \
-                       --force-color-profile=srgb --enable-unsafe-webgpu --use-webgpu-adapter=swiftshader";
+                       --force-color-profile=srgb --enable-unsafe-webgpu --use-webgpu-adapter=swiftshader \
+                       --disable-renderer-backgrounding --disable-background-timer-throttling \
+                       --disable-backgrounding-occluded-windows";
 
 /// Programs to look for on the PATH if the variable CHROMIUM names none.
 const NAMES: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "chrome"];
 
-/// Browser with one open tab.
-pub struct Browser {
+/// Running Chromium, which ends with the last browser that uses it.
+struct Chromium {
     process: Child,
-    socket: WebSocket<TcpStream>,
-    session: Option<String>,
-    calls: u64,
-    /// Events in order: objects with `method` and `params`.
-    pub events: Vec<Value>,
+    /// Address where it listens.
+    address: String,
     _profile: tempfile::TempDir,
 }
 
-impl Browser {
-    /// Starts Chromium with an empty tab of this size in pixels.
-    pub fn new(width: u32, height: u32) -> Self {
+impl Chromium {
+    fn start() -> Self {
         let profile = tempfile::tempdir().unwrap();
         let mut command = Command::new(program());
         command.args(OPTIONS.split_whitespace()).arg("about:blank");
         command.arg(format!("--user-data-dir={}", profile.path().display()));
         command.stdout(Stdio::null()).stderr(Stdio::piped());
         let mut process = command.spawn().unwrap();
-        let address = read_address(&mut process);
-        let host = address.strip_prefix("ws://").unwrap();
-        let stream = TcpStream::connect(host.split('/').next().unwrap()).unwrap();
-        stream.set_read_timeout(Some(PATIENCE)).unwrap();
-        let (socket, _) = tungstenite::client(&address, stream).unwrap();
-        let mut browser = Self {
+        Self {
+            address: read_address(&mut process),
             process,
-            socket,
+            _profile: profile,
+        }
+    }
+
+    /// Returns the Chromium that runs, or starts one.
+    fn shared() -> Arc<Self> {
+        static LAST: Mutex<Weak<Chromium>> = Mutex::new(Weak::new());
+        let mut last = LAST.lock().unwrap_or_else(PoisonError::into_inner);
+        last.upgrade().unwrap_or_else(|| {
+            let chromium = Arc::new(Self::start());
+            *last = Arc::downgrade(&chromium);
+            chromium
+        })
+    }
+
+    fn connect(&self) -> Option<WebSocket<TcpStream>> {
+        let host = self.address.strip_prefix("ws://")?.split('/').next()?;
+        let stream = TcpStream::connect(host).ok()?;
+        stream.set_read_timeout(Some(PATIENCE)).ok()?;
+        let (socket, _) = tungstenite::client(&self.address, stream).ok()?;
+        Some(socket)
+    }
+}
+
+/// Tab with a window, a cache and settings of its own.
+pub struct Browser {
+    socket: WebSocket<TcpStream>,
+    session: Option<String>,
+    calls: u64,
+    /// Events in order: objects with `method` and `params`.
+    pub events: Vec<Value>,
+    _chromium: Arc<Chromium>,
+}
+
+impl Browser {
+    /// Opens an empty tab of this size in pixels.
+    pub fn new(width: u32, height: u32) -> Self {
+        let chromium = Chromium::shared();
+        let mut browser = Self {
+            socket: chromium.connect().expect("Chromium listens"),
             session: None,
             calls: 0,
             events: Vec::new(),
-            _profile: profile,
+            _chromium: chromium,
         };
-        let target = browser.call("Target.createTarget", json!({"url": "about:blank"}));
+        // Closed with the connection.
+        let words = json!({"disposeOnDetach": true});
+        let context = browser.call("Target.createBrowserContext", words);
+        let words = json!({"url": "about:blank", "browserContextId": context["browserContextId"]});
+        let target = browser.call("Target.createTarget", words);
         let target = json!({"targetId": target["targetId"], "flatten": true});
         let session = browser.call("Target.attachToTarget", target);
         browser.session = session["sessionId"].as_str().map(str::to_owned);
+        // Several windows have the focus, each for its own page.
+        let words = json!({"enabled": true});
+        browser.call("Emulation.setFocusEmulationEnabled", words);
         for domain in ["Page", "Runtime", "Network", "Log"] {
             browser.call(&format!("{domain}.enable"), json!({}));
         }
@@ -116,7 +157,7 @@ impl Browser {
         let start = Instant::now();
         while self.value(expression) != true {
             assert!(start.elapsed() < PATIENCE, "never: {expression}");
-            std::thread::sleep(Duration::from_millis(5));
+            std::thread::sleep(Duration::from_millis(10));
         }
     }
 
@@ -264,12 +305,14 @@ impl Browser {
     }
 }
 
-impl Drop for Browser {
+impl Drop for Chromium {
     fn drop(&mut self) {
         let close = json!({"id": 0, "method": "Browser.close"});
-        let sent = self.socket.send(Message::text(close.to_string()));
+        let mut socket = self.connect();
+        let sent = (socket.as_mut())
+            .is_some_and(|socket| socket.send(Message::text(close.to_string())).is_ok());
         let start = Instant::now();
-        while sent.is_ok() && start.elapsed() < Duration::from_secs(5) {
+        while sent && start.elapsed() < Duration::from_secs(5) {
             if let Ok(Some(_)) = self.process.try_wait() {
                 return;
             }

@@ -161,9 +161,8 @@ fn find_case(sandbox: &Sandbox, name: &str) -> Case {
     cases.find(|case| case.name() == name).unwrap()
 }
 
-#[test]
-fn a_page_runs_filters_as_the_program_does() {
-    let sandbox = Sandbox::new();
+/// Measures filters that a page runs.
+fn measure_live(sandbox: &Sandbox) {
     // Passes with textures of tiles; exchanged textures; the mask; an include; a vertex stage, a
     // sampler, halves and velocity in another unit.
     let held =
@@ -177,6 +176,11 @@ fn a_page_runs_filters_as_the_program_does() {
     }
     sandbox
         .measure("--filters kino:default,jump_flood:corrected,./masked,./unreal_blur,./bevy_blur");
+}
+
+#[test]
+fn a_page_runs_filters_as_the_program_does() {
+    let sandbox = Sandbox::once(measure_live);
     let page = make_page(&sandbox);
     let mut browser = Browser::new(1280, 900);
     for case in sandbox.read_filter_cases() {

@@ -8,7 +8,7 @@ use metrics::flip_ldr;
 
 use crate::browser::{Browser, address_of};
 use crate::sandbox::Sandbox;
-use crate::{make_page, make_page_within, measure, open_case};
+use crate::{make_page, make_page_within, measured_two, open_case};
 
 /// Returns the read-out's rows by layer, each with its texts.
 pub fn read_out(browser: &mut Browser, x: u32, y: u32) -> serde_json::Value {
@@ -111,7 +111,7 @@ fn assert_read_outs(browser: &mut Browser, files: &[ExrFile; 4]) {
 
 #[test]
 fn numbers_and_tables_in_a_page_or_beside_it_are_those_of_the_files() {
-    let sandbox = measure("identity,velocity_gather:fine");
+    let sandbox = measured_two();
     let cases = sandbox.read_filter_cases();
     let mut all = cases.iter();
     let case = all.find(|case| case.name() == "velocity_gather:fine");

@@ -6,7 +6,7 @@ use std::path::Path;
 use tests::text::assert_contains;
 
 use crate::browser::Browser;
-use crate::{Check, make_page, measure, open_page, run_checks};
+use crate::{Check, make_page, measured_two, open_page, run_checks};
 
 /// Returns the names in the visible rows.
 fn rows(browser: &mut Browser) -> String {
@@ -19,7 +19,7 @@ fn rows(browser: &mut Browser) -> String {
 #[test]
 fn the_search_filters_rows_and_references_show_on_request() {
     const FILTERS: [&str; 2] = ["--filters", "identity,velocity_gather:fine"];
-    let sandbox = measure(FILTERS[1]);
+    let sandbox = measured_two();
     let errors = sandbox.read_filter_cases().into_iter();
     let errors = errors.map(|case| case.scores.moving.flip.value().unwrap());
     sandbox.write_bound(errors.sum::<f64>() / 2.0);
@@ -56,7 +56,7 @@ fn the_search_filters_rows_and_references_show_on_request() {
 
 #[test]
 fn the_overview_leads_to_tables_filters_and_cases() {
-    let sandbox = measure("identity,velocity_gather:fine");
+    let sandbox = measured_two();
     let checks: [Check; 5] = [
         a_link_opens_the_same_table,
         a_cell_shows_its_worst_place_and_a_name_leads_to_the_filter,

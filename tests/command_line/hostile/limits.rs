@@ -1,7 +1,7 @@
 //! The rules of `docs/limits.md`.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use frame::{ExrFile, Raster, write_exr};
 use serde::Deserialize;
@@ -17,6 +17,7 @@ const RUN: &str = "run --quiet --filter mine --out new";
 #[test]
 fn the_page_of_limits_agrees_with_the_constants() {
     let page = fs::read_to_string(root().join("docs/limits.md")).unwrap();
+    let sources = Sources::read();
     let mut listed = Vec::new();
     // Each row has one number for all of its constants, or a range with one constant for either
     // end.
@@ -28,7 +29,7 @@ fn the_page_of_limits_agrees_with_the_constants() {
         for (name, limit) in names.into_iter().zip(limits.into_iter().cycle()) {
             let name = name.trim_matches('`');
             let (crate_name, name) = name.split_once("::").unwrap_or(("", name));
-            assert_eq!(limit, value_of(crate_name, name), "{name}");
+            assert_eq!(limit, sources.value_of(crate_name, name), "{name}");
             listed.push(name);
         }
     }
@@ -42,23 +43,38 @@ fn the_page_of_limits_agrees_with_the_constants() {
     }
 }
 
-/// Finds the value of a constant in the sources of one or all crates.
-fn value_of(crate_name: &str, name: &str) -> f64 {
-    let declared = format!("const {name}:");
-    let mut values = Vec::new();
-    for entry in WalkDir::new(root().join("crates").join(crate_name)) {
-        let path = entry.unwrap().into_path();
-        if path.extension().is_some_and(|extension| extension == "rs") {
-            let source = fs::read_to_string(path).unwrap();
-            let declarations = source.split(&declared).skip(1);
-            values.extend(declarations.map(|text| {
-                let (declaration, _) = text.split_once(';').unwrap();
-                number(declaration.split_once('=').unwrap().1)
-            }));
-        }
+/// Sources of all crates, below `crates`.
+struct Sources(Vec<(PathBuf, String)>);
+
+impl Sources {
+    fn read() -> Self {
+        let crates = root().join("crates");
+        let paths = WalkDir::new(&crates).into_iter();
+        let mut paths: Vec<PathBuf> = paths.map(|entry| entry.unwrap().into_path()).collect();
+        paths.retain(|path| path.extension().is_some_and(|extension| extension == "rs"));
+        let read = |path: PathBuf| {
+            let source = fs::read_to_string(&path).unwrap();
+            (path.strip_prefix(&crates).unwrap().to_owned(), source)
+        };
+        Self(paths.into_iter().map(read).collect())
     }
-    assert_eq!(values.len(), 1, "{name} is declared once");
-    values[0]
+
+    /// Finds the value of a constant in the sources of one crate, or of all if its name is empty.
+    fn value_of(&self, crate_name: &str, name: &str) -> f64 {
+        let declared = format!("const {name}:");
+        let mut values = Vec::new();
+        for (path, source) in &self.0 {
+            if path.starts_with(crate_name) {
+                let declarations = source.split(&declared).skip(1);
+                values.extend(declarations.map(|text| {
+                    let (declaration, _) = text.split_once(';').unwrap();
+                    number(declaration.split_once('=').unwrap().1)
+                }));
+            }
+        }
+        assert_eq!(values.len(), 1, "{name} is declared once");
+        values[0]
+    }
 }
 
 /// Parses a product of numbers in Rust's notation, a shifted 1, or a number of KiB, MiB or GiB.

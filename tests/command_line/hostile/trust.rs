@@ -104,7 +104,7 @@ const RECORD: &str = "out/plate/identity_default/case.json";
 
 /// Measures the identity, which breaks a bound, and writes a good score into its record.
 fn forged() -> Sandbox {
-    let sandbox = Sandbox::new();
+    let sandbox = Sandbox::checked();
     sandbox.write_bound(0.2);
     assert_eq!(sandbox.check(&IDENTITY).status.code(), Some(1));
     let mut record: Value = sandbox.read_json(RECORD);

@@ -8,7 +8,7 @@ use crate::sandbox::{IDENTITY, Sandbox, quick_command, stdout};
 
 /// Makes a sandbox with a check that breaks one of two bounds.
 fn set_up() -> Sandbox {
-    let sandbox = Sandbox::new();
+    let sandbox = Sandbox::checked();
     sandbox.write(
         "bounds.toml",
         "[default]\n\

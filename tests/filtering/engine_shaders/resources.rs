@@ -6,7 +6,7 @@ use tests::near::assert_near;
 use tests::text::assert_contains;
 
 use super::{blur_busy, busy_picture, largest_difference, make, make_declared};
-use crate::filter_files::ready;
+use crate::filter_files::{FilterFiles, ready};
 
 /// Stores colours in the texture `kept`, in this format, and shows it.
 fn pack(format: &str) -> String {
@@ -32,22 +32,51 @@ fn render_targets_of_10_bits_keep_10_bits() {
     }
 }
 
+/// A format of storage textures.
+struct Stored {
+    format: &'static str,
+    /// Name in GLSL.
+    qualifier: &'static str,
+    channels: usize,
+    /// Largest error of values up to 0.75.
+    error: f32,
+}
+
+/// All formats of floats. The first four have all kinds of precision and numbers of channels.
+#[rustfmt::skip]
+const STORED: [Stored; 10] = [
+    Stored { format: "r32float", qualifier: "r32f", channels: 1, error: 1e-6 },
+    Stored { format: "rg16float", qualifier: "rg16f", channels: 2, error: 5e-4 },
+    Stored { format: "rgba8unorm", qualifier: "rgba8", channels: 3, error: 1.0 / 255.0 },
+    Stored { format: "rg11b10ufloat", qualifier: "r11f_g11f_b10f", channels: 3, error: 0.75 / 32.0 },
+    Stored { format: "rg32float", qualifier: "rg32f", channels: 2, error: 1e-6 },
+    Stored { format: "rgba32float", qualifier: "rgba32f", channels: 3, error: 1e-6 },
+    Stored { format: "r16float", qualifier: "r16f", channels: 1, error: 5e-4 },
+    Stored { format: "rgba16float", qualifier: "rgba16f", channels: 3, error: 5e-4 },
+    Stored { format: "r8unorm", qualifier: "r8", channels: 1, error: 1.0 / 255.0 },
+    Stored { format: "rgb10a2unorm", qualifier: "rgb10_a2", channels: 3, error: 1.0 / 1023.0 },
+];
+
 #[test]
 fn storage_textures_keep_what_their_format_holds() {
+    check_stored(&STORED[..4]);
+}
+
+#[test]
+#[ignore = "prove: six more formats"]
+fn storage_textures_keep_what_every_further_format_holds() {
+    check_stored(&STORED[4..]);
+}
+
+fn check_stored(formats: &[Stored]) {
     let color = busy_picture().color;
-    // (format, its name in GLSL, channels, largest error of values up to 0.75)
-    for (format, qualifier, channels, error) in [
-        ("r32float", "r32f", 1, 1e-6),
-        ("rg32float", "rg32f", 2, 1e-6),
-        ("rgba32float", "rgba32f", 3, 1e-6),
-        ("r16float", "r16f", 1, 5e-4),
-        ("rg16float", "rg16f", 2, 5e-4),
-        ("rgba16float", "rgba16f", 3, 5e-4),
-        ("r8unorm", "r8", 1, 1.0 / 255.0),
-        ("rgba8unorm", "rgba8", 3, 1.0 / 255.0),
-        ("rgb10a2unorm", "rgb10_a2", 3, 1.0 / 1023.0),
-        ("rg11b10ufloat", "r11f_g11f_b10f", 3, 0.75 / 32.0),
-    ] {
+    for stored in formats {
+        let Stored {
+            format,
+            qualifier,
+            channels,
+            error,
+        } = stored;
         let declarations = format!(
             "[[texture]]\nname = \"kept\"\nformat = \"{format}\"\n\
              [[pass]]\nshader = \"store.comp\"\nover = \"kept\"\n\
@@ -57,10 +86,10 @@ fn storage_textures_keep_what_their_format_holds() {
         let files = make("resources", &declarations);
         let shown = blur_busy(&files.changed("store.comp", "QUALIFIER", qualifier));
         for (actual, color) in shown.pixels.iter().zip(&color.pixels) {
-            for channel in 0..channels {
+            for channel in 0..*channels {
                 let expected = [0.3, 0.2, 0.1][channel] * color[channel];
                 let difference = (0.3 * actual[channel] - expected).abs();
-                assert!(difference <= error, "{format}: {difference} in {channel}");
+                assert!(difference <= *error, "{format}: {difference} in {channel}");
             }
         }
     }
@@ -195,33 +224,54 @@ fn hlsl_without_registers_is_bound_by_name() {
     files.assert_refused("names");
 }
 
+/// Makes a filter that stores whole numbers in a texture and shows them.
+fn declare_whole(format: &str, [kind, qualifier, sign]: [&str; 3]) -> FilterFiles {
+    let declarations = format!(
+        "[[texture]]\nname = \"kept\"\nformat = \"{format}\"\n\
+         [[pass]]\nshader = \"whole.comp\"\nover = \"kept\"\n[[pass]]\nshader = \"show_whole.frag\"\n"
+    );
+    let files = make("resources", &declarations);
+    let text = files.text("whole.comp").replace("KIND", kind);
+    let text = text.replace("QUALIFIER", qualifier).replace("SIGN", sign);
+    let files = files.with("whole.comp", text);
+    files.changed("show_whole.frag", "KIND", kind)
+}
+
+/// Checks textures of 1, 2 or 4 channels.
+fn check_whole(channels: usize, bits: u32, signed: bool) {
+    let word = ["", "r", "rg", "", "rgba"][channels];
+    let (ending, short, kind, sign) = if signed {
+        ("sint", "i", "i", "-")
+    } else {
+        ("uint", "ui", "u", "")
+    };
+    let format = format!("{word}{bits}{ending}");
+    let glsl = [kind, &format!("{word}{bits}{short}"), sign];
+    let shown = blur_busy(&declare_whole(&format, glsl));
+    let side = if signed { -1.0 } else { 1.0 };
+    let mut due = [side * 12.0, side * 9.0, 12.0];
+    due[channels.min(3)..].fill(0.0);
+    assert_eq!(*shown.at(12, 9), due, "{format}");
+}
+
 #[test]
 fn textures_of_whole_numbers_keep_their_signs() {
-    let declare = |format: &str, [kind, qualifier, sign]: [&str; 3]| {
-        let declarations = format!(
-            "[[texture]]\nname = \"kept\"\nformat = \"{format}\"\n\
-             [[pass]]\nshader = \"whole.comp\"\nover = \"kept\"\n[[pass]]\nshader = \"show_whole.frag\"\n"
-        );
-        let files = make("resources", &declarations);
-        let text = files.text("whole.comp").replace("KIND", kind);
-        let text = text.replace("QUALIFIER", qualifier).replace("SIGN", sign);
-        let files = files.with("whole.comp", text);
-        files.changed("show_whole.frag", "KIND", kind)
-    };
-    for (channels, word) in [(1, "r"), (2, "rg"), (4, "rgba")] {
+    // Each number of channels, of bits, and sign.
+    for (channels, bits, signed) in [(1, 8, true), (2, 16, false), (4, 32, true)] {
+        check_whole(channels, bits, signed);
+    }
+    declare_whole("rg8sint", ["i", "rg8i", ""]).assert_refused("whole_numbers");
+}
+
+#[test]
+#[ignore = "prove: all eighteen formats"]
+fn textures_of_whole_numbers_of_every_format_keep_their_signs() {
+    for channels in [1, 2, 4] {
         for bits in [8, 16, 32] {
-            for (ending, short, kind, sign) in [("sint", "i", "i", "-"), ("uint", "ui", "u", "")] {
-                let format = format!("{word}{bits}{ending}");
-                let glsl = [kind, &format!("{word}{bits}{short}"), sign];
-                let shown = blur_busy(&declare(&format, glsl));
-                let side = if sign == "-" { -1.0 } else { 1.0 };
-                let mut due = [side * 12.0, side * 9.0, 12.0];
-                due[channels.min(3)..].fill(0.0);
-                assert_eq!(*shown.at(12, 9), due, "{format}");
-            }
+            check_whole(channels, bits, true);
+            check_whole(channels, bits, false);
         }
     }
-    declare("rg8sint", ["i", "rg8i", ""]).assert_refused("whole_numbers");
 }
 
 #[test]

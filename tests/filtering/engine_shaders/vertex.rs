@@ -44,35 +44,54 @@ fn a_vertex_stage_of_the_file_draws_as_the_program_s_own() {
     assert_within(largest_difference(&output, &picture.color), 0.5..);
 }
 
+/// Declarations of inputs that the program's triangle fills, and what a pixel of each column shows
+/// of them.
+const PLACES: [(&str, &str); 5] = [
+    ("in float", "place_0, 0, 0, 1"),
+    ("noperspective in vec2", "place_1, 0, 1"),
+    ("centroid in vec3", "place_2, 1"),
+    ("noperspective in vec4", "place_3.yzw, 1"),
+    ("flat in vec2", "place_4, 1, 1"),
+];
+
 #[test]
 fn the_program_s_triangle_has_the_place_of_a_pixel_as_engines_do() {
-    let shader = "#version 450\nlayout(location = 2) QUALIFIER in TYPE place;\nlayout(location = 0) out vec4 result;\n\
-                  void main() { result = vec4(SHOWN); }\n";
     let pass = "[[pass]]\nshader = \"place.frag\"\n";
-    let files = |[qualifier, ty, shown]: [&str; 3]| {
-        let words = [("QUALIFIER", qualifier), ("TYPE", ty), ("SHOWN", shown)];
-        let text =
-            (words.into_iter()).fold(shader.to_owned(), |text, (from, to)| text.replace(from, to));
+    let files = |inputs: &str, shown: &str| {
+        let text = format!(
+            "#version 450\n{inputs}layout(location = 0) out vec4 result;\nvoid main() {{\n{shown}}}\n"
+        );
         make("vertex", pass).with("place.frag", text)
     };
-    // Texture coordinates from the top left, then clip space with +y up.
-    let (u, v) = (12.5 / 61.0, 9.5 / 43.0);
-    let (x, y) = (2.0 * u - 1.0, 1.0 - 2.0 * v);
-    for (shader, due) in [
-        (["", "float", "place, 0, 0, 1"], [u, 0.0, 0.0]),
-        (["noperspective", "vec2", "place, 0, 1"], [u, v, 0.0]),
-        (["centroid", "vec3", "place, 1"], [u, v, x]),
-        (["noperspective", "vec4", "place.yzw, 1"], [v, x, y]),
-        (["flat", "vec2", "place, 1, 1"], [0.0, 0.0, 1.0]),
-    ] {
-        println!("{shader:?}");
-        let shown = blur_busy(&files(shader));
-        for (actual, due) in shown.at(12, 9).iter().zip(due) {
+    let (mut inputs, mut shown) = (String::new(), String::new());
+    for (index, (input, values)) in PLACES.iter().enumerate() {
+        let (location, column) = (2 + index, 12 + index);
+        inputs += &format!("layout(location = {location}) {input} place_{index};\n");
+        shown += &format!("if (int(gl_FragCoord.x) == {column}) result = vec4({values});\n");
+    }
+    let shown = blur_busy(&files(&inputs, &format!("result = vec4(0.0);\n{shown}")));
+    for index in 0..PLACES.len() {
+        // Texture coordinates from the top left, then clip space with +y up.
+        let (u, v) = ((12.5 + index as f64) / 61.0, 9.5 / 43.0);
+        let (x, y) = (2.0 * u - 1.0, 1.0 - 2.0 * v);
+        let due = [
+            [u, 0.0, 0.0],
+            [u, v, 0.0],
+            [u, v, x],
+            [v, x, y],
+            [0.0, 0.0, 1.0],
+        ];
+        println!("{:?}", PLACES[index]);
+        for (actual, due) in shown.at(12 + index as u32, 9).iter().zip(due[index]) {
             // Coordinates are interpolated over the triangle.
             assert_near(*actual, due, 1e-4);
         }
     }
-    let whole = files(["flat", "int", "place"]).load().unwrap_err();
+    let whole = files(
+        "layout(location = 2) flat in int place;\n",
+        "result = vec4(place);\n",
+    );
+    let whole = whole.load().unwrap_err();
     let says = "pass \"place\": the fragment shader reads no floats at location 2; the program's triangle has texture coordinates";
     assert_contains(&whole.to_string(), &["filter.toml:4:", says, "`vertex`"]);
 }

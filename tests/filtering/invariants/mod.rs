@@ -5,8 +5,9 @@ mod repeated;
 mod smear;
 mod symmetry;
 
-use filters::{Filter, Settings};
+use filters::{Blur, Filter, Settings};
 use frame::{Image, Reprojection};
+use tests::presets::{every_preset, preset_name};
 use tests::random::Random;
 use tests::ready_blur;
 
@@ -42,17 +43,50 @@ fn random(seed: u64) -> Field {
     }
 }
 
-fn blur(field: &Field, filter: &Filter, settings: &Settings) -> Image {
-    blur_colors(field, filter, settings, &[&field.color]).remove(0)
+/// A preset ready for pictures of [`WIDTH`] x [`HEIGHT`].
+struct Subject {
+    filter: Filter,
+    settings: Settings,
+    /// Name for messages.
+    name: String,
+    blur: Blur<'static>,
 }
 
-fn blur_colors(
-    field: &Field,
-    filter: &Filter,
-    settings: &Settings,
-    colors: &[&Image],
-) -> Vec<Image> {
-    let size = (field.color.width, field.color.height);
-    let mut blur = ready_blur(filter, settings, size);
-    blur.run(&field.input(colors, FRAME_INDEX)).unwrap()
+impl Subject {
+    fn new(filter: Filter, settings: Settings) -> Self {
+        Self {
+            name: preset_name(&filter, &settings),
+            blur: ready_blur(&filter, &settings, (WIDTH, HEIGHT)),
+            filter,
+            settings,
+        }
+    }
+
+    /// Blurs colours over the motion and depth of a field.
+    fn run(&mut self, field: &Field, colors: &[&Image]) -> Vec<Image> {
+        self.blur.run(&field.input(colors, FRAME_INDEX)).unwrap()
+    }
+}
+
+/// Checks of a preset, one after another with the same kernels and textures.
+const CHECKS: [fn(&mut Subject); 6] = [
+    colours::a_still_frame_comes_out_unchanged,
+    colours::a_constant_colour_comes_out_constant,
+    colours::output_stays_finite_and_within_the_colours_of_the_frame,
+    colours::a_mixture_of_images_comes_out_as_the_mixture_of_their_blurs,
+    repeated::kept_textures_give_the_same_bytes_after_any_other_run,
+    repeated::kept_kernels_give_the_bytes_of_fresh_ones,
+];
+
+#[test]
+fn every_preset_keeps_the_invariants_of_colours_and_repeated_runs() {
+    let mut noisy = 0;
+    for (filter, settings) in every_preset() {
+        let mut subject = Subject::new(filter, settings);
+        for check in CHECKS {
+            check(&mut subject);
+        }
+        noisy += usize::from(repeated::compare_batches_of_noise(&mut subject));
+    }
+    assert!(noisy > 10, "only {noisy} presets draw noise");
 }

@@ -1,18 +1,20 @@
 //! Smears next to a mover.
 
-use filters::{Filter, Settings};
+use filters::Blur;
 use frame::{Alignment, FAR_DEPTH, Raster, Reprojection};
 use tests::near::assert_within;
 use tests::presets::{every_preset, preset_name};
+use tests::ready_blur;
 
-use super::blur;
+use super::FRAME_INDEX;
 use crate::fields::Field;
 
 const EDGE: u32 = 120;
+const ROWS: u32 = 31;
 
 /// Makes a white wall left or right of an edge that moves right, in front of a black sky.
 fn wall(left: bool, speed: f32) -> Field {
-    let (width, height) = (2 * EDGE, 31);
+    let (width, height) = (2 * EDGE, ROWS);
     let wall = |x: u32| (x < EDGE) == left;
     // A camera move that moves everything at the wall's depth this way.
     let rows = [
@@ -31,8 +33,8 @@ fn wall(left: bool, speed: f32) -> Field {
 
 /// Measures the light of a white wall, with its edge at the left or right and moving right over
 /// black, on the black.
-fn light_beside_a_wall(filter: &Filter, settings: &Settings, left: bool) -> f64 {
-    let output = blur(&wall(left, 24.0), filter, settings);
+fn light_beside_a_wall(blur: &mut Blur, left: bool) -> f64 {
+    let output = wall(left, 24.0).blur(blur, FRAME_INDEX);
     let black = if left { EDGE..output.width } else { 0..EDGE };
     black.map(|x| f64::from(output.at(x, 15)[0])).sum()
 }
@@ -41,8 +43,8 @@ fn light_beside_a_wall(filter: &Filter, settings: &Settings, left: bool) -> f64 
 fn filters_smear_beyond_a_mover_where_they_carry_motion_and_only_there() {
     for (filter, settings) in every_preset() {
         println!("{}", preset_name(&filter, &settings));
-        let [ahead, behind] =
-            [true, false].map(|left| light_beside_a_wall(&filter, &settings, left));
+        let mut blur = ready_blur(&filter, &settings, (2 * EDGE, ROWS));
+        let [ahead, behind] = [true, false].map(|left| light_beside_a_wall(&mut blur, left));
         // The wall has not touched anything ahead of its edge.
         if filter.alignment == Alignment::Trailing {
             assert_eq!(ahead, 0.0);

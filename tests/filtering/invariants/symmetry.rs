@@ -4,8 +4,9 @@ use filters::{Filter, Settings};
 use frame::{Raster, Reprojection};
 use tests::presets::{every_preset, preset_name};
 use tests::random::Random;
+use tests::ready_blur;
 
-use super::{blur, random};
+use super::{FRAME_INDEX, random};
 use crate::fields::Field;
 
 fn mirror(field: &Field, horizontal: bool) -> Field {
@@ -44,10 +45,12 @@ fn mirror_camera(field: &Field, axis: usize) -> Option<Reprojection> {
 /// rounding of positions (1e-5 pixels) times the contrast of neighbours, and far below the weight
 /// of one tap of twenty.
 fn asymmetric_pixels(field: &Field, filter: &Filter, settings: &Settings) -> usize {
-    let output = blur(field, filter, settings);
+    let size = (field.color.width, field.color.height);
+    let mut blur = ready_blur(filter, settings, size);
+    let output = field.blur(&mut blur, FRAME_INDEX);
     let count = [true, false].map(|horizontal| {
         let turned = mirror(field, horizontal);
-        let color = blur(&turned, filter, settings);
+        let color = turned.blur(&mut blur, FRAME_INDEX);
         let back = mirror(&Field { color, ..turned }, horizontal);
         let pairs = output.pixels.iter().zip(&back.color.pixels);
         pairs

@@ -165,8 +165,19 @@ fn channels_have_the_names_that_compositors_use() {
     }
 }
 
-#[test]
-fn a_flipped_bit_in_a_foreign_picture_s_deflated_chunks_is_refused() {
+/// What became of flipped bits.
+#[derive(Default)]
+struct Flips {
+    all: usize,
+    /// Flips that leave the picture as it was: decoders ignore a few bits.
+    kept: usize,
+    /// Flips that change the picture.
+    changed: usize,
+}
+
+/// Flips bits of a picture's deflated chunks, and reads the picture; `is_flipped` chooses by byte
+/// and bit.
+fn flip_bits(is_flipped: impl Fn(usize, usize) -> bool) -> Flips {
     let (_folder, path) = folder_with("picture.exr");
     let mut file = ExrFile::new(24, 40);
     // Irregular, and few values, which deflate.
@@ -186,25 +197,42 @@ fn a_flipped_bit_in_a_foreign_picture_s_deflated_chunks_is_refused() {
         bytes.len() - chunks < 2 * 24 * 40,
         "the chunks are deflated"
     );
-    let (mut kept, mut changed) = (0, 0);
-    for at in chunks..bytes.len() {
-        for bit in 0..8 {
-            let mut flipped = bytes.clone();
-            flipped[at] ^= 1 << bit;
-            fs::write(&path, flipped).unwrap();
-            match read_passes(&path) {
-                Ok(read) if read.channels == whole.channels => kept += 1,
-                Ok(_) => changed += 1,
-                Err(_) => {}
-            }
+    let mut flips = Flips::default();
+    let bits = (chunks..bytes.len()).flat_map(|at| (0..8).map(move |bit| (at, bit)));
+    for (at, bit) in bits.filter(|(at, bit)| is_flipped(*at, *bit)) {
+        let mut flipped = bytes.clone();
+        flipped[at] ^= 1 << bit;
+        fs::write(&path, flipped).unwrap();
+        flips.all += 1;
+        match read_passes(&path) {
+            Ok(read) if read.channels == whole.channels => flips.kept += 1,
+            Ok(_) => flips.changed += 1,
+            Err(_) => {}
         }
     }
-    let all = 8 * (bytes.len() - chunks);
+    flips
+}
+
+/// Expects that nearly all flips are refused.
+fn expect_refused(flips: &Flips, most_changed: usize) {
+    let Flips { all, kept, changed } = flips;
+    assert!(*changed <= most_changed, "{changed} of {all}");
+    assert!(kept * 20 < *all, "{kept} of {all}");
+}
+
+#[test]
+fn a_flipped_bit_in_a_foreign_picture_s_deflated_chunks_is_refused() {
+    // One bit of each byte.
+    let flips = flip_bits(|at, bit| at % 8 == bit);
+    expect_refused(&flips, 0);
+}
+
+#[test]
+#[ignore = "prove: every bit"]
+fn each_flipped_bit_in_a_foreign_picture_s_deflated_chunks_is_refused() {
     // A flip that permutes bytes may leave both sums of Adler-32 as they are. zlib accepts these
     // 17, too.
-    assert!(changed <= 17, "{changed} of {all}");
-    // A few bits are hints that decoders ignore.
-    assert!(kept * 20 < all, "{kept} of {all}");
+    expect_refused(&flip_bits(|_, _| true), 17);
 }
 
 #[test]

@@ -45,7 +45,7 @@ fn spheres() -> Scene {
 #[test]
 fn a_frame_is_the_mean_of_shifted_pinhole_frames() {
     let lens = with_lens(spheres(), APERTURE, FOCUS);
-    let frame = render_frame(&lens, &settings_of_two(SIZE, 8192));
+    let frame = render_frame(&lens, &settings_of_two(SIZE, 2048));
     let pinholes = lens_points(160).zip(1..).map(|(point, seed)| {
         let mut scene = spheres();
         let key = &mut scene.camera.motion.keys[0];
@@ -57,7 +57,7 @@ fn a_frame_is_the_mean_of_shifted_pinhole_frames() {
             offset: offset.into(),
         };
         // With one seed all pinholes would have the same noise, which would stay in the mean.
-        let mut settings = settings_of_two(SIZE, 64);
+        let mut settings = settings_of_two(SIZE, 16);
         settings.seed = seed;
         let traced = trace_frame_part(&scene, &settings, &grid, None, &unwatched);
         traced.unwrap().frame
@@ -105,9 +105,9 @@ fn every_layer_of_a_truth_is_the_mean_of_shifted_pinhole_truths() {
         let settings = settings_of_two(SIZE, samples);
         render_truth(scene, &settings, Alignment::Trailing)
     };
-    let truth = render(&with_lens(panels(DVec2::ZERO), APERTURE, FOCUS), 8192);
+    let truth = render(&with_lens(panels(DVec2::ZERO), APERTURE, FOCUS), 4096);
     let pinholes: Vec<Truth> = lens_points(64)
-        .map(|point| render(&panels(point), 256))
+        .map(|point| render(&panels(point), 128))
         .collect();
     let pictures: Vec<Picture> = pinholes.iter().map(Truth::mean).collect();
     expect_same(&truth.mean(), &Picture::mean(&pictures));

@@ -1,6 +1,7 @@
 //! Small renders of a scene of the catalogue, with the outputs and scores of filters.
 
-use std::cell::OnceCell;
+use std::cell::{OnceCell, RefCell};
+use std::collections::BTreeMap;
 
 use filters::{Blur, Filter};
 use frame::{Alignment, Frame, Image, Picture, Size, Truth};
@@ -18,12 +19,17 @@ pub fn small_settings() -> RenderSettings {
     tests::settings_of([160, 90], 32, 2)
 }
 
+/// Name of the reference that knows what each object does.
+const ORACLE: &str = "scatter_oracle";
+
 /// Frame of a scene, and truths that are rendered when needed.
 pub struct RenderedScene {
     pub frame: Frame,
     scene: Scene,
     settings: RenderSettings,
     truths: [OnceCell<Truth>; 2],
+    /// Scores of filters that were asked for, by filter.
+    scores: RefCell<BTreeMap<String, Scores>>,
 }
 
 impl RenderedScene {
@@ -39,6 +45,7 @@ impl RenderedScene {
             scene,
             settings,
             truths: Default::default(),
+            scores: Default::default(),
         }
     }
 
@@ -86,20 +93,31 @@ impl RenderedScene {
         reference.measure(picture).unwrap().scores
     }
 
+    /// Scores a filter, or the reference `scatter_oracle`, against the truth of its shutter, once.
+    fn measure_filter(&self, filter: &str) -> Scores {
+        if let Some(scores) = self.scores.borrow().get(filter) {
+            return scores.clone();
+        }
+        let alignment = alignment_of(filter);
+        let picture = if filter == ORACLE {
+            let truth = self.truth(alignment);
+            scatter_oracle(&self.frame, truth.shutter, &truth.shutter_profile)
+        } else {
+            self.blur(filter)
+        };
+        let scores = self.measure(&picture, alignment);
+        let mut measured = self.scores.borrow_mut();
+        measured.insert(filter.to_owned(), scores.clone());
+        scores
+    }
+
     /// Returns a score of a filter, or of the reference `scatter_oracle`, against the truth of its
     /// shutter: a metric, `object.metric`, or `left:metric`, the metric relative to the identity's.
     pub fn score(&self, filter: &str, score: &str) -> f64 {
-        let (picture, alignment) = match filter {
-            "scatter_oracle" => {
-                let truth = self.truth(Alignment::Centred);
-                let oracle = scatter_oracle(&self.frame, truth.shutter, &truth.shutter_profile);
-                (oracle, Alignment::Centred)
-            }
-            _ => (self.blur(filter), find_preset(filter).0.alignment),
-        };
-        let scores = self.measure(&picture, alignment);
+        let scores = self.measure_filter(filter);
         if let Some(metric) = score.strip_prefix("left:") {
-            let nothing = self.measure(&self.frame.cropped().picture(), alignment);
+            let identity = self.frame.cropped().picture();
+            let nothing = self.measure(&identity, alignment_of(filter));
             return value(&scores, metric) / value(&nothing, metric);
         }
         let Some((object, metric)) = score.split_once('.') else {
@@ -140,6 +158,15 @@ pub fn value(scores: &Scores, metric: &str) -> f64 {
     let measured = scores.get(parsed);
     let value = measured.value();
     value.unwrap_or_else(|| panic!("{metric} does not apply: {measured:?}"))
+}
+
+/// Returns the alignment of the shutter that a filter or the oracle shows.
+fn alignment_of(filter: &str) -> Alignment {
+    if filter == ORACLE {
+        Alignment::Centred
+    } else {
+        find_preset(filter).0.alignment
+    }
 }
 
 /// Finds a built-in filter, and returns it with the preset's name.

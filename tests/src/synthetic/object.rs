@@ -1,6 +1,6 @@
 //! Flat shapes, their motions and their smears.
 
-use crate::vector::{direction, dot, length};
+use crate::vector::{direction, dot, length, minus};
 
 /// A flat shape around its centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -95,7 +95,9 @@ pub(crate) struct Posed {
     tilt: [f64; 2],
     /// A step across the motion, in a bar's own axes.
     step: [f64; 2],
-    /// Distance from the centre that no part of the smear exceeds, in pixels.
+    /// Centres at the start and end of the blur, in pixels.
+    path: [[f64; 2]; 2],
+    /// Distance from the path that no part of the smear exceeds, in pixels.
     reach: f64,
 }
 
@@ -105,7 +107,8 @@ impl Posed {
             Shape::Disc(radius) => (radius, 0.0),
             Shape::Bar { half, tilt } => (length(half), tilt),
         };
-        let travel = length(object.displacement) * blur.from.abs().max(blur.to.abs());
+        let center_at =
+            |time: f64| [0, 1].map(|axis| object.center[axis] + time * object.displacement[axis]);
         let shift = length(blur.shift) + blur.dilation;
         let along = unit(object.displacement);
         let across = [-along[1], along[0]];
@@ -117,14 +120,20 @@ impl Posed {
             across,
             tilt,
             step: rotate(across, tilt),
-            reach: size + travel + shift + 1.0,
+            path: [blur.from, blur.to].map(center_at),
+            reach: size + shift + 1.0,
         }
     }
 
     /// Returns whether any part of a pixel can see the object at any time of the blur. It may
     /// return true wrongly.
     pub(crate) fn reaches(&self, pixel: [u32; 2]) -> bool {
-        let distance = [0, 1].map(|axis| f64::from(pixel[axis]) + 0.5 - self.object.center[axis]);
+        let [start, end] = self.path;
+        let way = minus(end, start);
+        let offset = minus(pixel.map(|place| f64::from(place) + 0.5), start);
+        // Part of the way at which the path is nearest; a still object has no way.
+        let part = (dot(offset, way) / dot(way, way).max(1e-12)).clamp(0.0, 1.0);
+        let distance = minus(offset, way.map(|side| part * side));
         dot(distance, distance) <= self.reach * self.reach
     }
 

@@ -1,8 +1,10 @@
 //! `bench`: its times, and their section on the page of a run. A part of tests/command_line, which
 //! is linked with the program once.
 
+use tests::filter_folder::one_kernel;
 use tests::text::{assert_contains, squeeze};
 
+use crate::exported_tables::read_csv;
 use crate::report::{REPORT, between, make_page};
 use crate::sandbox::Sandbox;
 
@@ -10,7 +12,7 @@ use crate::sandbox::Sandbox;
 fn a_bench_prints_and_writes_the_same_times() {
     let sandbox = Sandbox::new();
     let filters = "jump_flood_packed:paper,identity";
-    let words = "bench --quiet --as-written --size 32x16 --filters";
+    let words = "bench --quiet --as-written --size 32x16 --csv times.csv --filters";
     let table = sandbox.done(&format!("{words} {filters}"));
     let parts = [
         "32x16",
@@ -58,6 +60,41 @@ fn a_bench_prints_and_writes_the_same_times() {
     assert_eq!(passes.join(", "), due);
     assert_eq!(done.reaches[2].parameter, None);
     assert!(done.reaches.iter().all(|cost| cost.growth.is_some()));
+    assert_csv(&sandbox.text("times.csv"), &done);
+}
+
+/// Checks that the CSV has a row for each case and each of its passes.
+fn assert_csv(text: &str, done: &bench::Bench) {
+    let rows = read_csv(text);
+    for case in &done.cases {
+        let name = format!("{}:{}", case.filter, case.preset);
+        let of_case = rows.iter().filter(|row| row["filter"] == name);
+        let passes = of_case.clone().filter(|row| !row["pass"].is_empty());
+        assert_eq!(passes.count(), case.passes.len(), "{text}");
+        assert_eq!(of_case.count(), case.passes.len() + 1, "{text}");
+    }
+    let passes = rows.iter().filter(|row| !row["pass"].is_empty()).count();
+    assert_eq!(rows.len(), passes + done.cases.len(), "{text}");
+    assert!(passes >= 2, "{text}");
+    for row in rows {
+        assert!(row["milliseconds"].parse::<f64>().unwrap() > 0.0, "{text}");
+    }
+}
+
+/// Writes a filter whose preset has a radius of 16 pixels, for pictures 256 pixels wide.
+fn write_box_blur(sandbox: &Sandbox) {
+    let manifest = include_str!("../../../../tests/fixtures/filters/box_blur.toml");
+    let body = include_str!("../../../../tests/fixtures/filters/box_blur.wgsl");
+    sandbox.write_filter("mine", manifest, &one_kernel("radius: i32", body));
+}
+
+/// Checks that a preset is scaled to the picture's width unless lengths stay as written.
+fn assert_scaled(sandbox: &Sandbox) {
+    let done: serde_json::Value = sandbox.read_json("out/bench.json");
+    let mut cases = done["cases"].as_array().unwrap().iter();
+    let case = cases.find(|case| case["filter"] == "mine").unwrap();
+    assert_eq!(case["parameters"]["radius"], 4);
+    assert_eq!(case["reference_width"], 256);
 }
 
 #[test]
@@ -72,9 +109,12 @@ fn costs_come_from_the_bench_beside_the_run() {
     assert_contains(&make_page(&sandbox), &parts);
     let output = "out/plate/mcguire_paper_samples_7/output.exr";
     assert!(sandbox.path(output).is_file());
-    let filters = "identity,jump_flood:paper,mcguire:paper";
-    let bench = "bench --quiet --size 64x32 --out out --filters";
-    sandbox.done(&format!("{bench} {filters}"));
+    write_box_blur(&sandbox);
+    let filters = "identity,jump_flood:paper,mcguire:paper,./mine";
+    let bench = "bench --quiet --size 64x32 --out out --markdown - --filters";
+    let printed = sandbox.done(&format!("{bench} {filters}"));
+    assert!(printed.starts_with("| filter / pass | ms |"), "{printed}");
+    assert_scaled(&sandbox);
     let page = make_page(&sandbox);
     let mut timed: bench::Bench = sandbox.read_json("out/bench.json");
     let mut costs = timed.cases.iter();

@@ -164,7 +164,7 @@ impl Cause {
             ))),
             Self::DepthPlanes(_) => Some(key("give the camera's own `near` and `far`")),
             Self::DepthOfBackground(_) => Some(key(
-                "leave `far` out if the engine's far plane is at infinity, or give the engine's own; linear depth of nothing is infinite",
+                "leave `far` out if the engine's far plane is at infinity, or give the engine's own",
             )),
             _ => self.remedy().map(str::to_owned),
         }

@@ -44,7 +44,8 @@ pub struct Convention {
     pub depth: DepthKind,
     /// Distance of the near plane in metres.
     pub near: Option<f64>,
-    /// Distance of the far plane in metres; infinite if left out.
+    /// Distance of the far plane in metres; infinite if left out. Linear depth of the background
+    /// is this distance.
     pub far: Option<f64>,
     /// Format of the depth texture; `r32float` if left out.
     pub depth_format: Option<Format>,
@@ -177,11 +178,9 @@ impl Convention {
             return Err("velocity_per = \"second\" needs frames_per_second".into());
         }
         match (self.depth, self.near, self.far) {
-            (DepthKind::Linear, None, None) => {}
+            (DepthKind::Linear, None, _) => {}
             (DepthKind::Linear, ..) => {
-                return Err(
-                    "near and far are for depth = \"forward\", \"reversed\" or \"ndc\"".into(),
-                );
+                return Err("near is for depth = \"forward\", \"reversed\" or \"ndc\"".into());
             }
             (_, None, _) => return Err("depth of a depth buffer needs near, in metres".into()),
             (_, Some(near), Some(far)) if far <= near => {
@@ -283,7 +282,8 @@ mod tests {
     fn conventions_that_say_too_little_are_refused() {
         for (text, says) in [
             ("depth = 'ndc'\nnear = 2\nfar = 1", "far = 1 is not beyond"),
-            ("near = 1", "are for depth"),
+            ("near = 1", "near is for depth"),
+            ("far = 0", "far = 0"),
             ("color_scale = -1", "color_scale = -1"),
             ("velocity_scale = 0", "velocity_scale = 0"),
             ("velocity_bias = inf", "velocity_bias = inf"),

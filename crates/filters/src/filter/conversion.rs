@@ -6,6 +6,9 @@ use super::convention::{
     Convention, DepthKind, VelocitySign, VelocityTime, VelocityUnit, VerticalDirection,
 };
 
+/// Part of the far plane's distance by which the linear depth of the background may be short of it.
+const FAR_ROUNDING: f64 = 1e-5;
+
 impl Convention {
     /// Converts velocity in pixels per frame to the engine's.
     pub fn convert_velocity(&self, velocity: &Vectors, exposure: f64) -> Vectors {
@@ -69,7 +72,7 @@ impl Convention {
             reversed.clamp(0.0, 1.0)
         };
         metres.map(|z| match self.depth {
-            DepthKind::Linear => *z,
+            DepthKind::Linear => self.far.map_or(*z, |far| z.min(far as f32)),
             DepthKind::Reversed => reversed(z) as f32,
             DepthKind::Forward => (1.0 - reversed(z)) as f32,
             DepthKind::Ndc => (1.0 - 2.0 * reversed(z)) as f32,
@@ -77,13 +80,21 @@ impl Convention {
     }
 
     /// Converts the engine's depth to metres. The value of a cleared buffer becomes the background,
-    /// and so do distances beyond it.
+    /// and so do distances beyond it, and linear depth at the far plane.
     ///
     /// # Errors
     /// A depth is not above 0; the text names keys.
     pub fn restore_depth(&self, depth: &Plane) -> Result<Plane, String> {
         if self.depth == DepthKind::Linear {
-            return Ok(depth.clone());
+            let far = self.far.unwrap_or(f64::INFINITY) * (1.0 - FAR_ROUNDING);
+            let metres = |depth: &f32| {
+                if f64::from(*depth) >= far {
+                    FAR_DEPTH
+                } else {
+                    *depth
+                }
+            };
+            return Ok(depth.map(metres));
         }
         let near = self.near.unwrap_or(1.0);
         let restored = depth.map(|depth| {
@@ -195,6 +206,27 @@ mod tests {
             assert!((velocity[0] - due[0]).abs() < 1e-4, "{:?}", restored.pixels);
             assert!((velocity[1] - due[1]).abs() < 1e-4, "{:?}", restored.pixels);
         }
+    }
+
+    #[test]
+    fn linear_depth_of_the_background_is_at_the_far_plane() {
+        let form = Convention {
+            far: Some(1e5),
+            ..Convention::default()
+        };
+        let row = |pixels| Raster {
+            width: 3,
+            height: 1,
+            pixels,
+        };
+        let metres = row(vec![0.5, 9e4, FAR_DEPTH]);
+        let stored = form.convert_depth(&metres);
+        assert_eq!(stored.pixels, [0.5, 9e4, 1e5]);
+        assert_eq!(form.restore_depth(&stored).unwrap(), metres);
+        let rounded = row(vec![0.5, 9e4, 99_999.99]);
+        assert_eq!(form.restore_depth(&rounded).unwrap(), metres);
+        let nothing = Convention::default().restore_depth(&stored).unwrap();
+        assert_eq!(nothing, stored);
     }
 
     #[test]

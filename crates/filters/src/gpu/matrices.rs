@@ -51,7 +51,8 @@ fn make_matrices(
 fn project(focal: f64, [width, height]: [u32; 2], convention: &Convention) -> DMat4 {
     let near = convention.near.unwrap_or(1.0);
     // Depth in clip space is `slope` x distance + `offset`, divided by the distance.
-    let forward = match convention.far {
+    let far = (convention.far).filter(|_| convention.depth != DepthKind::Linear);
+    let forward = match far {
         Some(far) => [far / (far - near), -near * far / (far - near)],
         None => [1.0, -near],
     };

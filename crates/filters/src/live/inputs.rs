@@ -67,7 +67,9 @@ fn convert_depth(convention: &Convention) -> Value {
     };
     let reversed = json!(["min", ["max", reversed, 0], 1]);
     match convention.depth {
-        DepthKind::Linear => Value::Null,
+        DepthKind::Linear => {
+            (convention.far).map_or(Value::Null, |far| json!([["min", depth, far]]))
+        }
         DepthKind::Reversed => json!([reversed]),
         DepthKind::Forward => json!([["-", 1, reversed]]),
         DepthKind::Ndc => json!([["-", 1, ["*", 2, reversed]]]),

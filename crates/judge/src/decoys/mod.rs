@@ -4,7 +4,7 @@
 mod wrong;
 
 use frame::{Frame, Picture, Truth};
-use metrics::{Ideal, MeasureError, Metric, ObjectMetric, Reference, Scores};
+use metrics::{Ideal, MeasureError, Metric, ObjectMetric, Reference, Scores, scatter_oracle};
 use serde::{Deserialize, Serialize};
 
 pub use wrong::{FEW_SUBFRAMES, make_wrong_pictures};
@@ -22,12 +22,16 @@ pub struct Resemblance {
 /// Distance beyond which a picture resembles none.
 const FARTHEST: f64 = 0.5;
 
+/// Distance of the best blur of a frame up to which a wrong blur is as good as right.
+const NEAREST: f64 = 0.1;
+
 /// Smallest number of scores that show a resemblance.
 const MIN_SCORES: usize = 4;
 
 /// Scores that distinguish wrong blurs, by position, length, width and looks.
-const COMPARED: [Metric; 14] = [
+const COMPARED: [Metric; 15] = [
     Metric::FLIP,
+    Metric::STILL,
     Metric::LABEL,
     Metric::Object(ObjectMetric::BleedLateral),
     Metric::Object(ObjectMetric::BleedLeading),
@@ -55,26 +59,35 @@ type Deviations = Vec<Option<f64>>;
 
 impl Decoys {
     /// Makes wrong blurs from a frame without guard band and scores them. `few_subframes`, the mean
-    /// of [`FEW_SUBFRAMES`], is one of them if given.
+    /// of [`FEW_SUBFRAMES`], is one of them if given. Those that equal the best blur of the frame
+    /// are left out: a flipped y where things move sideways.
     pub fn new(
         frame: &Frame,
         truth: &Truth,
         few_subframes: Option<Picture>,
         reference: &Reference,
     ) -> Result<Self, MeasureError> {
+        let measure = |picture: &Picture| -> Result<Deviations, MeasureError> {
+            Ok(deviations(&reference.measure(picture)?.scores))
+        };
         let mut decoys = Vec::new();
         for (name, picture) in make_wrong_pictures(frame, truth, few_subframes) {
-            let scores = reference.measure(&picture)?.scores;
-            decoys.push((name, deviations(&scores)));
+            decoys.push((name, measure(&picture)?));
         }
+        let best = scatter_oracle(frame, truth.shutter, &truth.shutter_profile);
+        let best = measure(&best)?;
         let scale = |score: usize| {
             let sizes = decoys.iter().filter_map(|(_, decoy)| decoy[score]);
             sizes.map(f64::abs).fold(0.0, f64::max)
         };
-        Ok(Self {
-            scales: (0..COMPARED.len()).map(scale).collect(),
-            decoys,
-        })
+        let scales = (0..COMPARED.len()).map(scale).collect();
+        let mut decoys = Self { decoys, scales };
+        let is_wrong = |(_, decoy): &(String, Deviations)| {
+            (decoys.distance(&best, decoy)).is_none_or(|distance| distance > NEAREST)
+        };
+        let kept = decoys.decoys.iter().filter(|decoy| is_wrong(decoy));
+        decoys.decoys = kept.cloned().collect();
+        Ok(decoys)
     }
 
     /// Finds the wrong blur that these scores resemble most; none if they are far from all.

@@ -7,6 +7,8 @@ use metrics::scatter_oracle;
 pub const FEW_SUBFRAMES: u32 = 4;
 /// Pixels by which moving objects are widened.
 const WIDENED: u32 = 2;
+/// What a weighted mean of 16 samples is multiplied by if their weights add up to 17.
+const TOO_BRIGHT: f32 = 17.0 / 16.0;
 
 /// Makes wrong blurs of a frame without guard band, with their names. They smear like the scatter
 /// oracle, the best that the frame allows, so that each has only the mistake in its name.
@@ -21,6 +23,12 @@ pub fn make_wrong_pictures(
             .expect("a part of an exposure is an exposure");
         scatter_oracle(frame, shutter, &truth.shutter_profile)
     };
+    let moving_otherwise = |factors: [f32; 2]| Frame {
+        velocity: frame
+            .velocity
+            .map(|v| [factors[0] * v[0], factors[1] * v[1]]),
+        ..frame.clone()
+    };
     let identity = frame.picture();
     let alignment = truth.alignment;
     let mut pictures = vec![
@@ -28,6 +36,18 @@ pub fn make_wrong_pictures(
         (
             "half_as_long_again".to_owned(),
             smear(frame, alignment, 1.5),
+        ),
+        (
+            "twice_length".to_owned(),
+            smear(&moving_otherwise([2.0, 2.0]), alignment, 1.0),
+        ),
+        (
+            "y_flipped".to_owned(),
+            smear(&moving_otherwise([1.0, -1.0]), alignment, 1.0),
+        ),
+        (
+            "too_bright".to_owned(),
+            brighten(&smear(frame, alignment, 1.0)),
         ),
         ("widened".to_owned(), smear(&widen(frame), alignment, 1.0)),
         ("one_color".to_owned(), one_color(&identity)),
@@ -72,6 +92,16 @@ fn widen(frame: &Frame) -> Frame {
             .map(|plane| nearest.map(|at| plane.pixels[*at]))
             .collect(),
         ..frame.clone()
+    }
+}
+
+/// Multiplies everything by [`TOO_BRIGHT`].
+fn brighten(picture: &Picture) -> Picture {
+    Picture {
+        color: (picture.color).map(|pixel| pixel.map(|value| TOO_BRIGHT * value)),
+        coverage: (picture.coverage.iter())
+            .map(|plane| plane.map(|share| TOO_BRIGHT * share))
+            .collect(),
     }
 }
 

@@ -3,7 +3,7 @@
 
 use std::convert::Infallible;
 
-use crate::{LADDER, RenderFile, look_up_alone};
+use crate::{LADDER, RenderFile, hash_program, look_up_alone};
 use filters::Gpu;
 use frame::Alignment;
 use tracer::RenderSettings;
@@ -11,6 +11,7 @@ use tracer::RenderSettings;
 use super::frames::visit_frames;
 use super::plan::RunPlan;
 use super::planned_case::PlannedCase;
+use super::scene::SceneContext;
 use crate::render::run_scene::needed_rungs;
 
 /// CPU time in seconds to prepare a scene for rays, and of a sample: means over the shipped scenes,
@@ -53,7 +54,8 @@ pub struct RunEstimate {
 pub fn estimate_run(plan: &RunPlan, gpu: Option<&Gpu>) -> RunEstimate {
     let pixels = count_pixels(&plan.render);
     let mut estimate = RunEstimate::default();
-    let visited = visit_frames(plan, gpu, |scene| {
+    let program = hash_program();
+    let mut visit = |scene: &SceneContext| {
         let planned = PlannedCase::all(plan, scene.scene);
         let has_record =
             |case: &&PlannedCase| !plan.no_cache && scene.read_case(case, look_up_alone).is_some();
@@ -78,8 +80,10 @@ pub fn estimate_run(plan: &RunPlan, gpu: Option<&Gpu>) -> RunEstimate {
         let memory = (scene.scene).memory(&plan.render, measured);
         estimate.memory = estimate.memory.max(memory);
         Ok(())
-    });
-    let Ok(()) = visited;
+    };
+    for scene in plan.all_scenes() {
+        let Ok(()) = visit_frames(plan, gpu, program.as_deref(), scene, &mut visit);
+    }
     estimate.seconds += estimate.cases as f64 * pixels * REPORT_PIXEL;
     estimate
 }

@@ -88,7 +88,7 @@ impl SceneContext<'_> {
         let missing: Vec<&PlannedCase> = missing.map(|(case, _)| case).collect();
         let label = format!("{} blurs and scores", self.scene.id());
         let monitor = self.plan.monitor;
-        advance(self.render_steps());
+        advance(self.plan.render_steps());
         let measured = monitor.watch(&label, |watch| self.measure(&missing, &frame, watch))?;
         let mut measured = measured.into_iter();
         let (mut cases, mut failures) = (Vec::new(), Vec::new());
@@ -120,7 +120,7 @@ impl SceneContext<'_> {
         let frame = self.render_first(advance)?;
         let mut files = vec![write_frame(&folder, &frame)?];
         for (alignment, done) in self.alignments().into_iter().zip(0..) {
-            advance(1 + done * self.truth_steps());
+            advance(1 + done * self.plan.truth_steps());
             let truth = self.read_truth(alignment)?;
             self.ensure_ladder(&truth)?;
             files.push(write_truth(&folder, &truth, frame.display)?);
@@ -163,21 +163,6 @@ impl SceneContext<'_> {
     /// Names the folder of the scene's files.
     pub(super) fn folder(&self) -> PathBuf {
         self.plan.out.join(self.scene.id().folder())
-    }
-
-    /// Counts the steps of the whole scene, as progress shows them: rendering and measuring.
-    pub fn steps(&self) -> u64 {
-        self.render_steps() + 1
-    }
-
-    /// Counts a frame and the truths.
-    fn render_steps(&self) -> u64 {
-        1 + self.plan.alignments().len() as u64 * self.truth_steps()
-    }
-
-    /// Counts the replicates of a truth, and its ladder.
-    fn truth_steps(&self) -> u64 {
-        u64::from(self.plan.render.replicates) + 1
     }
 
     /// Reads a case that was measured before, without its intervals if the plan asks for none. A

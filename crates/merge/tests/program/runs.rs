@@ -61,12 +61,40 @@ const OTHER_RUNS: [(&str, &[&str]); 4] = [
     ),
 ];
 
+/// A setting in run.json, another value, and the row of [`OTHER_RUNS`] with its message. A run of
+/// one frame does not name their number.
+const OTHER_SETTINGS: [(&str, &str, usize); 4] = [
+    ("\"seed\": 1", "\"seed\": 2", 0),
+    ("\"instantaneous\"", "\"previous_frame\"", 1),
+    (
+        "\"cases\": [",
+        "\"frames\": {\"count\": 2, \"per_second\": 60.0}, \"cases\": [",
+        2,
+    ),
+    (
+        "\"common_alignment\": \"trailing\"",
+        "\"common_alignment\": \"centred\"",
+        3,
+    ),
+];
+
 #[test]
-fn runs_of_other_settings_are_refused() {
+#[ignore = "prove: runs of other settings, measured"]
+fn measured_runs_of_other_settings_are_refused() {
     let sandbox = parts();
     for (more, message) in OTHER_RUNS {
         measure_other(&sandbox, &format!("--scenes slow --filter {more}"));
         refuse(&sandbox, "plate other", message);
+    }
+}
+
+#[test]
+fn runs_of_other_settings_are_refused() {
+    let sandbox = parts();
+    for (setting, other, row) in OTHER_SETTINGS {
+        sandbox.put("other/run.json", sandbox.text("slow/run.json"));
+        sandbox.edit("other/run.json", setting, other);
+        refuse(&sandbox, "plate other", OTHER_RUNS[row].1);
     }
     sandbox.edit("slow/run.json", "\"driver\": \"", "\"driver\": \"other ");
     let message = [

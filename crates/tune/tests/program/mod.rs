@@ -196,7 +196,8 @@ fn a_failing_candidate_is_reported_and_the_tuning_goes_on() {
     assert_contains(&stderr(&output), &["too strong"]);
 }
 
-const BUDGET: &str = "--scenes a,b --budget 24";
+/// Thirteen trials of presets and of a fixed design, and three that depend on the ones before.
+const BUDGET: &str = "--scenes a,b --budget 16";
 
 /// Returns the journal of an undisturbed tuning, which runs once for all tests.
 fn whole() -> &'static str {
@@ -220,7 +221,7 @@ fn a_killed_tuning_resumes_and_ends_with_the_same_bytes() {
     child.kill().unwrap();
     child.wait().unwrap();
     let left = read_journal(&sandbox, "out");
-    assert!(left.lines().count() < 25, "it was killed on its way");
+    assert!(left.lines().count() < 17, "it was killed on its way");
     // A power failure left this line half-written.
     fs::write(&path, format!("{left}{{\"trial\":7")).unwrap();
     tune(&sandbox, "out", BUDGET);

@@ -5,6 +5,7 @@ use std::fs;
 use tests::text::assert_contains;
 use tune::{Sensitivity, Tuning};
 
+use super::results::studied;
 use crate::sandbox::Sandbox;
 
 const WORDS: &str = "--quiet --filter jump_flood --from paper \
@@ -22,12 +23,19 @@ fn set_up() -> Sandbox {
     sandbox
 }
 
-/// Makes a sandbox with a finished tuning.
-fn tuned() -> Sandbox {
+/// Tunes on two scenes, with a third one held out at a given size; returns the output.
+pub fn tune_at(sandbox: &Sandbox, size: &str) -> String {
+    let held_out = "--held-out held_out --held-out-samples-per-pixel 16 --held-out-size";
+    sandbox.done(&format!(
+        "tune search {WORDS} --budget 14 {held_out} {size}"
+    ))
+}
+
+/// Makes a sandbox with such a tuning in `tuned`.
+pub fn tuned() -> Sandbox {
     Sandbox::once(|sandbox| {
         sandbox.write_files("", &set_up().read_files());
-        let held_out = "--held-out held_out --held-out-size 64x32 --held-out-samples-per-pixel 16";
-        sandbox.done(&format!("tune search {WORDS} --budget 14 {held_out}"));
+        tune_at(sandbox, "64x32");
     })
 }
 
@@ -84,10 +92,11 @@ fn the_page_of_a_tuning_shows_trials_choice_and_folds() {
 
 #[test]
 fn the_page_of_a_sensitivity_study_shows_intervals_and_slices() {
-    let sandbox = set_up();
-    sandbox.done(&format!("tune sensitivity --rows 4 {WORDS}"));
-    let page = make_page(&sandbox);
-    let study: Sensitivity = sandbox.read_json("tuned/sensitivity.json");
+    let sandbox = studied();
+    let report = REPORT.replace("tuned", "out");
+    sandbox.done(&report);
+    let page = sandbox.text("page.html");
+    let study: Sensitivity = sandbox.read_json("out/sensitivity.json");
     let table = find_section(&page, "Which parameters can become constants");
     for parameter in study.parameters.values() {
         let total = parameter.indices.total;
@@ -100,13 +109,13 @@ fn the_page_of_a_sensitivity_study_shows_intervals_and_slices() {
     for parameter in old["parameters"].as_object_mut().unwrap().values_mut() {
         parameter["indices"] = serde_json::Value::Null;
     }
-    sandbox.put("tuned/sensitivity.json", old.to_string());
+    sandbox.put("out/sensitivity.json", old.to_string());
     let parts = [
-        "tuned/sensitivity.json",
+        "out/sensitivity.json",
         "no Sobol indices",
         "`shuttertruth tune search`",
     ];
-    sandbox.refuse(REPORT, &parts);
+    sandbox.refuse(&report, &parts);
 }
 
 #[test]

@@ -10,23 +10,29 @@ use tests::filter_folder::copy_shipped_filter;
 use tests::text::{assert_contains, squeeze};
 use tune::{Space, Trial, TrialOutcome, count_candidates};
 
-use super::{ON_SEVEN, read_journal, read_trials, read_tuning, set_up, tune};
+use super::{ON_SEVEN, ON_TWO, page, read_journal, read_trials, read_tuning, set_up, tune};
 use crate::sandbox::Sandbox;
 
 const QUICK: &str = "--quiet --filter jump_flood --size 64x32 --samples-per-pixel 16 --out out";
 const HELD_OUT: &str =
-    "--budget 20 --held-out plate --held-out-samples-per-pixel 16 --held-out-size";
+    "--budget 20 --held-out plate --held-out-samples-per-pixel 16 --held-out-size 64x32";
 
-/// Tunes on seven scenes, with an eighth held out at a given size, in `out`; returns the output.
-fn tune_at(sandbox: &Sandbox, size: &str) -> String {
-    tune(sandbox, "out", &format!("{ON_SEVEN} {HELD_OUT} {size}"))
-}
-
-/// Makes a sandbox with such a tuning, and its output in the file `printed`.
+/// Makes a sandbox with a tuning on seven scenes, with an eighth held out, in `out`, and its output
+/// in the file `printed`.
 fn tuned() -> Sandbox {
     Sandbox::once(|sandbox| {
         sandbox.write_files("", &set_up().read_files());
-        let printed = tune_at(sandbox, "64x32");
+        let printed = tune(sandbox, "out", &format!("{ON_SEVEN} {HELD_OUT}"));
+        sandbox.put("printed", printed);
+    })
+}
+
+/// Makes a sandbox with a study of two parameters in `out`, and its output in the file `printed`.
+pub fn studied() -> Sandbox {
+    Sandbox::once(|sandbox| {
+        sandbox.write_files("", &set_up().read_files());
+        let more = "--from corrected --vary samples,behind_extent --scenes a,b --rows 4";
+        let printed = sandbox.done(&format!("tune sensitivity {QUICK} {more}"));
         sandbox.put("printed", printed);
     })
 }
@@ -140,13 +146,16 @@ fn the_choice_is_no_worse_than_the_best_and_a_parameter_without_effect_keeps_its
 
 #[test]
 fn held_out_scenes_that_are_read_again_are_counted_once() {
-    let sandbox = tuned();
-    let journal = read_journal(&sandbox, "out");
-    tune_at(&sandbox, "64x32");
-    assert_eq!(read_tuning(&sandbox).held_out.len(), 1);
+    let sandbox = page::tuned();
+    let journal = read_journal(&sandbox, "tuned");
+    page::tune_at(&sandbox, "64x32");
+    let tuning: tune::Tuning = sandbox.read_json("tuned/tune.json");
+    assert_eq!(tuning.held_out.len(), 1);
     // Other held-out renders count as another evaluation.
-    assert_contains(&tune_at(&sandbox, "48x24"), &["evaluated 2 times"]);
-    assert_eq!(read_journal(&sandbox, "out"), journal, "no trial was added");
+    let printed = page::tune_at(&sandbox, "48x24");
+    assert_contains(&printed, &["evaluated 2 times"]);
+    let after = read_journal(&sandbox, "tuned");
+    assert_eq!(after, journal, "no trial was added");
 }
 
 #[test]
@@ -154,9 +163,9 @@ fn a_trial_scores_like_a_run() {
     let sandbox = tuned();
     let trial = read_trials(&sandbox).remove(0);
     fs::remove_dir_all(sandbox.path("out")).unwrap();
-    sandbox.measure(&format!("--filters jump_flood:paper {ON_SEVEN}"));
+    sandbox.measure(&format!("--filters jump_flood:paper {ON_TWO}"));
     let cases = sandbox.read_filter_cases();
-    assert_eq!(cases.len(), 7);
+    assert_eq!(cases.len(), 2);
     for case in cases {
         let score = trial.scenes[&case.scene.to_string()];
         let scores = ["flip_moving", "bleed_lateral"].map(|name| {
@@ -184,14 +193,16 @@ fn with_preset(sandbox: &Sandbox, preset: &str) -> Filter {
 #[test]
 fn two_presets_are_compared_scene_by_scene() {
     let sandbox = set_up();
-    for (presets, verdict) in [
-        ("paper corrected", "over 7 scenes: corrected is better"),
+    let same = "CI +0.0 % to +0.0 %, over 2 scenes: undecided";
+    for (presets, scenes, verdict) in [
         (
-            "paper paper",
-            "CI +0.0 % to +0.0 %, over 7 scenes: undecided",
+            "paper corrected",
+            ON_SEVEN,
+            "over 7 scenes: corrected is better",
         ),
+        ("paper paper", ON_TWO, same),
     ] {
-        let text = sandbox.done(&format!("tune compare {presets} {QUICK} {ON_SEVEN}"));
+        let text = sandbox.done(&format!("tune compare {presets} {QUICK} {scenes}"));
         let text = squeeze(&text);
         assert_contains(&text, &[verdict]);
         assert!(
@@ -205,9 +216,8 @@ fn two_presets_are_compared_scene_by_scene() {
 
 #[test]
 fn a_study_finds_the_parameters_that_matter() {
-    let sandbox = set_up();
-    let more = "--from corrected --vary samples,behind_extent --scenes a,b --rows 4";
-    let table = sandbox.done(&format!("tune sensitivity {QUICK} {more}"));
+    let sandbox = studied();
+    let table = sandbox.text("printed");
     let study: tune::Sensitivity = sandbox.read_json("out/sensitivity.json");
     // Weighted taps do not read the extent; only replaced ones do.
     let extent = &study.parameters["behind_extent"];

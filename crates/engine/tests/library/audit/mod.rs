@@ -7,9 +7,9 @@ mod picture;
 mod planted;
 mod structure;
 
-use engine::{
-    AuditedScene, Buffer, Capture, CaptureAudit, Cause, Defect, FRAMES_PER_SECOND, audit_capture,
-};
+use std::sync::LazyLock;
+
+use engine::{AuditedScene, Buffer, Capture, CaptureAudit, Cause, Defect, FRAMES_PER_SECOND};
 use frame::{FAR_DEPTH, Vectors, VelocityKind};
 use scene::{Scene, load_scene};
 use tests::unwatched;
@@ -60,21 +60,30 @@ fn draw_in_size(scene: &Scene, time: f64, size: [u32; 2]) -> Capture {
     capture(trace_frame(&scene, &settings, &unwatched).unwrap())
 }
 
-fn audit(scene: &Scene, capture: &Capture) -> CaptureAudit {
-    audit_capture(capture, scene).unwrap().0
-}
-
-/// A scene and a correct capture of it, traced once for audits of several velocities.
+/// A scene and a correct capture of it, traced once for all audits.
 struct DrawnScene<'a> {
+    scene: &'a Scene,
     capture: Capture,
     audited: AuditedScene<'a>,
 }
 
 impl<'a> DrawnScene<'a> {
     fn new(scene: &'a Scene) -> Self {
-        let capture = draw(scene, 0.0);
+        Self::in_size(scene, [WIDTH, HEIGHT])
+    }
+
+    fn in_size(scene: &'a Scene, size: [u32; 2]) -> Self {
+        let capture = draw_in_size(scene, 0.0, size);
         let audited = AuditedScene::trace(scene, capture.color.size()).unwrap();
-        Self { capture, audited }
+        Self {
+            scene,
+            capture,
+            audited,
+        }
+    }
+
+    fn audit(&self, capture: &Capture) -> CaptureAudit {
+        self.audited.audit(capture).unwrap()
     }
 
     /// Audits the capture with another velocity.
@@ -83,21 +92,31 @@ impl<'a> DrawnScene<'a> {
             velocity,
             ..self.capture.clone()
         };
-        self.audited.audit(&capture).unwrap()
+        self.audit(&capture)
+    }
+
+    /// Copies the capture with changed depth, except the background's.
+    fn change_depth(&self, change: impl Fn(usize, f32) -> f32) -> Capture {
+        let mut capture = self.capture.clone();
+        for (at, depth) in capture.depth.pixels.iter_mut().enumerate() {
+            if *depth < 0.1 * FAR_DEPTH {
+                *depth = change(at, *depth);
+            }
+        }
+        capture
     }
 }
 
-/// Audits a correct capture with changed depth, except the background's.
-fn audit_depth(scene: &Scene, change: impl Fn(usize, f32) -> f32) -> (Capture, CaptureAudit) {
-    let mut capture = draw(scene, 0.0);
-    for (at, depth) in capture.depth.pixels.iter_mut().enumerate() {
-        if *depth < 0.1 * FAR_DEPTH {
-            *depth = change(at, *depth);
-        }
-    }
-    let verdict = audit(scene, &capture);
-    (capture, verdict)
-}
+static STILL_SCENE: LazyLock<Scene> = LazyLock::new(|| load_small(None));
+static MOVING_SCENE: LazyLock<Scene> = LazyLock::new(load_moving);
+static UNLIT_SCENE: LazyLock<Scene> = LazyLock::new(|| load_small(Some("unlit")));
+
+/// The small scene, of which the disc alone turns.
+static STILL: LazyLock<DrawnScene> = LazyLock::new(|| DrawnScene::new(&STILL_SCENE));
+/// The small scene in which everything moves.
+static MOVING: LazyLock<DrawnScene> = LazyLock::new(|| DrawnScene::new(&MOVING_SCENE));
+/// The small scene without light.
+static UNLIT: LazyLock<DrawnScene> = LazyLock::new(|| DrawnScene::new(&UNLIT_SCENE));
 
 fn without_ids(capture: &Capture) -> Capture {
     let object_id = None;
@@ -138,31 +157,28 @@ fn expect<'a>(
 }
 
 #[track_caller]
-fn assert_passes(scene: &Scene, capture: &Capture) {
-    let verdict = audit(scene, capture);
+fn assert_passes(drawn: &DrawnScene, capture: &Capture) {
+    let (verdict, id) = (drawn.audit(capture), &drawn.scene.id);
     let passes = verdict.findings.is_empty() && verdict.shows_scene;
-    assert!(passes, "{}: {:#?}", scene.id, verdict.findings);
+    assert!(passes, "{id}: {:#?}", verdict.findings);
     assert!(verdict.velocity.iter().all(|object| object.is_right));
-    assert!(verdict.alike > 0.999, "{}: {}", scene.id, verdict.alike);
+    assert!(verdict.alike > 0.999, "{id}: {}", verdict.alike);
 }
 
 #[test]
 fn honest_frames_pass_with_ids_and_without() {
-    for variant in [None, Some("moving"), Some("unlit")] {
-        let scene = load_small(variant);
-        let drawn = draw(&scene, 0.0);
-        assert_passes(&scene, &without_ids(&drawn));
-        assert_passes(&scene, &drawn);
+    for drawn in [&STILL, &MOVING, &UNLIT] {
+        assert_passes(drawn, &without_ids(&drawn.capture));
+        assert_passes(drawn, &drawn.capture);
     }
 }
 
 #[test]
 fn right_vectors_pass_as_half_floats() {
-    let scene = load_moving();
-    let mut drawn = draw(&scene, 0.0);
+    let mut capture = MOVING.capture.clone();
     let round = |part: f32| half::f16::from_f32(part).to_f32();
-    drawn.velocity = drawn.velocity.map(|velocity| velocity.map(round));
-    assert_passes(&scene, &drawn);
+    capture.velocity = capture.velocity.map(|velocity| velocity.map(round));
+    assert_passes(&MOVING, &capture);
 }
 
 #[test]
@@ -172,18 +188,18 @@ fn honest_frames_of_every_scene_pass_with_ids_and_without() {
     all.extend(["fan@unlit", "railing@unlit", "walker@unlit"].map(str::to_owned));
     for name in all {
         let scene = &load_shipped(&name);
-        let drawn = draw(scene, 0.0);
-        assert_passes(scene, &drawn);
+        let drawn = &DrawnScene::new(scene);
+        assert_passes(drawn, &drawn.capture);
         let tells_without_ids = ["fan", "railing", "roll", "flag", "crossing", "cockpit"];
         if tells_without_ids.contains(&scene.id.name.as_str()) {
-            assert_passes(scene, &without_ids(&drawn));
+            assert_passes(drawn, &without_ids(&drawn.capture));
         }
     }
 }
 
 /// Audits every known mistake in scenes, and expects that each is seen in one of them and named
 /// wherever it is.
-fn assert_motions_named(scenes: &[Scene]) {
+fn assert_motions_named(scenes: &[&DrawnScene]) {
     let by_the_clock = |rate: f64| PointMotion {
         over: FRAMES_PER_SECOND / rate,
         ..PointMotion::RIGHT
@@ -200,10 +216,10 @@ fn assert_motions_named(scenes: &[Scene]) {
         (Cause::MotionOver(30.0), by_the_clock(30.0)),
         (Cause::MotionOver(120.0), by_the_clock(120.0)),
     ];
-    let drawn: Vec<DrawnScene> = scenes.iter().map(DrawnScene::new).collect();
     for (cause, motion) in motions {
         let mut seen = 0;
-        for (scene, drawn) in scenes.iter().zip(&drawn) {
+        for drawn in scenes {
+            let scene = drawn.scene;
             let verdict = drawn.audit_velocity(trace_velocity(scene, &motion));
             seen += usize::from(!verdict.findings.is_empty());
             let is_clock = matches!(cause, Cause::MotionOver(_));
@@ -229,35 +245,36 @@ fn assert_motions_named(scenes: &[Scene]) {
 
 #[test]
 fn other_motion_is_named() {
-    assert_motions_named(&[load_moving()]);
+    assert_motions_named(&[&MOVING]);
 }
 
 #[test]
 #[ignore = "prove: scenes in which things turn, drive, and the camera moves"]
 fn other_motion_of_shipped_scenes_is_named() {
-    assert_motions_named(&["fan", "railing", "roll"].map(load_shipped));
+    let scenes = ["fan", "railing", "roll"].map(load_shipped);
+    let drawn = scenes.each_ref().map(DrawnScene::new);
+    assert_motions_named(&drawn.each_ref());
 }
 
 #[test]
 fn a_wrong_sign_is_named_together_with_another_cause() {
-    let scene = load_moving();
+    let scene = &*MOVING_SCENE;
     let mut over_0_4 = PointMotion::RIGHT;
     over_0_4.over = 0.4;
     let instant = settings(VelocityKind::Instantaneous);
-    let derivative = trace_motion(&scene, &instant, &PointMotion::RIGHT);
-    let without_camera = trace_velocity(&scene, &PointMotion::WITHOUT_CAMERA);
-    let drawn = DrawnScene::new(&scene);
+    let derivative = trace_motion(scene, &instant, &PointMotion::RIGHT);
+    let without_camera = trace_velocity(scene, &PointMotion::WITHOUT_CAMERA);
     for (cause, velocity) in [
         (Cause::CameraMotionMissing, without_camera),
         (Cause::HalfFrameOff, derivative.unwrap().velocity),
-        (Cause::MotionOver(60.0), trace_velocity(&scene, &over_0_4)),
+        (Cause::MotionOver(60.0), trace_velocity(scene, &over_0_4)),
     ] {
         for (turn, [x, y]) in [
             (Cause::WrongSign, [-1.0, -1.0]),
             (Cause::FlippedY, [1.0, -1.0]),
         ] {
             let turned = velocity.map(|vector| [x * vector[0], y * vector[1]]);
-            let verdict = drawn.audit_velocity(turned);
+            let verdict = MOVING.audit_velocity(turned);
             assert!(!verdict.findings.is_empty(), "{cause:?}");
             for finding in &verdict.findings {
                 assert!(

@@ -24,11 +24,9 @@ fn other_numbers_of_velocity_are_named() {
     const LIMIT: f32 = 10.0;
     // Eight bits over the width.
     const STEP: f32 = 96.0 / 255.0;
-    let scene = load_moving();
-    let drawn = DrawnScene::new(&scene);
-    let right = &drawn.capture.velocity;
+    let right = &MOVING.capture.velocity;
     let changed = |change: fn([f32; 2]) -> [f32; 2]| {
-        drawn.audit_velocity(right.map(|vector| change(*vector)))
+        MOVING.audit_velocity(right.map(|vector| change(*vector)))
     };
     type Change = fn([f32; 2]) -> [f32; 2];
     let rows: [(Change, Cause); 13] = [
@@ -77,13 +75,11 @@ fn other_numbers_of_velocity_are_named() {
 
 #[test]
 fn the_one_object_whose_velocity_is_wrong_is_named() {
-    let scene = load_moving();
-    let car = id_of(&scene, "car");
-    let drawn = DrawnScene::new(&scene);
-    let capture = &drawn.capture;
+    let car = id_of(MOVING.scene, "car");
+    let capture = &MOVING.capture;
     let ids = capture.object_id.as_ref().unwrap();
     let still = |velocity: &[f32; 2], id: &u32| if *id == car { [0.0; 2] } else { *velocity };
-    let verdict = drawn.audit_velocity(capture.velocity.zip(ids, still));
+    let verdict = MOVING.audit_velocity(capture.velocity.zip(ids, still));
     let is_zero = |cause: &Cause| *cause == Cause::Zero;
     let finding = expect(&verdict, Buffer::Velocity, Some("car"), is_zero);
     let text = &finding.text;
@@ -102,32 +98,30 @@ fn the_one_object_whose_velocity_is_wrong_is_named() {
 
 #[test]
 fn other_numbers_of_depth_are_named() {
-    let scene = load_small(None);
-    let (_, scaled) = audit_depth(&scene, |_, depth| 100.0 * depth);
+    let scaled = STILL.audit(&STILL.change_depth(|_, depth| 100.0 * depth));
     let is_100 =
         |cause: &Cause| matches!(cause, Cause::DepthScale(by) if (by - 100.0).abs() < 0.01);
     expect(&scaled, Buffer::Depth, None, is_100);
-    let view = tracer::View::new(&scene.camera, 0.0, WIDTH, HEIGHT);
-    let (_, along_ray) = audit_depth(&scene, |at, depth| {
+    let view = tracer::View::new(&STILL.scene.camera, 0.0, WIDTH, HEIGHT);
+    let along_ray = STILL.change_depth(|at, depth| {
         let [x, y] = [at as u32 % WIDTH, at as u32 / WIDTH].map(|place| f64::from(place) + 0.5);
         let ray = view.ray(x, y);
         depth * (ray.direction.length() / view.depth(ray.at(1.0))) as f32
     });
     let is_along = |cause: &Cause| *cause == Cause::DepthAlongRay;
-    expect(&along_ray, Buffer::Depth, None, is_along);
-    let mut capture = draw(&scene, 0.0);
+    expect(&STILL.audit(&along_ray), Buffer::Depth, None, is_along);
+    let mut capture = STILL.capture.clone();
     capture.depth = capture.depth.map(|depth| depth.min(1000.0));
     let is_km =
         |cause: &Cause| matches!(cause, Cause::DepthOfBackground(m) if (m - 1000.0).abs() < 0.1);
-    expect(&audit(&scene, &capture), Buffer::Depth, None, is_km);
+    expect(&STILL.audit(&capture), Buffer::Depth, None, is_km);
 }
 
 #[test]
 fn the_object_whose_depth_is_wrong_is_named() {
-    let scene = load_small(None);
-    let disc = id_of(&scene, "disc");
-    let ids = draw(&scene, 0.0).object_id.unwrap();
-    let (scaled, _) = audit_depth(&scene, |at, depth| {
+    let disc = id_of(STILL.scene, "disc");
+    let ids = STILL.capture.object_id.as_ref().unwrap();
+    let scaled = STILL.change_depth(|at, depth| {
         if ids.pixels[at] == disc {
             1.1 * depth
         } else {
@@ -135,7 +129,7 @@ fn the_object_whose_depth_is_wrong_is_named() {
         }
     });
     for capture in [without_ids(&scaled), scaled] {
-        let verdict = audit(&scene, &capture);
+        let verdict = STILL.audit(&capture);
         let is_due =
             |cause: &Cause| matches!(cause, Cause::DepthScale(by) if (by - 1.1).abs() < 0.001);
         let finding = expect(&verdict, Buffer::Depth, Some("disc"), is_due);
@@ -149,15 +143,16 @@ fn the_object_whose_depth_is_wrong_is_named() {
 #[test]
 fn linear_depth_has_no_near_plane_to_blame() {
     let scene = load_shipped("railing");
-    let (mut capture, verdict) = audit_depth(&scene, |_, depth| 1.0 / (0.5 / depth + 0.01));
-    let finding = expect(&verdict, Buffer::Depth, None, |cause| {
-        *cause == Cause::Unknown
-    });
+    let drawn = DrawnScene::new(&scene);
+    let mut capture = drawn.change_depth(|_, depth| 1.0 / (0.5 / depth + 0.01));
+    let verdict = drawn.audit(&capture);
+    let is_unknown = |cause: &Cause| *cause == Cause::Unknown;
+    let finding = expect(&verdict, Buffer::Depth, None, is_unknown);
     let words = "depth is wrong in no known way; it differs by more than 1 % at ";
     assert!(finding.text.starts_with(words), "{}", finding.text);
     capture.convention.depth = filters::DepthKind::Reversed;
     capture.convention.near = Some(0.1);
     let is_twice =
         |cause: &Cause| matches!(cause, Cause::DepthPlanes(by) if (by - 2.0).abs() < 0.01);
-    expect(&audit(&scene, &capture), Buffer::Depth, None, is_twice);
+    expect(&drawn.audit(&capture), Buffer::Depth, None, is_twice);
 }

@@ -2,7 +2,6 @@
 
 use engine::{Buffer, Capture, Cause};
 use frame::Raster;
-use scene::Scene;
 
 use super::*;
 
@@ -21,24 +20,23 @@ fn flip<T: Clone>(raster: &mut Raster<T>) {
 
 #[test]
 fn a_picture_of_another_scene_is_said_before_its_vectors() {
-    let verdict = audit(&load_moving(), &draw(&load_shipped("fan"), 0.0));
+    let verdict = MOVING.audit(&draw(&load_shipped("fan"), 0.0));
     expect(&verdict, Buffer::Picture, None, is(Cause::OtherView));
 }
 
-fn assert_time_named(scene: &Scene, time: f64, cause: Cause) {
-    let drawn = draw(scene, time);
-    for capture in [without_ids(&drawn), drawn] {
-        let verdict = audit(scene, &capture);
-        assert!(!verdict.shows_scene, "{}", scene.id);
+fn assert_time_named(drawn: &DrawnScene, time: f64, cause: Cause) {
+    let of_another_time = draw(drawn.scene, time);
+    for capture in [without_ids(&of_another_time), of_another_time] {
+        let verdict = drawn.audit(&capture);
+        assert!(!verdict.shows_scene, "{}", drawn.scene.id);
         expect(&verdict, Buffer::Picture, None, is(cause.clone()));
     }
 }
 
 #[test]
 fn a_frame_of_another_time_is_named_and_not_compared() {
-    let scene = load_moving();
-    assert_time_named(&scene, -1.0, Cause::DrawnLate(1));
-    assert_time_named(&scene, 2.0, Cause::DrawnEarly(2));
+    assert_time_named(&MOVING, -1.0, Cause::DrawnLate(1));
+    assert_time_named(&MOVING, 2.0, Cause::DrawnEarly(2));
 }
 
 #[test]
@@ -51,32 +49,28 @@ fn a_frame_of_another_time_of_shipped_scenes_is_named() {
         ("railing", 2.0, Cause::DrawnEarly(2)),
         ("roll", -2.0, Cause::DrawnLate(2)),
     ] {
-        assert_time_named(&load_shipped(name), time, cause);
+        assert_time_named(&DrawnScene::new(&load_shipped(name)), time, cause);
     }
 }
 
 #[test]
 fn colour_tells_the_time_where_nothing_else_does() {
-    let scene = load_small(None);
-    let late = audit(&scene, &draw(&scene, -1.0));
+    let late = STILL.audit(&draw(STILL.scene, -1.0));
     assert!(late.velocity.iter().all(|object| object.is_right));
     assert!(!late.shows_scene);
     expect(&late, Buffer::Picture, None, is(Cause::DrawnLate(1)));
     // Only the colour is late if all else is of the instant.
-    let scene = load_moving();
-    let mut mixed = draw(&scene, 0.0);
-    mixed.color = draw(&scene, -1.0).color;
-    let verdict = audit(&scene, &mixed);
+    let mut mixed = MOVING.capture.clone();
+    mixed.color = draw(MOVING.scene, -1.0).color;
+    let verdict = MOVING.audit(&mixed);
     assert!(verdict.shows_scene);
     expect(&verdict, Buffer::Color, None, is(Cause::DrawnLate(1)));
 }
 
 #[test]
 fn rows_upside_down_are_named() {
-    let scene = load_moving();
-    let drawn = draw(&scene, 0.0);
     let changed = |changes: &[fn(&mut Capture)]| {
-        let mut capture = drawn.clone();
+        let mut capture = MOVING.capture.clone();
         changes.iter().for_each(|change| change(&mut capture));
         capture
     };
@@ -95,7 +89,7 @@ fn rows_upside_down_are_named() {
     let alone = rows.map(|(change, buffer, shows)| (changed(&[change]), buffer, shows));
     let all = [without_ids(&all), all].map(|capture| (capture, Buffer::Picture, false));
     for (capture, buffer, shows) in all.into_iter().chain(alone) {
-        let verdict = audit(&scene, &capture);
+        let verdict = MOVING.audit(&capture);
         assert_eq!(verdict.shows_scene, shows, "{:#?}", verdict.findings);
         expect(&verdict, buffer, None, is(Cause::UpsideDown));
     }
@@ -103,15 +97,14 @@ fn rows_upside_down_are_named() {
 
 #[test]
 fn an_object_that_is_not_drawn_is_no_pass() {
-    let scene = load_small(None);
-    let disc = id_of(&scene, "disc");
-    let mut still = scene.clone();
+    let disc = id_of(STILL.scene, "disc");
+    let mut without_disc = STILL.scene.clone();
     // The disc goes far behind the camera.
-    for key in &mut still.objects[disc as usize - 1].motion.keys {
+    for key in &mut without_disc.objects[disc as usize - 1].motion.keys {
         key.translation.z += 50.0;
     }
-    let drawn = draw(&still, 0.0);
-    let verdict = audit(&scene, &drawn);
+    let drawn = draw(&without_disc, 0.0);
+    let verdict = STILL.audit(&drawn);
     assert!(!verdict.shows_scene);
     let finding = expect(
         &verdict,
@@ -122,17 +115,16 @@ fn an_object_that_is_not_drawn_is_no_pass() {
     assert!(finding.text.contains("0.0 % of its "), "{}", finding.text);
     // The rest of the picture agrees.
     assert!(verdict.alike > 0.8, "{}", verdict.alike);
-    let without = audit(&scene, &without_ids(&drawn)).findings;
+    let without = STILL.audit(&without_ids(&drawn)).findings;
     let text = &without[0].text;
     assert!(text.contains("object.exr would show"), "{text}");
 }
 
 #[test]
 fn the_colours_of_unlit_scenes_are_compared() {
-    let scene = load_small(Some("unlit"));
-    let drawn = draw(&scene, 0.0);
+    let drawn = &UNLIT.capture;
     let recolored = |object: Option<&str>, change: fn([f32; 3]) -> [f32; 3]| {
-        let id = object.map(|name| id_of(&scene, name));
+        let id = object.map(|name| id_of(UNLIT.scene, name));
         let mut capture = drawn.clone();
         let ids = drawn.object_id.iter().flat_map(|ids| &ids.pixels);
         for (color, pixel_id) in capture.color.pixels.iter_mut().zip(ids) {
@@ -140,7 +132,7 @@ fn the_colours_of_unlit_scenes_are_compared() {
                 *color = change(*color);
             }
         }
-        audit(&scene, &capture)
+        UNLIT.audit(&capture)
     };
     let black = recolored(Some("car"), |_| [0.0; 3]);
     assert!(black.shows_scene && black.compares_color);
@@ -156,10 +148,9 @@ fn the_colours_of_unlit_scenes_are_compared() {
     let finding = expect(&bright, Buffer::Color, None, is_twice);
     assert!(finding.text.contains("`color_scale` 2.0"), "{finding:#?}");
     // Light is the engine's own choice.
-    let lit = load_small(None);
-    let mut dark = draw(&lit, 0.0);
+    let mut dark = STILL.capture.clone();
     dark.color = dark.color.map(|_| [0.0; 3]);
-    let dark = audit(&lit, &dark);
+    let dark = STILL.audit(&dark);
     assert!(dark.findings.is_empty(), "{:#?}", dark.findings);
     assert!(!dark.compares_color);
 }

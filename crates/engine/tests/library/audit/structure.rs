@@ -9,26 +9,27 @@ use tracer::PointMotion;
 use super::*;
 
 /// Takes the velocity of some objects from another motion, and audits it.
-fn audit_mixed(scene: &Scene, objects: &[&str], motion: &PointMotion) -> CaptureAudit {
-    let other = trace_velocity(scene, motion);
-    audit_changed(scene, objects, |at, _| other.pixels[at])
+fn audit_mixed(drawn: &DrawnScene, objects: &[&str], motion: &PointMotion) -> CaptureAudit {
+    let other = trace_velocity(drawn.scene, motion);
+    audit_changed(drawn, objects, |at, _| other.pixels[at])
 }
 
 /// Changes the velocity of some objects, by pixel, and audits it.
 fn audit_changed(
-    scene: &Scene,
+    drawn: &DrawnScene,
     objects: &[&str],
     change: impl Fn(usize, [f32; 2]) -> [f32; 2],
 ) -> CaptureAudit {
-    let ids: Vec<u32> = objects.iter().map(|name| id_of(scene, name)).collect();
-    let mut capture = draw(scene, 0.0);
-    let seen = capture.object_id.clone().unwrap();
+    let ids = objects.iter().map(|name| id_of(drawn.scene, name));
+    let ids: Vec<u32> = ids.collect();
+    let mut velocity = drawn.capture.velocity.clone();
+    let seen = drawn.capture.object_id.as_ref().unwrap();
     for (at, id) in seen.pixels.iter().enumerate() {
         if ids.contains(id) {
-            capture.velocity.pixels[at] = change(at, capture.velocity.pixels[at]);
+            velocity.pixels[at] = change(at, velocity.pixels[at]);
         }
     }
-    audit(scene, &capture)
+    drawn.audit_velocity(velocity)
 }
 
 /// Expects one finding per object, with a cause, and no advice on units or conventions.
@@ -48,7 +49,7 @@ fn expect_each(audit: &CaptureAudit, objects: &[&str], is_cause: impl Fn(&Cause)
 }
 
 /// The moving scene, in which the disc is the car's child.
-pub(super) fn with_child() -> Scene {
+fn with_child() -> Scene {
     let mut scene = load_moving();
     let [disc, car] = ["disc", "car"].map(|name| id_of(&scene, name) as usize - 1);
     // A parent comes before its children.
@@ -68,7 +69,7 @@ pub(super) fn with_child() -> Scene {
 
 /// The moving scene, in which the disc changes its shape like a bone that bends: its upper half
 /// leans over.
-pub(super) fn with_shapes() -> Scene {
+fn with_shapes() -> Scene {
     let mut scene = load_moving();
     let disc = &scene.objects[id_of(&scene, "disc") as usize - 1];
     let mesh = &mut scene.meshes[disc.mesh];
@@ -83,12 +84,19 @@ pub(super) fn with_shapes() -> Scene {
     scene
 }
 
+static CHILD_SCENE: LazyLock<Scene> = LazyLock::new(with_child);
+static LEANING_SCENE: LazyLock<Scene> = LazyLock::new(|| with_shapes().later_by(0.5));
+
+/// The scene with a child.
+pub(super) static CHILD: LazyLock<DrawnScene> = LazyLock::new(|| DrawnScene::new(&CHILD_SCENE));
+/// The scene in which the disc changes its shape, half a frame later.
+pub(super) static LEANING: LazyLock<DrawnScene> = LazyLock::new(|| DrawnScene::new(&LEANING_SCENE));
+
 #[test]
 fn an_instance_without_its_own_motion_is_named() {
-    let scene = load_moving();
     let without = PointMotion::WITHOUT_OBJECTS;
     let missing = |cause: &Cause| *cause == Cause::OwnMotionMissing;
-    let verdict = audit_mixed(&scene, &["car"], &without);
+    let verdict = audit_mixed(&MOVING, &["car"], &without);
     expect_each(&verdict, &["car"], missing);
     let text = &verdict.findings[0].text;
     let words = "velocity of `car` lacks its own motion; keep the matrix of each object, and of each instance";
@@ -97,22 +105,19 @@ fn an_instance_without_its_own_motion_is_named() {
 
 #[test]
 fn a_child_that_moves_as_its_parent_alone_is_told_from_one_that_does_not_move() {
-    let scene = with_child();
     let [child, all] = [PointMotion::WITHOUT_OWN, PointMotion::WITHOUT_OBJECTS];
     let missing = |due: Cause| move |cause: &Cause| *cause == due;
-    let verdict = audit_mixed(&scene, &["disc"], &child);
+    let verdict = audit_mixed(&CHILD, &["disc"], &child);
     expect_each(&verdict, &["disc"], missing(Cause::OwnMotionMissing));
-    let verdict = audit_mixed(&scene, &["disc"], &all);
+    let verdict = audit_mixed(&CHILD, &["disc"], &all);
     expect_each(&verdict, &["disc"], missing(Cause::ObjectMotionMissing));
 }
 
 #[test]
 fn bones_and_morphs_that_are_not_kept_are_named() {
-    let scene = with_shapes();
-    assert_passes(&scene, &draw(&scene, 0.0));
     let without = PointMotion::WITHOUT_SHAPES;
     let missing = |cause: &Cause| *cause == Cause::DeformationMissing;
-    let verdict = audit_mixed(&scene, &["disc"], &without);
+    let verdict = audit_mixed(&LEANING, &["disc"], &without);
     expect_each(&verdict, &["disc"], missing);
     let text = &verdict.findings[0].text;
     assert!(
@@ -123,9 +128,8 @@ fn bones_and_morphs_that_are_not_kept_are_named() {
 
 #[test]
 fn jitter_in_one_pass_is_an_offset_on_its_objects_and_no_scale() {
-    let scene = load_moving();
     for offset in [[-0.3, 0.2], [0.45, -0.1], [0.0, 0.4]] {
-        let verdict = audit_changed(&scene, &["car", "disc"], |_, [x, y]| {
+        let verdict = audit_changed(&MOVING, &["car", "disc"], |_, [x, y]| {
             [x + offset[0], y + offset[1]]
         });
         let is_offset = |cause: &Cause| match cause {
@@ -146,9 +150,8 @@ fn jitter_in_one_pass_is_an_offset_on_its_objects_and_no_scale() {
 
 #[test]
 fn an_object_of_another_sign_or_length_is_named_without_advice_on_the_convention() {
-    let scene = load_moving();
-    let turned = audit_changed(&scene, &["car"], |_, [x, y]| [-x, -y]);
-    let twice = audit_changed(&scene, &["car"], |_, [x, y]| [2.0 * x, 2.0 * y]);
+    let turned = audit_changed(&MOVING, &["car"], |_, [x, y]| [-x, -y]);
+    let twice = audit_changed(&MOVING, &["car"], |_, [x, y]| [2.0 * x, 2.0 * y]);
     for (verdict, words) in [
         (turned, "velocity of `car` has the wrong sign"),
         (twice, "velocity of `car` is twice too long"),
@@ -164,9 +167,7 @@ fn an_object_of_another_sign_or_length_is_named_without_advice_on_the_convention
 
 #[test]
 fn a_buffer_of_half_the_resolution_is_named() {
-    let scene = load_moving();
-    let drawn = DrawnScene::new(&scene);
-    let velocity = &drawn.capture.velocity;
+    let velocity = &MOVING.capture.velocity;
     let block = |x: u32, y: u32| [x / 2 * 2, y / 2 * 2];
     let cornered = Vectors::from_fn(WIDTH, HEIGHT, |x, y| {
         let [x, y] = block(x, y);
@@ -183,7 +184,7 @@ fn a_buffer_of_half_the_resolution_is_named() {
         [0, 1].map(|axis| 0.25 * sum(axis))
     });
     for half in [cornered, mean] {
-        let verdict = drawn.audit_velocity(half);
+        let verdict = MOVING.audit_velocity(half);
         let is_half = |cause: &Cause| *cause == Cause::LowResolution(2);
         let finding = expect(&verdict, Buffer::Velocity, None, is_half);
         let words = "velocity has 1/2 of the resolution: 2x2 pixels share a vector";
@@ -211,7 +212,8 @@ fn a_shape_of_another_key_is_named_with_its_time() {
     later.meshes[disc].shapes = vec![shape(-1.0, place(1.25)), shape(0.0, place(0.0))];
     later.meshes[disc].positions = place(1.25);
     let other = trace_velocity(&later, &PointMotion::RIGHT);
-    let verdict = audit_changed(&scene, &["disc"], |at, _| other.pixels[at]);
+    let drawn = DrawnScene::new(&scene);
+    let verdict = audit_changed(&drawn, &["disc"], |at, _| other.pixels[at]);
     expect_each(&verdict, &["disc"], |cause| {
         *cause == Cause::OtherPose(1.25)
     });

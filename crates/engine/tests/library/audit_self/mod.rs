@@ -4,6 +4,8 @@
 mod coverage;
 mod planted;
 
+use std::sync::LazyLock;
+
 use engine::{Capture, RegionAudit, SequenceAudit, SimpleCause, Verdict, audit_frames};
 use frame::{Vectors, VelocityKind};
 use scene::Scene;
@@ -39,6 +41,10 @@ fn draw_frames(name: &str, times: &[f64], seed: u64) -> Vec<Capture> {
     times.iter().map(|time| draw(&scene, *time, seed)).collect()
 }
 
+/// Two frames of the fan, with right velocity.
+static FAN: LazyLock<[Capture; 2]> =
+    LazyLock::new(|| [0, 1].map(|frame| draw(&load_shipped("fan"), TIMES[frame], 1)));
+
 fn audit(frames: &[Capture]) -> SequenceAudit {
     let mut read = |index: usize| Ok(frames[index].clone());
     audit_frames(frames.len(), &mut read, &mut |_, _| Ok(())).unwrap()
@@ -59,7 +65,7 @@ fn assert_passes(name: &str, audit: &SequenceAudit) {
 
 #[test]
 fn right_velocity_carries() {
-    let audit = audit(&draw_frames("fan", &TIMES[..2], 1));
+    let audit = audit(&*FAN);
     assert_passes("fan", &audit);
     let wall = region(&audit, 1, WALL);
     assert_eq!(wall.verdict, Verdict::Carries);
@@ -85,7 +91,7 @@ fn right_velocity_carries_in_every_kind_of_scene() {
 #[test]
 fn a_still_scene_carries() {
     let scene = load_shipped("fan");
-    let mut frames = [draw(&scene, 0.0, 1), draw(&scene, 0.0, 2)];
+    let mut frames = [FAN[1].clone(), draw(&scene, 0.0, 2)];
     for frame in &mut frames {
         frame.velocity = frame.velocity.map(|_| [0.0; 2]);
     }
@@ -94,7 +100,7 @@ fn a_still_scene_carries() {
 
 #[test]
 fn pictures_without_detail_tell_nothing() {
-    let mut frames = draw_frames("fan", &TIMES[..2], 1);
+    let mut frames = FAN.clone();
     for frame in &mut frames {
         frame.color = frame.color.map(|_| [0.5; 3]);
     }
@@ -111,7 +117,7 @@ fn pictures_without_detail_tell_nothing() {
 
 #[test]
 fn without_ids_the_picture_has_nine_parts() {
-    let mut frames = draw_frames("fan", &TIMES[..2], 1);
+    let mut frames = FAN.clone();
     for frame in &mut frames {
         frame.object_id = None;
     }
@@ -123,7 +129,7 @@ fn without_ids_the_picture_has_nine_parts() {
 
 #[test]
 fn ids_may_be_any_numbers() {
-    let mut frames = draw_frames("fan", &TIMES[..2], 1);
+    let mut frames = FAN.clone();
     for frame in &mut frames {
         let ids = frame.object_id.as_mut().unwrap();
         ids.pixels

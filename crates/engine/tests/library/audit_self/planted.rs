@@ -42,7 +42,6 @@ fn assert_named(audit: &SequenceAudit, object: &str, cause: SimpleCause) {
 
 #[test]
 fn a_wrong_velocity_of_one_object_is_named() {
-    let right = draw_frames("fan", &TIMES[..2], 1);
     type Change = fn([f32; 2]) -> [f32; 2];
     let mistakes: [(SimpleCause, Change); 4] = [
         (SimpleCause::Zero, |_| [0.0; 2]),
@@ -51,7 +50,7 @@ fn a_wrong_velocity_of_one_object_is_named() {
         (SimpleCause::HalfAsLong, |[x, y]| [0.5 * x, 0.5 * y]),
     ];
     for (cause, mistake) in mistakes {
-        let mut frames = right.clone();
+        let mut frames = FAN.clone();
         change(&mut frames, Some(3), mistake);
         assert_named(&audit(&frames), BLADES, cause);
     }
@@ -59,7 +58,7 @@ fn a_wrong_velocity_of_one_object_is_named() {
 
 #[test]
 fn an_offset_is_found_with_its_size() {
-    let mut frames = draw_frames("fan", &TIMES[..2], 1);
+    let mut frames = FAN.clone();
     change(&mut frames, None, |[x, y]| [x + 0.25, y - 0.25]);
     let audit = audit(&frames);
     let wall = region(&audit, 1, WALL);

@@ -3,8 +3,8 @@
 use glam::{DAffine3, DVec3};
 use scene::{Parent, Scene};
 
-use super::id_of;
 use super::wrong_engine::{Draw, LAST, THIS, WrongEngine, shape_at};
+use super::{DrawnScene, id_of};
 
 /// Jitter of the last frame and of this one, in pixels: two places of a Halton sequence.
 const JITTER: [[f64; 2]; 2] = [[-0.25, 0.056], [0.125, -0.389]];
@@ -14,12 +14,11 @@ const BIAS: [f64; 2] = [2.4, -1.6];
 const WAY: DVec3 = DVec3::new(0.11, 0.05, -0.07);
 
 /// A scene and the objects whose vectors go wrong.
-pub struct Case {
+pub struct Case<'a> {
     /// Name in the table.
     pub name: &'static str,
-    pub scene: Scene,
-    /// Width of the picture, in which every object has pixels enough.
-    pub width: u32,
+    /// Scene in a size in which every object has pixels enough.
+    pub drawn: &'a DrawnScene<'a>,
     /// Object of defects of one object.
     pub target: &'static str,
     /// Object whose previous matrix it takes.
