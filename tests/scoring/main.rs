@@ -10,6 +10,7 @@ mod jod_parity;
 mod knowledge;
 mod noise;
 mod ranking;
+mod resemblance;
 mod scatter_oracle;
 mod scores;
 mod sequences;

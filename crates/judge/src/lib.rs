@@ -27,7 +27,7 @@ pub use compare::{
     SettingChange, SizeComparison, compare_runs, compare_sizes, pair_cases, rank_changes,
     score_change,
 };
-pub use decoys::{Resemblance, make_wrong_pictures};
+pub use decoys::{Decoys, Resemblance, make_wrong_pictures};
 pub use evidence::add_evidence;
 pub use few_scenes::few_scenes_text;
 pub use finding::{Finding, MAX_SAMPLES, settling_samples};

@@ -22,9 +22,6 @@ pub struct Resemblance {
 /// Distance beyond which a picture resembles none.
 const FARTHEST: f64 = 0.5;
 
-/// Distance of the best blur of a frame up to which a wrong blur is as good as right.
-const NEAREST: f64 = 0.1;
-
 /// Smallest number of scores that show a resemblance.
 const MIN_SCORES: usize = 4;
 
@@ -50,6 +47,8 @@ const COMPARED: [Metric; 15] = [
 /// Scores of wrong blurs of one scene against one truth.
 pub struct Decoys {
     decoys: Vec<(String, Deviations)>,
+    /// Those of the best blur of the frame.
+    best: Deviations,
     /// Largest deviation of any wrong blur per score, the unit of its deviations.
     scales: Vec<f64>,
 }
@@ -59,8 +58,7 @@ type Deviations = Vec<Option<f64>>;
 
 impl Decoys {
     /// Makes wrong blurs from a frame without guard band and scores them. `few_subframes`, the mean
-    /// of [`FEW_SUBFRAMES`], is one of them if given. Those that equal the best blur of the frame
-    /// are left out: a flipped y where things move sideways.
+    /// of [`FEW_SUBFRAMES`], is one of them if given.
     pub fn new(
         frame: &Frame,
         truth: &Truth,
@@ -81,21 +79,23 @@ impl Decoys {
             sizes.map(f64::abs).fold(0.0, f64::max)
         };
         let scales = (0..COMPARED.len()).map(scale).collect();
-        let mut decoys = Self { decoys, scales };
-        let is_wrong = |(_, decoy): &(String, Deviations)| {
-            (decoys.distance(&best, decoy)).is_none_or(|distance| distance > NEAREST)
-        };
-        let kept = decoys.decoys.iter().filter(|decoy| is_wrong(decoy));
-        decoys.decoys = kept.cloned().collect();
-        Ok(decoys)
+        Ok(Self {
+            decoys,
+            best,
+            scales,
+        })
     }
 
-    /// Finds the wrong blur that these scores resemble most; none if they are far from all.
+    /// Finds the wrong blur that these scores resemble most; none if they are far from all, or
+    /// nearer to the best blur of the frame: a flipped y is no mistake where things move sideways.
     pub fn nearest(&self, scores: &Scores) -> Option<Resemblance> {
         let measured = deviations(scores);
+        let perfect = measured.iter().map(|score| score.map(|_| 0.0)).collect();
         let distances = self.decoys.iter().filter_map(|(name, decoy)| {
-            let distance = self.distance(&measured, decoy)?;
-            (distance <= FARTHEST).then(|| Resemblance {
+            let apart = self.apart(&measured, decoy)?;
+            let distance = apart / self.apart(&perfect, decoy)?;
+            let is_best = (self.apart(&measured, &self.best)).is_some_and(|best| best <= apart);
+            (distance <= FARTHEST && !is_best).then(|| Resemblance {
                 decoy: name.clone(),
                 distance,
             })
@@ -103,21 +103,14 @@ impl Decoys {
         distances.min_by(|a, b| a.distance.total_cmp(&b.distance))
     }
 
-    /// Returns the distance over the scores that both have, as a fraction of the decoy's own
-    /// distance from perfect; none if there are too few such scores, or the decoy is perfect in
-    /// them.
-    fn distance(&self, measured: &Deviations, decoy: &Deviations) -> Option<f64> {
-        let (mut apart, mut whole, mut count) = (0.0, 0.0, 0);
-        for ((measured, decoy), scale) in measured.iter().zip(decoy).zip(&self.scales) {
-            if let (Some(measured), Some(decoy)) = (measured, decoy)
-                && *scale > 0.0
-            {
-                apart += ((measured - decoy) / scale).powi(2);
-                whole += (decoy / scale).powi(2);
-                count += 1;
-            }
-        }
-        (whole > 0.0 && count >= MIN_SCORES).then(|| (apart / whole).sqrt())
+    /// Returns the distance over the scores that both have; none if these are too few.
+    fn apart(&self, one: &Deviations, other: &Deviations) -> Option<f64> {
+        let both = one.iter().zip(other).zip(&self.scales);
+        let steps = both.filter_map(|((one, other), scale)| {
+            (*scale > 0.0).then_some((((*one)? - (*other)?) / scale).powi(2))
+        });
+        let steps: Vec<f64> = steps.collect();
+        (steps.len() >= MIN_SCORES).then(|| steps.iter().sum::<f64>().sqrt())
     }
 }
 
