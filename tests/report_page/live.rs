@@ -276,6 +276,7 @@ fn the_times_of_a_page_are_a_bench_of_the_program(browser: &mut Browser, sandbox
 }
 
 #[test]
+#[ignore = "prove: parameters and frames that a reader changes; each test run compares what a page runs at first"]
 fn what_a_reader_changes_is_what_the_program_measures() {
     let sandbox = Sandbox::new();
     sandbox.measure("--filters kino:default");
