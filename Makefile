@@ -10,7 +10,7 @@
 # and drives three.js, too. `make engines` builds real engines and lets them draw our scenes: engines/README.md.
 # On macOS and Windows plain cargo commands work.
 
-.PHONY: run site pictures test module wheel try_wheel prove breadth guides engines oracles replays fuzz mutants growth archive action release image publish debootstrap vulkan software_vulkan python chromium node glslang blender mdbook
+.PHONY: bpy run site pictures test module wheel try_wheel prove breadth guides engines oracles replays fuzz mutants growth archive action release image publish debootstrap vulkan software_vulkan python chromium node glslang blender mdbook
 
 # Mesa complains on every start where a login session has not set it, as in containers; nothing is written there.
 export XDG_RUNTIME_DIR ?= /tmp
@@ -117,9 +117,13 @@ ENGINES = $(abspath $(TARGET_DIR))/engines
 
 # The newest bpy that Python 3.11 takes.
 BLENDER_5 = $(abspath $(TARGET_DIR))/bpy/bin/python
+
+bpy:
+	@"$(BLENDER_5)" -c 'import bpy' 2>/dev/null || { python3.11 -m venv "$(TARGET_DIR)/bpy" && "$(BLENDER_5)" -m pip install -q bpy==5.0.1; }
+
 DRAWN = PATH="$(dir $(abspath $(PROGRAM))):$$PATH" $(SOFTWARE) "$(PYTHON)" engines/measure.py
 
-engines: software_vulkan python chromium node
+engines: software_vulkan python chromium node bpy
 	cargo build --locked --bin shuttertruth
 	cargo build --locked --manifest-path engines/bevy/Cargo.toml --target-dir "$(ENGINES)/build"
 	$(DRAWN) bevy "$(ENGINES)/bevy" -- "$(ENGINES)/build/debug/shuttertruth-bevy" {scene} {capture} {width} {height}
@@ -129,24 +133,27 @@ engines: software_vulkan python chromium node
 	$(DRAWN) threejs "$(ENGINES)/threejs" -- node engines/threejs/capture.mjs {scene} --out {capture} --size {width}x{height} --near 0.1
 	npm ci --prefix engines/babylon --no-audit --no-fund
 	$(DRAWN) babylon "$(ENGINES)/babylon" -- node engines/babylon/capture.mjs {scene} --out {capture} --size {width}x{height}
-	"$(BLENDER_5)" -c 'import bpy' 2>/dev/null || { python3.11 -m venv "$(TARGET_DIR)/bpy" && "$(BLENDER_5)" -m pip install -q bpy==5.0.1; }
 	$(DRAWN) vector_blur "$(ENGINES)/vector_blur" -- "$(BLENDER_5)" -W ignore examples/blender/blender.py -- {scene} {capture} \
 	    --size {width}x{height} --samples 16
+	LIBGL_ALWAYS_SOFTWARE=1 $(DRAWN) eevee "$(ENGINES)/eevee" -- "$(BLENDER_5)" -W ignore examples/blender/blender.py -- {scene} {capture} \
+	    --size {width}x{height} --samples 8 --blur eevee
 
 # Ten reported defects, planted again: results/studies/replays.md.
 replays: software_vulkan python
 	cargo build --locked --bin shuttertruth
 	PATH="$(dir $(abspath $(PROGRAM))):$$PATH" $(SOFTWARE) "$(PYTHON)" engines/replays.py "$(ENGINES)/replays"
 
-# LuxCore, another path tracer, renders our scenes beside us: results/studies/oracles.md. It takes about 25 minutes on two cores.
+# LuxCore and Cycles, other path tracers, render our scenes beside us: results/studies/oracles.md and oracles_cycles.md. It takes about
+# 35 minutes on two cores.
 LUXCORE = $(TARGET_DIR)/luxcore
+ORACLE = PATH="$(dir $(abspath $(PROGRAM))):$$PATH" $(SOFTWARE) "$(PYTHON)" engines/oracles.py
 
-oracles: software_vulkan python
+oracles: software_vulkan python bpy
 	cargo build --locked --bin shuttertruth
 	"$(LUXCORE)/bin/python3" -c 'import pyluxcore' 2>/dev/null || { python3 -m venv "$(LUXCORE)" && \
 	    "$(LUXCORE)/bin/python3" -m pip install -q pyluxcore==2.11.2 numpy==2.4.6 OpenEXR==3.5.3 pillow==13.0.0; }
-	PATH="$(dir $(abspath $(PROGRAM))):$$PATH" $(SOFTWARE) "$(PYTHON)" engines/oracles.py "$(ENGINES)/luxcore" -- \
-	    "$(abspath $(LUXCORE))/bin/python3" engines/luxcore/draw.py
+	$(ORACLE) luxcore "$(ENGINES)/luxcore" -- "$(abspath $(LUXCORE))/bin/python3" engines/luxcore/draw.py
+	$(ORACLE) cycles "$(ENGINES)/cycles" -- "$(BLENDER_5)" -W ignore examples/blender/blender.py --
 
 # How long to fuzz, what, and from which seed on: `make fuzz MINUTES=1 TARGETS=scene,obj SEED=7`. See docs/fuzzing.md.
 SEED ?= $(shell date +%s)

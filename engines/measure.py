@@ -30,9 +30,10 @@ PORTS = {
     "three_rs": ["three:default", "three:corrected"],
     "babylon": ["babylon:default"],
     "vector_blur": ["blender:compositor"],
+    "eevee": ["blender:eevee", "blender:eevee_mean"],
 }
 # Where the program that draws lies, if not in a folder of the engine's name.
-PROGRAMS = {"vector_blur": "examples/blender"}
+PROGRAMS = {"vector_blur": "examples/blender", "eevee": "examples/blender"}
 SIZE, SUBFRAMES = (160, 90), 32
 SHOWN = "fan"
 # The heading of what people wrote of an engine.

@@ -1,6 +1,7 @@
-"""Compares our truths with those of LuxCore, a path tracer with motion blur of its own, and writes results/studies/oracles.md.
+"""Compares our truths with those of another path tracer with motion blur of its own, and writes a page of results/studies.
 
-    python3 engines/oracles.py target/engines/luxcore -- PYTHON_WITH_PYLUXCORE engines/luxcore/draw.py
+    python3 engines/oracles.py luxcore target/engines/luxcore -- PYTHON_WITH_PYLUXCORE engines/luxcore/draw.py
+    python3 engines/oracles.py cycles target/engines/cycles -- PYTHON_WITH_BPY -W ignore examples/blender/blender.py --
 
 With CHECK set in the environment it compares with that page instead. The scenes lose their smooth normals first, in a copy: each renderer
 has a way of its own to keep these from leaking light.
@@ -21,11 +22,73 @@ from pictures import read_color, read_colors
 from program import shuttertruth
 
 TOP = pathlib.Path(__file__).resolve().parent.parent
-PAGE = TOP / "results/studies/oracles.md"
 SIZE, SAMPLES = "160x90", 256
 # How far a mean may be from ours, and how far a page's.
 BOUND = 0.002
 TOLERANCE = 0.001
+
+
+class CannotDraw(Exception):
+    """A scene that the other renderer cannot draw."""
+
+
+class LuxCore:
+    """Rigid scenes before a camera that stands."""
+
+    page = "oracles"
+    name = "LuxCore"
+    note = """LuxCore sees the scenes without smooth normals, and so do we for this page: the renderers keep these from leaking light in
+their own ways, which is 0.3 to 0.9 % on curved objects of `fan`. Three more things differ by design, and `engines/luxcore/draw.py` sets
+them: its rows are one pixel low, a sun with a disc takes radiance, and textures are given as linear floats.
+[Cycles](oracles_cycles.md) draws the scenes that LuxCore leaves out."""
+
+    def __init__(self, command):
+        self.command = command
+
+    def version(self):
+        code = "import pyluxcore; pyluxcore.Init(); print(pyluxcore.Version())"
+        return subprocess.run([self.command[0], "-c", code], stdout=subprocess.PIPE, text=True).stdout.split()[-1]
+
+    def draws(self, scene):
+        return True
+
+    def draw(self, exported, out):
+        """Draws two independent halves of the samples; returns them."""
+        words = [*self.command, exported, out, "--size", SIZE, "--samples", str(SAMPLES)]
+        drawn = subprocess.run(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        if drawn.returncode:
+            raise CannotDraw(drawn.stderr.strip().splitlines()[-1].split(": ")[-1])
+        return [read_color(out / f"{half}.exr") for half in "ab"]
+
+
+class Cycles:
+    """Moving cameras, a lens, deforming meshes and glass."""
+
+    page = "oracles_cycles"
+    name = "Cycles of Blender"
+    scenes = ["cockpit", "dolly", "flag", "foliage", "glasshouse", "neon", "pan_sky", "ramp_floor", "roll", "shallow_focus", "sparks", "wheel_roll"]
+    note = """Cycles draws what [LuxCore](oracles.md) cannot: moving cameras, a lens, deforming meshes, glass. Its shutter holds 129 poses."""
+
+    def __init__(self, command):
+        self.command = command
+
+    def version(self):
+        code = "import bpy; print(bpy.app.version_string)"
+        return subprocess.run([self.command[0], "-c", code], stdout=subprocess.PIPE, text=True).stdout.split()[-1]
+
+    def draws(self, scene):
+        return scene in self.scenes
+
+    def draw(self, exported, out):
+        """Draws two halves with different seeds; returns them."""
+        halves = []
+        for seed in (1, 2):
+            half = out / str(seed)
+            # The blur has four times the samples of other pictures.
+            settings = ["--size", SIZE, "--samples", str(SAMPLES // 8), "--blur", "cycles", "--blur-only", "--seed", str(seed)]
+            subprocess.run([*self.command, exported, half, *settings], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=True)
+            halves.append(read_color(half / "blurred.exr"))
+        return halves
 
 
 def copy_flat(scenes, out):
@@ -47,37 +110,40 @@ def compare(theirs, ours):
 
 
 def main():
-    folder, _, *draw = sys.argv[1:]
+    name, folder, _, *command = sys.argv[1:]
+    renderer = {"luxcore": LuxCore, "cycles": Cycles}[name](command)
     folder = pathlib.Path(folder)
     scenes = folder / "scenes"
     copy_flat(TOP / "scenes", scenes)
     rows, left_out = [], []
     for scene in sorted(path.parent.name for path in scenes.glob("*/scene.toml")):
+        if not renderer.draws(scene):
+            continue
         shuttertruth("engine", "export", scene, "--scenes-dir", scenes, "--gltf", folder / "gltf")
-        words = [*draw, folder / "gltf" / scene, folder / "drawn" / scene, "--size", SIZE, "--samples", str(SAMPLES)]
-        drawn = subprocess.run(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-        if drawn.returncode:
-            left_out.append(f"{scene} ({drawn.stderr.strip().splitlines()[-1].split(': ')[-1]})")
+        try:
+            theirs = renderer.draw(folder / "gltf" / scene, folder / "drawn" / scene)
+        except CannotDraw as reason:
+            left_out.append(f"{scene} ({reason})")
             continue
         render = ["truths", "render", scene, "--scenes-dir", scenes, "--alignments", "centred", "--size", SIZE]
         shuttertruth(*render, "--samples-per-pixel", SAMPLES, "--quiet", "--out", folder / "truths")
-        theirs = [read_color(folder / "drawn" / scene / f"{half}.exr") for half in "ab"]
         ratio, noise = compare(theirs, read_colors(folder / "truths" / scene / "truth_centred.exr"))
         rows.append([scene, ratio, noise])
         print(f"{scene} {ratio:.5f} {noise:.3f}", flush=True)
-    version = subprocess.run([draw[0], "-c", "import pyluxcore; pyluxcore.Init(); print(pyluxcore.Version())"], stdout=subprocess.PIPE, text=True)
-    finish(version.stdout.split()[-1], rows, left_out)
+    finish(renderer, rows, left_out)
 
 
-def finish(version, rows, left_out):
+def finish(renderer, rows, left_out):
     """Checks the means, and writes the page or compares with it."""
+    page = TOP / f"results/studies/{renderer.page}.md"
     far = [f"{scene}: {ratio:.5f} of our mean" for scene, ratio, _ in rows if abs(ratio - 1) > BOUND]
     table = "\n".join(f"| {scene} | {ratio:.5f} | {noise:.3f} |" for scene, ratio, noise in rows)
     if not os.environ.get("CHECK"):
-        PAGE.write_text(f"""# Our truth beside another renderer's
+        missing = "\n\n" + textwrap.fill(f"Left out: {', '.join(left_out)}.", 140) if left_out else ""
+        page.write_text(f"""# Our truth beside {renderer.name}
 
-LuxCore {version} renders {len(rows)} of our scenes with its own motion blur, from the exported glTF. Made by `make oracles` on {date.today()}, at
-{SIZE} with {SAMPLES} samples per pixel and a centred shutter.
+{renderer.name} {renderer.version()} renders {len(rows)} of our scenes with its own motion blur, from the exported glTF. Made by `make oracles` on
+{date.today()}, at {SIZE} with {SAMPLES} samples per pixel and a centred shutter.
 
 | scene | mean, of ours | difference, of the noise |
 |---|---|---|
@@ -85,14 +151,10 @@ LuxCore {version} renders {len(rows)} of our scenes with its own motion blur, fr
 
 The last column is the rms difference over what the noise of both pictures explains: 1 is agreement.
 
-LuxCore sees the scenes without smooth normals, and so do we for this page: the renderers keep these from leaking light in
-their own ways, which is 0.3 to 0.9 % on curved objects of `fan`. Three more things differ by design, and `engines/luxcore/draw.py` sets
-them: its rows are one pixel low, a sun with a disc takes radiance, and textures are given as linear floats.
-
-{textwrap.fill(f"Left out: {', '.join(left_out)}.", 140)}
+{renderer.note}{missing}
 """)
     else:
-        written = dict(re.findall(r"^\| (\w+) \| ([0-9.]+) \|", PAGE.read_text(), re.M))
+        written = dict(re.findall(r"^\| (\w+) \| ([0-9.]+) \|", page.read_text(), re.M))
         measured = {scene: ratio for scene, ratio, _ in rows}
         if written.keys() != measured.keys():
             far.append(f"the page has {sorted(written)}, measured {sorted(measured)}")

@@ -8,7 +8,7 @@
 
 The blur is the compositor's Vector Blur, which reads the vector pass as a real-time blur reads its velocity buffer, or with
 `--blur cycles` the motion blur of Cycles, which opens a shutter. `--blur eevee` draws everything with EEVEE and its motion blur; it
-needs Blender 5.0 and OpenGL, but no display. `--blur none` draws neither blur nor sub-frames.
+needs Blender 5.0 and OpenGL, but no display. `--blur none` draws neither blur nor sub-frames, and `--blur-only` draws only the blur.
 
 For a scene that `engine import` made of a glTF file, `--original FILE --at SECONDS --fps RATE` draws the meshes of that file, at the
 time and rate that the import was given, in the place of the exported ones: pictures of the original beside those of its import.
@@ -54,6 +54,8 @@ parser.add_argument("--at", type=float, default=0, help="time of the frame in th
 parser.add_argument("--fps", type=int, default=24, help="frames per second of that file")
 parser.add_argument("--blur", choices=["vectors", "cycles", "eevee", "none"], default="vectors")
 parser.add_argument("--alignment", choices=["centred", "trailing", "leading"], default="centred", help="shutter of Cycles or EEVEE")
+parser.add_argument("--blur-only", action="store_true", help="draw the blurred picture alone, which is no capture")
+parser.add_argument("--seed", type=int, default=0, help="seed of Cycles' noise")
 options = parser.parse_args(sys.argv[sys.argv.index("--") + 1 :])
 if options.blur == "eevee" and not IS_5:
     parser.error(f"--blur eevee needs Blender 5.0; this is {bpy.app.version_string}")
@@ -283,7 +285,7 @@ def set_quality():
         scene.eevee.use_shadows = not manifest["scene"].endswith("@unlit")
     scene.render.filter_size = 1.5
     scene.cycles.samples = options.samples
-    scene.cycles.seed = 0
+    scene.cycles.seed = options.seed
     # Blender 3.4 has wrong vectors with it.
     scene.render.use_persistent_data = IS_5
     scene.cycles.use_adaptive_sampling = False
@@ -385,9 +387,10 @@ for material in [m for m in bpy.data.materials if m.use_nodes]:
 if options.blur == "eevee":
     add_ids()
 set_quality()
-render("color", manifest["instant"])
-render_buffers()
-if options.blur != "none":
+if not options.blur_only:
+    render("color", manifest["instant"])
+    render_buffers()
+if options.blur != "none" and not options.blur_only:
     for index, seconds in enumerate(manifest["subframes"][options.alignment]):
         # EEVEE's ids are means of its samples.
         render(f"subframes/{index:04}", seconds, *([] if options.blur == "eevee" else ["object_index"]))
