@@ -32,7 +32,15 @@ class CannotDraw(Exception):
     """A scene that the other renderer cannot draw."""
 
 
-class LuxCore:
+class Renderer:
+    def __init__(self, command):
+        self.command = command
+
+    def version(self):
+        return subprocess.run([self.command[0], "-c", self.version_code], stdout=subprocess.PIPE, text=True).stdout.split()[-1]
+
+
+class LuxCore(Renderer):
     """Rigid scenes before a camera that stands."""
 
     page = "oracles"
@@ -41,13 +49,7 @@ class LuxCore:
 their own ways, which is 0.3 to 0.9 % on curved objects of `fan`. Three more things differ by design, and `engines/luxcore/draw.py` sets
 them: its rows are one pixel low, a sun with a disc takes radiance, and textures are given as linear floats.
 [Cycles](oracles_cycles.md) draws the scenes that LuxCore leaves out."""
-
-    def __init__(self, command):
-        self.command = command
-
-    def version(self):
-        code = "import pyluxcore; pyluxcore.Init(); print(pyluxcore.Version())"
-        return subprocess.run([self.command[0], "-c", code], stdout=subprocess.PIPE, text=True).stdout.split()[-1]
+    version_code = "import pyluxcore; pyluxcore.Init(); print(pyluxcore.Version())"
 
     def draws(self, scene):
         return True
@@ -61,20 +63,14 @@ them: its rows are one pixel low, a sun with a disc takes radiance, and textures
         return [read_color(out / f"{half}.exr") for half in "ab"]
 
 
-class Cycles:
+class Cycles(Renderer):
     """Moving cameras, a lens, deforming meshes and glass."""
 
     page = "oracles_cycles"
     name = "Cycles of Blender"
     scenes = ["cockpit", "dolly", "flag", "foliage", "glasshouse", "neon", "pan_sky", "ramp_floor", "roll", "shallow_focus", "sparks", "wheel_roll"]
     note = """Cycles draws what [LuxCore](oracles.md) cannot: moving cameras, a lens, deforming meshes, glass. Its shutter holds 129 poses."""
-
-    def __init__(self, command):
-        self.command = command
-
-    def version(self):
-        code = "import bpy; print(bpy.app.version_string)"
-        return subprocess.run([self.command[0], "-c", code], stdout=subprocess.PIPE, text=True).stdout.split()[-1]
+    version_code = "import bpy; print(bpy.app.version_string)"
 
     def draws(self, scene):
         return scene in self.scenes

@@ -115,7 +115,8 @@ fn json_is_run_json() {
 
 #[test]
 fn the_number_of_threads_changes_no_byte() {
-    let sandbox = Sandbox::new();
+    // Two threads measure two scenes side by side.
+    let sandbox = Sandbox::two_scenes();
     let files = |threads: &str, out: &str| {
         let words = "run --quiet --size 64x32 --samples-per-pixel 16 --filters identity";
         let more = ["--threads", threads, "--out", out];

@@ -1,6 +1,5 @@
 //! Runs: every scene of a plan, several side by side.
 
-use std::num::NonZero;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::thread;
@@ -128,8 +127,8 @@ fn count_lanes(plan: &RunPlan, scenes: usize) -> usize {
     }
     let pixels = u64::from(plan.render.width) * u64::from(plan.render.height);
     let fitting = (MAX_LANE_PIXELS / pixels.max(1)) as usize;
-    let processors = thread::available_parallelism().map_or(1, NonZero::get);
-    processors.min(MAX_LANES).min(fitting).min(scenes).max(1)
+    let threads = rayon::current_num_threads();
+    threads.min(MAX_LANES).min(fitting).min(scenes).max(1)
 }
 
 /// Measures a scene, and each later frame of it. `advance` gets the number of finished steps.
