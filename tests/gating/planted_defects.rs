@@ -99,6 +99,7 @@ impl Bench {
     fn check(&self, words: Vec<String>, bounds: &RunBounds) -> Vec<Check> {
         let count = words.len();
         let run = self.run(choices(words), CHECKED_WITH);
+        assert!(run.failures.is_empty(), "{:#?}", run.failures);
         let mut cases = run.cases.clone();
         cases.retain(|case| !case.is_reference);
         assert_eq!(cases.len(), count * self.scenes.len());

@@ -1,6 +1,6 @@
 //! Choice and opening of the adapter that runs the filters.
 
-use std::sync::RwLock;
+use std::sync::{Mutex, RwLock};
 
 use super::device::{AdapterDescription, Clock, Device, FEATURES, Gpu, LoopLimit, TIMESTAMPS};
 use super::loop_probe::find_loop_limit;
@@ -50,6 +50,7 @@ impl Gpu {
             interrupted: || false,
             opened: chosen.clone(),
             device: RwLock::new(device),
+            given_up: Mutex::new(None),
         };
         gpu.loop_limit = find_loop_limit(&gpu)?.map(|iterations| LoopLimit { iterations, lanes });
         Ok(gpu)

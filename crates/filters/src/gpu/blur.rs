@@ -301,6 +301,7 @@ impl<'g> Blur<'g> {
     /// Runs one dispatch and waits for it, so that an error names the pass that takes too long.
     fn run_dispatch(&self, dispatch: &Dispatch) -> Result<(), FilterError> {
         let place = self.place(&dispatch.entry);
+        let mut turn = self.gpu.take_turn(place)?;
         self.gpu.catch_errors(place, || {
             let mut encoder = self
                 .gpu
@@ -309,7 +310,7 @@ impl<'g> Blur<'g> {
             dispatch.encode(&mut encoder);
             self.gpu.queue().submit([encoder.finish()]);
         })?;
-        self.gpu.wait(place, self.filter().time_limit)
+        turn.wait(place, self.filter().time_limit)
     }
 }
 

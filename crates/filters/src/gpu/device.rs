@@ -1,6 +1,6 @@
 //! An opened GPU.
 
-use std::sync::{Arc, OnceLock, PoisonError, RwLock, RwLockReadGuard};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError, RwLock, RwLockReadGuard};
 
 use serde::{Deserialize, Serialize};
 
@@ -81,6 +81,8 @@ pub struct Gpu {
     pub interrupted: fn() -> bool,
     pub(super) opened: wgpu::Adapter,
     pub(super) device: RwLock<Device>,
+    /// Locked while a thread waits for its work; the pass that was given up, if one was.
+    pub(super) given_up: Mutex<Option<String>>,
 }
 
 /// An open device. It may get lost, and is opened again then.
@@ -174,6 +176,7 @@ mod tests {
     use frame::{Image, Plane, Raster, Vectors};
 
     use super::*;
+    use crate::gpu::place::Place;
     use crate::{Blur, Filter, Input, Kernels};
 
     /// Blurs a picture of 4x3 pixels.
@@ -220,5 +223,48 @@ mod tests {
         let settings = other.settings(None).unwrap();
         let mut blur = Blur::new(&gpu, &other, &settings, 4, 3).unwrap();
         assert_eq!(run(&mut blur).unwrap()[0].at(3, 2), &[3.0, 2.0, 1.0]);
+    }
+
+    #[test]
+    fn threads_that_share_a_device_get_their_own_pictures() {
+        let gpu = Gpu::new(None).unwrap();
+        let filter = Filter::builtin("identity").unwrap();
+        let settings = filter.settings(None).unwrap();
+        let blur_often = || {
+            let mut blur = Blur::new(&gpu, &filter, &settings, 4, 3).unwrap();
+            for _ in 0..300 {
+                assert_eq!(run(&mut blur).unwrap()[0].at(3, 2), &[3.0, 2.0, 1.0]);
+            }
+        };
+        std::thread::scope(|threads| {
+            for _ in 0..4 {
+                threads.spawn(blur_often);
+            }
+        });
+    }
+
+    #[test]
+    fn the_work_of_another_thread_does_not_count_and_none_follows_a_pass_that_was_given_up() {
+        let gpu = Gpu::new(None).unwrap();
+        let mut filter = Filter::builtin("identity").unwrap();
+        filter.time_limit = 1.0;
+        let settings = filter.settings(None).unwrap();
+        let mut blur = Blur::new(&gpu, &filter, &settings, 4, 3).unwrap();
+        let place = Place {
+            filter: "other",
+            pass: "work",
+        };
+        let turn = gpu.take_turn(place).unwrap();
+        std::thread::scope(|threads| {
+            let other = threads.spawn(|| run(&mut blur));
+            std::thread::sleep(std::time::Duration::from_secs_f64(1.5 * filter.time_limit));
+            assert!(!other.is_finished());
+            drop(turn);
+            other.join().unwrap().unwrap();
+        });
+        gpu.take_turn(place).unwrap().give_up(place);
+        let error = run(&mut blur).unwrap_err().to_string();
+        let expected = "not run, since pass work of other was given up";
+        assert!(error.contains(expected), "{error}");
     }
 }

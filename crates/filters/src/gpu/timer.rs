@@ -70,10 +70,11 @@ impl Gpu {
             encode(&mut encoder);
             encoder.finish()
         })?;
-        self.wait(place, DEFAULT_TIME_LIMIT)?;
+        let mut turn = self.take_turn(place)?;
+        turn.wait(place, DEFAULT_TIME_LIMIT)?;
         let start = Instant::now();
         self.catch_errors(place, || self.queue().submit([commands]))?;
-        self.wait(place, DEFAULT_TIME_LIMIT)?;
+        turn.wait(place, DEFAULT_TIME_LIMIT)?;
         Ok(start.elapsed().as_secs_f64())
     }
 }

@@ -1,5 +1,7 @@
 //! Textures on the GPU, and transfers to and from them.
 
+use std::time::Duration;
+
 use frame::{Raster, Vectors};
 use half::f16;
 use wgpu::naga::ScalarKind;
@@ -103,6 +105,9 @@ fn shorten(value: f32, cut: u32) -> u32 {
     let largest = (0x7c00 >> cut) - 1;
     ((bits + (1 << (cut - 1))) >> cut).min(largest)
 }
+
+/// Time within which the answer to a read arrives once the GPU is idle.
+const ANSWER_TIME: Duration = Duration::from_secs(10);
 
 /// The largest number of 16 bits: larger ones, such as the depth of the background, become this and
 /// not infinite.
@@ -297,8 +302,9 @@ impl Gpu {
                 _ = sender.send(result);
             });
         })?;
-        self.wait(place, DEFAULT_TIME_LIMIT)?;
-        match receiver.try_recv() {
+        self.take_turn(place)?.wait(place, DEFAULT_TIME_LIMIT)?;
+        // Another thread that submits work may be the one that sends this, a moment later.
+        match receiver.recv_timeout(ANSWER_TIME) {
             Ok(Ok(())) => {}
             Ok(Err(error)) => return Err(place.refuse(error)),
             Err(_) => return Err(place.refuse("the GPU stopped answering")),

@@ -1,5 +1,6 @@
 //! Waiting for the GPU, with a time limit.
 
+use std::sync::{MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use super::device::Gpu;
@@ -9,10 +10,32 @@ use crate::FilterError;
 /// Time between two checks of the clock and of interrupts.
 const SLICE: Duration = Duration::from_millis(100);
 
+/// A turn on the GPU. Threads that share it take turns, so that the time of one's work is not
+/// counted as another's.
+pub(super) struct Turn<'g> {
+    gpu: &'g Gpu,
+    /// The pass that was given up, if one was: the adapter may still be at work on it.
+    given_up: MutexGuard<'g, Option<String>>,
+}
+
 impl Gpu {
+    /// Waits until no other thread waits for its work. Fails if a pass was given up.
+    pub(super) fn take_turn(&self, place: Place) -> Result<Turn<'_>, FilterError> {
+        let given_up = self.given_up.lock().unwrap_or_else(PoisonError::into_inner);
+        match &*given_up {
+            None => Ok(Turn {
+                gpu: self,
+                given_up,
+            }),
+            Some(pass) => Err(place.refuse(format!("not run, since {pass} was given up"))),
+        }
+    }
+}
+
+impl Turn<'_> {
     /// Waits until the GPU has done everything that it was given. Gives up after `time_limit`
     /// seconds, and when the user interrupts.
-    pub(super) fn wait(&self, place: Place, time_limit: f64) -> Result<(), FilterError> {
+    pub fn wait(&mut self, place: Place, time_limit: f64) -> Result<(), FilterError> {
         let start = Instant::now();
         loop {
             let left = Duration::from_secs_f64(time_limit).saturating_sub(start.elapsed());
@@ -20,15 +43,15 @@ impl Gpu {
                 submission_index: None,
                 timeout: Some(SLICE.min(left)),
             };
-            match self.device().poll(slice) {
-                Ok(_) => return self.check_loss(place),
+            match self.gpu.device().poll(slice) {
+                Ok(_) => return self.gpu.check_loss(place),
                 Err(wgpu::PollError::Timeout) => {}
                 Err(error) => {
-                    self.check_loss(place)?;
+                    self.gpu.check_loss(place)?;
                     return Err(place.refuse(error));
                 }
             }
-            let error = match (self.interrupted)() {
+            let error = match (self.gpu.interrupted)() {
                 true => FilterError::Interrupted,
                 false if !left.is_zero() => continue,
                 false => FilterError::TooSlow {
@@ -37,14 +60,15 @@ impl Gpu {
                     time_limit,
                 },
             };
-            self.abandon();
+            self.give_up(place);
             return Err(error);
         }
     }
 
     /// Keeps the device open until the process ends: closing it would wait for the work that was
     /// given up.
-    fn abandon(&self) {
-        std::mem::forget((self.device(), self.queue()));
+    pub fn give_up(&mut self, place: Place) {
+        std::mem::forget((self.gpu.device(), self.gpu.queue()));
+        *self.given_up = Some(format!("pass {} of {}", place.pass, place.filter));
     }
 }

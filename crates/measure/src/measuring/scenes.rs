@@ -1,7 +1,7 @@
 //! Runs: every scene of a plan, several side by side.
 
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use std::sync::{Mutex, OnceLock};
 use std::thread;
 use std::time::Instant;
 
@@ -90,21 +90,24 @@ fn measure_all(
     let scenes = plan.all_scenes();
     let program = hash_program();
     let meter = SceneMeter::new(plan, scenes.len(), watch);
-    let (next, has_failed) = (AtomicUsize::new(0), AtomicBool::new(false));
+    let next = AtomicUsize::new(0);
+    // The first error is the cause; others may follow from it.
+    let failed = OnceLock::new();
     let measured = Mutex::new(Vec::new());
     let work = || {
-        while !has_failed.load(Ordering::Relaxed) {
+        while failed.get().is_none() {
             let index = next.fetch_add(1, Ordering::Relaxed);
             let Some(scene) = scenes.get(index) else {
                 break;
             };
             let advance = |done| meter.advance(index, done);
-            let result = measure_scene(plan, gpu, program.as_deref(), *scene, &advance);
-            has_failed.fetch_or(result.is_err(), Ordering::Relaxed);
-            measured
-                .lock()
-                .expect("no lane panics")
-                .push((index, result));
+            match measure_scene(plan, gpu, program.as_deref(), *scene, &advance) {
+                Ok(scene) => measured
+                    .lock()
+                    .expect("no lane panics")
+                    .push((index, scene)),
+                Err(error) => _ = failed.set(error),
+            }
         }
     };
     thread::scope(|lanes| {
@@ -113,9 +116,12 @@ fn measure_all(
             lane.spawn_scoped(lanes, work).expect("a thread can start");
         }
     });
+    if let Some(error) = failed.into_inner() {
+        return Err(error);
+    }
     let mut measured = measured.into_inner().expect("no lane panics");
     measured.sort_by_key(|(index, _)| *index);
-    measured.into_iter().map(|(_, result)| result).collect()
+    Ok(measured.into_iter().map(|(_, scene)| scene).collect())
 }
 
 /// Counts the lanes for a plan: one for sequences, for large pictures, and for programs of users,
