@@ -128,7 +128,11 @@ impl<'g> Blur<'g> {
     /// Runs the wanted dispatches on what has been uploaded, and reads the output.
     fn blur(&self, is_wanted: impl Fn(&Dispatch) -> bool) -> Result<Image, FilterError> {
         let place = self.place("upload");
-        (self.gpu).catch_errors(place, || self.passes.mark_output(self.gpu, &is_wanted))?;
+        let mut turn = self.gpu.take_turn(place)?;
+        self.gpu.catch_errors(place, || {
+            (self.passes).mark_output(self.gpu, &mut turn, &is_wanted);
+        })?;
+        drop(turn);
         for dispatch in self
             .passes
             .dispatches
@@ -308,7 +312,7 @@ impl<'g> Blur<'g> {
                 .device()
                 .create_command_encoder(&Default::default());
             dispatch.encode(&mut encoder);
-            self.gpu.queue().submit([encoder.finish()]);
+            turn.submit(encoder.finish());
         })?;
         turn.wait(place, self.filter().time_limit)
     }

@@ -13,6 +13,7 @@ use super::loop_counts::LoopCounts;
 use super::targets::Targets;
 use super::transfer::Target;
 use super::uniforms::FrameValues;
+use super::waiting::Turn;
 use crate::shader::{Role, UniformBlock, Variable};
 use crate::{Filter, FilterError, Format, Pass, Settings};
 
@@ -77,10 +78,10 @@ impl BoundPasses {
 
     /// Copies the mark to the output if every dispatch that writes it is wanted. Pixels that keep
     /// the mark were not written.
-    pub fn mark_output(&self, gpu: &Gpu, is_wanted: impl Fn(&Dispatch) -> bool) {
+    pub fn mark_output(&self, gpu: &Gpu, turn: &mut Turn, is_wanted: impl Fn(&Dispatch) -> bool) {
         let mut writers = (self.dispatches.iter()).filter(|dispatch| dispatch.writes("output"));
         if writers.all(is_wanted) {
-            gpu.copy(&self.mark, &self.first_output);
+            gpu.copy(turn, &self.mark, &self.first_output);
         }
     }
 

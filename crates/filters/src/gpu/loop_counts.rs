@@ -42,13 +42,14 @@ impl LoopCounts {
         gpu: &Gpu,
         place: impl Fn(usize) -> Place<'p>,
     ) -> Result<(), FilterError> {
+        let mut turn = gpu.take_turn(place(0))?;
         gpu.catch_errors(place(0), || {
             let mut encoder = gpu.device().create_command_encoder(&Default::default());
             let size = self.counts.size();
             encoder.copy_buffer_to_buffer(&self.counts, 0, &self.readable, 0, size);
-            gpu.queue().submit([encoder.finish()]);
+            turn.submit(encoder.finish());
         })?;
-        let words: Vec<u32> = gpu.read_buffer(&self.readable, place(0))?;
+        let words: Vec<u32> = turn.read_buffer(&self.readable, place(0))?;
         self.readable.unmap();
         let counts = words.chunks(self.stride as usize / 4).map(|row| row[0]);
         let most = counts.enumerate().max_by_key(|(_, count)| *count);

@@ -34,6 +34,7 @@ pub(super) fn find_loop_limit(gpu: &Gpu) -> Result<Option<u32>, FilterError> {
         filter: "none",
         pass: "probe of the longest loop",
     };
+    let mut turn = gpu.take_turn(place)?;
     let readable = gpu.catch_errors(place, || {
         let module = gpu
             .device()
@@ -71,9 +72,9 @@ pub(super) fn find_loop_limit(gpu: &Gpu) -> Result<Option<u32>, FilterError> {
         pass.dispatch_workgroups(1, 1, 1);
         drop(pass);
         encoder.copy_buffer_to_buffer(&storage, 0, &readable, 0, 8);
-        gpu.queue().submit([encoder.finish()]);
+        turn.submit(encoder.finish());
         readable
     })?;
-    let iterations = gpu.read_buffer::<u32>(&readable, place)?[0];
+    let iterations = turn.read_buffer::<u32>(&readable, place)?[0];
     Ok((iterations < PROBED).then_some(iterations))
 }

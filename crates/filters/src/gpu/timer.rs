@@ -33,6 +33,7 @@ impl Gpu {
         let stamps = count as u32 + 1;
         let size = u64::from(stamps) * u64::from(wgpu::QUERY_SIZE);
         let buffer = |usage| self.create_buffer("timestamps", size, usage);
+        let mut turn = self.take_turn(place)?;
         let readable = self.catch_errors(place, || {
             let queries = self.device().create_query_set(&wgpu::QuerySetDescriptor {
                 label: Some("timestamps"),
@@ -49,10 +50,10 @@ impl Gpu {
             encoder.write_timestamp(&queries, count as u32);
             encoder.resolve_query_set(&queries, 0..stamps, &resolved, 0);
             encoder.copy_buffer_to_buffer(&resolved, 0, &readable, 0, size);
-            self.queue().submit([encoder.finish()]);
+            turn.submit(encoder.finish());
             readable
         })?;
-        let ticks: Vec<u64> = self.read_buffer(&readable, place)?;
+        let ticks: Vec<u64> = turn.read_buffer(&readable, place)?;
         let tick = f64::from(self.queue().get_timestamp_period()) * 1e-9;
         Ok(ticks
             .windows(2)
@@ -73,7 +74,7 @@ impl Gpu {
         let mut turn = self.take_turn(place)?;
         turn.wait(place, DEFAULT_TIME_LIMIT)?;
         let start = Instant::now();
-        self.catch_errors(place, || self.queue().submit([commands]))?;
+        self.catch_errors(place, || turn.submit(commands))?;
         turn.wait(place, DEFAULT_TIME_LIMIT)?;
         Ok(start.elapsed().as_secs_f64())
     }

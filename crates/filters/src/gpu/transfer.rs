@@ -1,14 +1,13 @@
 //! Textures on the GPU, and transfers to and from them.
 
-use std::time::Duration;
-
 use frame::{Raster, Vectors};
 use half::f16;
 use wgpu::naga::ScalarKind;
 
 use super::device::Gpu;
 use super::place::Place;
-use crate::filter::{DEFAULT_TIME_LIMIT, Layer};
+use super::waiting::Turn;
+use crate::filter::Layer;
 use crate::{Convention, FilterError, Format, Input};
 
 impl Format {
@@ -105,9 +104,6 @@ fn shorten(value: f32, cut: u32) -> u32 {
     let largest = (0x7c00 >> cut) - 1;
     ((bits + (1 << (cut - 1))) >> cut).min(largest)
 }
-
-/// Time within which the answer to a read arrives once the GPU is idle.
-const ANSWER_TIME: Duration = Duration::from_secs(10);
 
 /// The largest number of 16 bits: larger ones, such as the depth of the background, become this and
 /// not infinite.
@@ -233,14 +229,14 @@ impl Gpu {
     }
 
     /// Copies one texture to another of the same size and format, without leaving the GPU.
-    pub(super) fn copy(&self, from: &Target, to: &Target) {
+    pub(super) fn copy(&self, turn: &mut Turn, from: &Target, to: &Target) {
         let mut encoder = self.device().create_command_encoder(&Default::default());
         encoder.copy_texture_to_texture(
             from.texture.as_image_copy(),
             to.texture.as_image_copy(),
             from.texture.size(),
         );
-        self.queue().submit([encoder.finish()]);
+        turn.submit(encoder.finish());
     }
 
     /// Waits for the GPU and reads a texture; components that its format lacks are 0.
@@ -251,6 +247,7 @@ impl Gpu {
     ) -> Result<Raster<[f32; 4]>, FilterError> {
         let (width, height) = (target.texture.width(), target.texture.height());
         let padded = row_bytes(width, target.format);
+        let mut turn = self.take_turn(place)?;
         let buffer = self.catch_errors(place, || {
             let usage = wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ;
             let buffer = self.create_buffer("read back", padded * u64::from(height), usage);
@@ -267,10 +264,11 @@ impl Gpu {
                 },
                 target.texture.size(),
             );
-            self.queue().submit([encoder.finish()]);
+            turn.submit(encoder.finish());
             buffer
         })?;
-        let bytes: Vec<u8> = self.read_buffer(&buffer, place)?;
+        let bytes: Vec<u8> = turn.read_buffer(&buffer, place)?;
+        drop(turn);
         let components = target.format.components();
         let row = (u64::from(width) * target.format.texel_bytes()) as usize;
         let mut pixels = Vec::with_capacity(width as usize * height as usize);
@@ -288,31 +286,6 @@ impl Gpu {
             height,
             pixels,
         })
-    }
-
-    /// Waits for the GPU and reads a whole buffer.
-    pub(super) fn read_buffer<T: bytemuck::Pod>(
-        &self,
-        buffer: &wgpu::Buffer,
-        place: Place,
-    ) -> Result<Vec<T>, FilterError> {
-        let (sender, receiver) = std::sync::mpsc::channel();
-        self.catch_errors(place, || {
-            buffer.map_async(wgpu::MapMode::Read, .., move |result| {
-                _ = sender.send(result);
-            });
-        })?;
-        self.take_turn(place)?.wait(place, DEFAULT_TIME_LIMIT)?;
-        // Another thread that submits work may be the one that sends this, a moment later.
-        match receiver.recv_timeout(ANSWER_TIME) {
-            Ok(Ok(())) => {}
-            Ok(Err(error)) => return Err(place.refuse(error)),
-            Err(_) => return Err(place.refuse("the GPU stopped answering")),
-        }
-        let bytes = buffer
-            .get_mapped_range(..)
-            .map_err(|error| place.refuse(error))?;
-        Ok(bytemuck::pod_collect_to_vec(&bytes[..]))
     }
 }
 
