@@ -36,29 +36,58 @@ pub(crate) struct Displacement {
 impl Displacement {
     /// Measures object `id` of the frame. The error is the reason why it has none.
     pub fn new(frame: &Frame, id: u32) -> Result<Self, &'static str> {
-        let pixels = frame.object_id.pixels.iter().zip(&frame.velocity.pixels);
-        let vectors: Vec<[f64; 2]> = pixels
-            .filter(|(object, _)| **object == id)
-            .map(|(_, v)| v.map(|component| f64::from(component) * frame.exposure))
-            .collect();
+        let seen = frame.object_id.pixels.iter().map(|object| *object == id);
+        let vectors = displacements(frame, seen);
         if vectors.is_empty() {
             return Err("is not visible at the instant");
         }
-        if vectors.iter().all(|d| length(*d) < LEAST_DISPLACEMENT) {
+        if !vectors.iter().any(is_moved) {
             return Err("does not move");
         }
-        let mean = mean(&vectors);
+        Ok(Self::of(&vectors))
+    }
+
+    /// Measures all pixels that move, of whatever object; none if no pixel does.
+    pub fn of_all(frame: &Frame) -> Option<Self> {
+        let vectors = displacements(frame, moving_pixels(frame));
+        (!vectors.is_empty()).then(|| Self::of(&vectors))
+    }
+
+    fn of(vectors: &[[f64; 2]]) -> Self {
+        let mean = mean(vectors);
         let squares = vectors
             .iter()
             .map(|d| length([d[0] - mean[0], d[1] - mean[1]]).powi(2));
         let deviation = (squares.sum::<f64>() / vectors.len() as f64).sqrt();
-        Ok(Self { mean, deviation })
+        Self { mean, deviation }
     }
 
     /// Returns whether all pixels go nearly as far, and in one direction.
     pub fn is_translation(&self) -> bool {
         self.deviation <= LARGEST_DEVIATION * length(self.mean)
     }
+}
+
+/// Says of every pixel whether it moves while the shutter is open.
+pub(crate) fn moving_pixels(frame: &Frame) -> impl Iterator<Item = bool> {
+    let pixels = frame.velocity.pixels.iter();
+    pixels.map(|velocity| is_moved(&displacement(frame, velocity)))
+}
+
+/// Lists the displacements of chosen pixels over the exposure.
+fn displacements(frame: &Frame, is_chosen: impl Iterator<Item = bool>) -> Vec<[f64; 2]> {
+    let chosen = (frame.velocity.pixels.iter().zip(is_chosen)).filter(|(_, is_chosen)| *is_chosen);
+    chosen
+        .map(|(velocity, _)| displacement(frame, velocity))
+        .collect()
+}
+
+fn displacement(frame: &Frame, velocity: &[f32; 2]) -> [f64; 2] {
+    velocity.map(|component| f64::from(component) * frame.exposure)
+}
+
+fn is_moved(displacement: &[f64; 2]) -> bool {
+    length(*displacement) >= LEAST_DISPLACEMENT
 }
 
 /// Unit vector along which the nearest visible pixel of an object moves, per pixel; zero if that
@@ -84,10 +113,7 @@ impl Mover {
         let Displacement { mean, deviation } = Displacement::new(frame, id)?;
         let seen = frame.object_id.map(|object| *object == id);
         let sources = find_nearest(&seen).ok_or("is not visible at the instant")?;
-        let directions = sources.map(|[x, y]| {
-            let velocity = frame.velocity.at(*x, *y);
-            unit(velocity.map(|component| f64::from(component) * frame.exposure))
-        });
+        let directions = sources.map(|[x, y]| unit(displacement(frame, frame.velocity.at(*x, *y))));
         let silhouette = Silhouette::new(&frame.coverage[id as usize], &directions);
         let mover = Self {
             displacement: mean,

@@ -4,11 +4,11 @@ mod verdict;
 
 use std::iter::Sum;
 
-use frame::{Frame, Image};
+use frame::{Frame, Image, Size};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::object::mover::Displacement;
+use crate::object::mover::{Displacement, moving_pixels};
 
 /// Least motion over the exposure, in pixels: a shorter smear has no length to measure.
 const LEAST_MOTION: f64 = 2.0;
@@ -87,9 +87,9 @@ type Steps = [usize; 2];
 /// border, if its motion is too short, or if neither the picture nor an even smear differs from the
 /// frame: a mover of one colour shows no smear.
 pub fn measure_smear(frame: &Frame, picture: &Image) -> Option<Smear> {
-    let (id, displacement) = only_mover(frame)?;
+    let (displacement, shown) = only_mover(frame)?;
     let motion = displacement[0].hypot(displacement[1]);
-    let pixels = pick_pixels(frame, id, REACH * motion)?;
+    let pixels = pick_pixels(frame.color.size(), &shown, REACH * motion)?;
     let [x, y] = displacement.map(|part| part / motion);
     let trace = |along: [f64; 2]| {
         let step = along.map(|part| part * motion);
@@ -125,33 +125,38 @@ pub fn measure_smear(frame: &Frame, picture: &Image) -> Option<Smear> {
     Some(best.1)
 }
 
-/// Finds the only object that moves, and its displacement over the exposure. None if several move,
-/// or if that one does not translate, as scores of objects decide it.
-fn only_mover(frame: &Frame) -> Option<(u32, [f64; 2])> {
+/// Finds the displacement of the only object that moves over the exposure, and the indices of its
+/// pixels. Without names of objects, all that moves is one. None if several move, or if that one
+/// does not translate, as scores of objects decide it.
+fn only_mover(frame: &Frame) -> Option<([f64; 2], Vec<usize>)> {
     let ids = 0..frame.objects.len() as u32;
     let mut movers = ids.filter_map(|id| Some((id, Displacement::new(frame, id).ok()?)));
-    let (id, motion) = movers.next()?;
-    if id == 0 || movers.next().is_some() || !motion.is_translation() {
-        return None;
-    }
+    let has_names = frame.objects.len() > 1;
+    let (motion, is_shown): (Displacement, Vec<bool>) = if has_names {
+        let (id, motion) = movers.next()?;
+        if id == 0 || movers.next().is_some() {
+            return None;
+        }
+        let ids = frame.object_id.pixels.iter();
+        (motion, ids.map(|shown| *shown == id).collect())
+    } else {
+        (Displacement::of_all(frame)?, moving_pixels(frame).collect())
+    };
     let [x, y] = motion.mean;
-    (x.hypot(y) >= LEAST_MOTION).then_some((id, motion.mean))
+    let shown = (0..is_shown.len()).filter(|index| is_shown[*index]);
+    (motion.is_translation() && x.hypot(y) >= LEAST_MOTION).then(|| (motion.mean, shown.collect()))
 }
 
 /// Picks pixels of the mover, evenly over its area; none if it has too few, or if a smear of `reach`
 /// pixels would leave the picture.
-fn pick_pixels(frame: &Frame, id: u32, reach: f64) -> Option<Vec<(u32, u32)>> {
-    let width = frame.color.width;
-    let at = |index: usize| (index as u32 % width, index as u32 / width);
-    let shown = (0..frame.object_id.pixels.len()).filter(|at| frame.object_id.pixels[*at] == id);
-    let all: Vec<(u32, u32)> = shown.map(at).collect();
+fn pick_pixels(size: Size, shown: &[usize], reach: f64) -> Option<Vec<(u32, u32)>> {
+    let at = |index: &usize| (*index as u32 % size.width, *index as u32 / size.width);
     let is_inside = |(x, y): &(u32, u32)| {
-        let (right, bottom) = (width - 1 - x, frame.color.height - 1 - y);
-        f64::from(*x.min(y).min(&right).min(&bottom))
-            > reach.min(f64::from(frame.color.height) / 3.0)
+        let (right, bottom) = (size.width - 1 - x, size.height - 1 - y);
+        f64::from(*x.min(y).min(&right).min(&bottom)) > reach.min(f64::from(size.height) / 3.0)
     };
-    let inside: Vec<(u32, u32)> = all.iter().copied().filter(is_inside).collect();
-    if inside.len() < LEAST_PIXELS || 2 * inside.len() < all.len() {
+    let inside: Vec<(u32, u32)> = shown.iter().map(at).filter(is_inside).collect();
+    if inside.len() < LEAST_PIXELS || 2 * inside.len() < shown.len() {
         return None;
     }
     let step = inside.len().div_ceil(MOST_PIXELS);
