@@ -108,6 +108,19 @@ impl<'g> Runner<'g> {
         }
     }
 
+    /// Blurs further colour images of the last run's input, which differed in nothing else, before
+    /// as now.
+    pub fn run_further(
+        &mut self,
+        input: &Input,
+        before: &Input,
+    ) -> Result<Vec<Image>, FilterError> {
+        match self {
+            Self::Kernels(blur) => blur.run_further(input, before),
+            Self::Command(blur) => blur.run(input),
+        }
+    }
+
     /// Blurs every colour image of the input with the same weights, in order; the previous frame is
     /// the input itself.
     pub fn run(&mut self, input: &Input) -> Result<Vec<Image>, FilterError> {

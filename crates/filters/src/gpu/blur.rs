@@ -79,17 +79,38 @@ impl<'g> Blur<'g> {
     pub fn run_after(&mut self, input: &Input, before: &Input) -> Result<Vec<Image>, FilterError> {
         self.check(input)?;
         self.check(before)?;
+        self.upload_layers(input, before)?;
+        // Results that do not depend on colour are kept from the first image.
+        self.blur_colors(input, before, |index| index == 0)
+    }
+
+    /// Blurs every colour image of the input with the same weights as the last run, whose input
+    /// differed in nothing but colours, before as now.
+    pub fn run_further(
+        &mut self,
+        input: &Input,
+        before: &Input,
+    ) -> Result<Vec<Image>, FilterError> {
+        self.blur_colors(input, before, |_| false)
+    }
+
+    /// Blurs every colour image of the input, whose layers are uploaded. `is_first` says by the
+    /// image's number if results that do not depend on colour are still missing.
+    fn blur_colors(
+        &mut self,
+        input: &Input,
+        before: &Input,
+        is_first: impl Fn(usize) -> bool,
+    ) -> Result<Vec<Image>, FilterError> {
         assert_eq!(
             input.color.len(),
             before.color.len(),
             "every colour has one of the frame before"
         );
-        self.upload_layers(input, before)?;
         let colors = input.color.iter().zip(before.color).enumerate();
         let outputs = colors.map(|(index, (color, before))| {
             self.upload_color(color, before)?;
-            // Results that do not depend on colour are kept from the first image.
-            self.blur(|dispatch| index == 0 || dispatch.depends_on_color)
+            self.blur(|dispatch| is_first(index) || dispatch.depends_on_color)
         });
         let outputs = outputs.collect::<Result<Vec<_>, _>>()?;
         self.check_loops()?;

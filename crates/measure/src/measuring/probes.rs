@@ -70,12 +70,30 @@ impl FilteredFrame<'_> {
         colors: &[&Image],
         colors_before: &[&Image],
     ) -> Result<Vec<Image>, FilterError> {
+        let [now, before] = self.inputs(colors, colors_before);
+        let outputs = runner.run_after(&now, &before)?;
+        Ok(crop_all(outputs, self.now.guard_band))
+    }
+
+    /// Runs a filter likewise that [`run`](Self::run) has run on this frame before.
+    fn run_further(
+        &self,
+        runner: &mut Runner,
+        colors: &[&Image],
+        colors_before: &[&Image],
+    ) -> Result<Vec<Image>, FilterError> {
+        let [now, before] = self.inputs(colors, colors_before);
+        let outputs = runner.run_further(&now, &before)?;
+        Ok(crop_all(outputs, self.now.guard_band))
+    }
+
+    /// Makes the inputs of the frame and of the previous one, with other colours.
+    fn inputs<'c>(&'c self, colors: &'c [&Image], colors_before: &'c [&Image]) -> [Input<'c>; 2] {
         let now = Input {
             frame_index: self.index,
             ..filter_input(self.now, colors)
         };
-        let outputs = runner.run_after(&now, &filter_input(self.before, colors_before))?;
-        Ok(crop_all(outputs, self.now.guard_band))
+        [now, filter_input(self.before, colors_before)]
     }
 }
 
@@ -133,15 +151,15 @@ pub(crate) fn blur_with_probes(
 }
 
 /// Runs the filter on other colours and coverages of the frame, such as those of a part of its
-/// replicates, and of the previous one. Outputs are upscaled to `picture` as in
-/// [`blur_with_probes`].
+/// replicates, and of the previous one, after [`blur_with_probes`] on the frame itself. Outputs are
+/// upscaled to `picture` as there.
 pub(crate) fn blur_picture(
     runners: &mut Runners,
     filtered: FilteredFrame,
     [source, source_before]: [&Picture; 2],
     picture: Size,
 ) -> Result<Picture, FilterError> {
-    let color = filtered.run(
+    let color = filtered.run_further(
         &mut runners.color,
         &[&source.color],
         &[&source_before.color],
@@ -150,7 +168,7 @@ pub(crate) fn blur_picture(
         [source, source_before].map(|source| pack_planes(&source.coverage));
     let [mattes, mattes_before]: [Vec<&Image>; 2] =
         [&mattes, &mattes_before].map(|mattes| mattes.iter().collect());
-    let mattes = filtered.run(runners.wide(), &mattes, &mattes_before)?;
+    let mattes = filtered.run_further(runners.wide(), &mattes, &mattes_before)?;
     Ok(Picture {
         color: upscale_all(color, picture).remove(0),
         coverage: unpack_planes(&upscale_all(mattes, picture), source.coverage.len()),
