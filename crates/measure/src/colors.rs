@@ -4,12 +4,12 @@ use frame::{Frame, Image, Plane};
 
 /// Shows an error in [0, 1] in the colours of magma; no error is black.
 pub fn magma(error: &Plane) -> Image {
-    error.map(|value| {
-        // In 256 steps, so that a PNG of it has a palette.
-        let step = (value.clamp(0.0, 1.0) * 255.0).round() / 255.0;
-        let color = colorous::MAGMA.eval_continuous(f64::from(step));
-        color.as_array().map(|byte| f32::from(byte) / 255.0)
-    })
+    // In 256 steps, so that a PNG of it has a palette.
+    let palette: Vec<[f32; 3]> = (0..=u8::MAX)
+        .map(|step| colorous::MAGMA.eval_continuous(f64::from(f32::from(step) / 255.0)))
+        .map(|color| color.as_array().map(|byte| f32::from(byte) / 255.0))
+        .collect();
+    error.map(|value| palette[(value.clamp(0.0, 1.0) * 255.0).round() as usize])
 }
 
 /// Shows direction as hue and speed as brightness, full at the frame's fastest pixel. Still pixels

@@ -56,7 +56,7 @@ pub use measuring::measured_filters::MEASURED_FILTERS;
 pub use measuring::part::Part;
 pub use measuring::pictures::{CASE_FILES, FRAME_FILES, truth_files};
 pub use measuring::plan::RunPlan;
-pub use measuring::probes::{filter_input, pack_planes, unpack_planes};
+pub use measuring::probes::filter_input;
 pub use measuring::scenes::measure_scenes;
 pub use measuring::sequence::{CHANGE_PICTURE, SEQUENCE_PICTURE};
 pub use monitor::{Monitor, Step};

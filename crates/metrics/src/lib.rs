@@ -52,7 +52,7 @@ pub use metric::{
     ProbeMetric, ProbeScores, Row, SequenceMetric, SequenceScores, SkillMetric, SkillScores,
 };
 pub use object::sides::{Side, object_sides};
-pub use probe::{ProbeMeasurement, Probes};
+pub use probe::{ProbeMeasurement, Probes, mix, nonlinearity, pack_planes, unpack_planes};
 pub use reference::{ColorReference, Jitter, Measurement, Reference, Sharp, mark_shared};
 pub use scatter_oracle::{make_oracle, make_oracles, scatter_oracle};
 pub use score::{Ideal, Measured, Score};

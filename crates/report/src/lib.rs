@@ -46,8 +46,9 @@ use measure::{Case, Error, Run};
 use overview::overview;
 pub use picture_page::{NamedPicture, PicturePage, picture_page};
 pub use pixels::report_files::LARGEST_PAGE;
-use pixels::report_files::{Place, SceneTexts};
+use pixels::report_files::{Place, SceneTexts, write_script};
 use pixels::scene_files::SceneFiles;
+use rayon::prelude::*;
 pub use run_facts::adapter_text;
 use run_page::{PageContent, run_page};
 use run_view::RunView;
@@ -89,9 +90,17 @@ pub fn write_report(report: &RunReport, html: &Path) -> Result<Vec<PathBuf>, Err
         ));
     }
     let table = CaseTable::new(run);
-    let mut parts = Parts::new(run, folder, html, report.largest);
-    for scene in 0..table.scenes.len() {
-        parts.add_scene(scene, &table, report.findings, folder)?;
+    let shown = table.scenes.iter().flat_map(|scene| table.cases_on(scene));
+    let live = LiveFiles::write(run, shown.map(|(_, case)| case), folder, html)?;
+    let mut parts = Parts::new(run, html, report.largest);
+    let scenes: Vec<usize> = (0..table.scenes.len()).collect();
+    // As many at once as there are threads: their planes take memory.
+    for chunk in scenes.chunks(rayon::current_num_threads()) {
+        let read = |scene: &usize| ScenePart::read(*scene, report, &table, &live, parts.has_tables);
+        let read: Vec<_> = chunk.par_iter().map(read).collect();
+        for scene in read {
+            parts.add(scene?)?;
+        }
     }
     parts.views.sort_by_key(|view| view.index);
     let view = RunView {
@@ -114,12 +123,14 @@ pub fn write_report(report: &RunReport, html: &Path) -> Result<Vec<PathBuf>, Err
         sections: &parts.sections,
         numbers: &numbers,
         has_tables: parts.has_tables,
-        has_live: !parts.live.written.is_empty(),
+        has_live: !live.written.is_empty() || !parts.live.is_empty(),
         links_sequences: html.parent() == Some(folder),
     };
     write_atomically(html, run_page(run, &content, html).as_bytes())?;
     let files = [numbers, parts.tables.place(0)?].into_iter();
-    let files = files.flat_map(Place::paths).chain(parts.live.written);
+    let files = (files.flat_map(Place::paths))
+        .chain(live.written)
+        .chain(parts.live);
     Ok(std::iter::once(html.to_owned()).chain(files).collect())
 }
 
@@ -131,7 +142,8 @@ struct Parts<'a> {
     numbers: SceneTexts,
     /// Tables that are not in the sections.
     tables: SceneTexts,
-    live: LiveFiles<'a>,
+    /// Files of scenes with live cases.
+    live: Vec<PathBuf>,
     /// Sections of the cases, in the order of the run.
     sections: Vec<Markup>,
     views: Vec<CaseView<'a>>,
@@ -140,58 +152,91 @@ struct Parts<'a> {
 }
 
 impl<'a> Parts<'a> {
-    fn new(run: &'a Run, folder: &'a Path, html: &'a Path, largest: usize) -> Self {
+    fn new(run: &Run, html: &Path, largest: usize) -> Self {
         let has_tables = run.cases.len() <= largest / CASE_BYTES;
         Self {
             has_tables,
             numbers: SceneTexts::new("scene", html, if has_tables { largest } else { 0 }),
             tables: SceneTexts::new("tables", html, 0),
-            live: LiveFiles::new(run, folder, html),
+            live: Vec::new(),
             sections: vec![PreEscaped(String::new()); run.cases.len()],
             views: Vec::new(),
             thumbnails: Vec::new(),
         }
     }
 
-    /// Reads the files of the scene of this number, and adds its contents to the page.
-    fn add_scene(
-        &mut self,
+    fn add(&mut self, scene: ScenePart<'a>) -> Result<(), Error> {
+        for (view, section) in scene.views.into_iter().zip(scene.sections) {
+            self.sections[view.index] = section;
+            self.views.push(view);
+        }
+        if !self.has_tables {
+            let text = serde_json::to_string(&scene.tables).expect("texts are plain data");
+            self.tables.add(text)?;
+        }
+        if let Some(json) = scene.live {
+            let name = format!("live_scene_{}", self.thumbnails.len());
+            self.live
+                .push(write_script(self.numbers.html(), &name, &json)?);
+        }
+        self.numbers.add(scene.numbers)?;
+        self.thumbnails.push(scene.thumbnail);
+        Ok(())
+    }
+}
+
+/// What a page shows of one scene.
+struct ScenePart<'a> {
+    views: Vec<CaseView<'a>>,
+    /// One per view.
+    sections: Vec<Markup>,
+    /// Tables that are not in the sections, by the names of their cases.
+    tables: BTreeMap<String, [String; 2]>,
+    /// What its live cases need, as JSON; none without such cases.
+    live: Option<String>,
+    /// Numbers of the pictures, as JSON.
+    numbers: String,
+    thumbnail: String,
+}
+
+impl<'a> ScenePart<'a> {
+    /// Reads the files of the scene of this number. `has_tables` says if its sections contain the
+    /// tables.
+    fn read(
         scene: usize,
+        report: &RunReport<'a>,
         table: &CaseTable<'a>,
-        findings: &'a [Finding],
-        folder: &Path,
-    ) -> Result<(), Error> {
+        live: &LiveFiles,
+        has_tables: bool,
+    ) -> Result<Self, Error> {
         let id = table.scenes[scene];
         let cases: Vec<&Case> = table.cases_on(id).map(|(_, case)| case).collect();
-        let mut files = SceneFiles::read(table.run, &cases, folder)?;
-        let findings: Vec<&Finding> = findings
-            .iter()
+        let mut files = SceneFiles::read(table.run, &cases, report.folder)?;
+        let findings: Vec<&Finding> = (report.findings.iter())
             .filter(|finding| finding.scene == *id)
             .collect();
+        let (mut views, mut sections) = (Vec::new(), Vec::new());
         let mut is_live = false;
         let mut texts: BTreeMap<String, [String; 2]> = BTreeMap::new();
         for (index, _) in table.cases_on(id) {
             let view = CaseView::read(table.run, index, scene, &findings, &mut files)?;
-            let live = self.live.describe(view.case, scene, &files.whole)?;
+            let live = live.describe(view.case, scene, &files.whole);
             is_live |= matches!(live, Some(Live::Case(_)));
             let tables = CaseTables::new(&view, table);
-            let shown = self.has_tables.then_some(&tables);
-            self.sections[index] = case_section(&view, live.as_ref(), shown);
-            if !self.has_tables {
+            let shown = has_tables.then_some(&tables);
+            sections.push(case_section(&view, live.as_ref(), shown));
+            if !has_tables {
                 texts.extend([tables.texts(view.case)]);
             }
-            self.views.push(view);
+            views.push(view);
         }
-        if !self.has_tables {
-            let text = serde_json::to_string(&texts).expect("texts are plain data");
-            self.tables.add(text)?;
-        }
-        if is_live {
-            let json = scene_json(&mut files);
-            self.live.write(&format!("live_scene_{scene}"), &json)?;
-        }
-        self.numbers.add(files.planes.json())?;
-        self.thumbnails.push(files.thumbnail());
-        Ok(())
+        Ok(Self {
+            views,
+            sections,
+            tables: texts,
+            live: is_live.then(|| scene_json(&mut files)),
+            numbers: files.planes.json(),
+            thumbnail: files.thumbnail(),
+        })
     }
 }

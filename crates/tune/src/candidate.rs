@@ -2,7 +2,8 @@
 
 use filters::{Blur, Filter, FilterError, Kernels, Settings};
 use frame::{Image, Plane, Size};
-use measure::{FilterFrame, Runner, filter_input, pack_planes, unpack_planes};
+use measure::{FilterFrame, Runner, filter_input};
+use metrics::{pack_planes, unpack_planes};
 
 /// A filter with settings to try, ready for pictures of one size.
 pub struct Candidate<'a> {

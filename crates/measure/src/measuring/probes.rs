@@ -2,8 +2,8 @@
 //! truths.
 
 use filters::{FilterError, Gpu, Input};
-use frame::{Image, Picture, Plane, Raster, Size};
-use metrics::Probes;
+use frame::{Image, Picture, Size};
+use metrics::{Probes, mix, nonlinearity, pack_planes, unpack_planes};
 
 use crate::filter_choice::FilterChoice;
 use crate::inputs::render_scale::upscale_picture;
@@ -182,28 +182,6 @@ fn has_half_floats(image: &Image) -> bool {
     image.pixels.iter().flatten().all(is_half)
 }
 
-/// Mixes half of one and a hundredth of the other, which has values some hundred times as large.
-fn mix(color: &Image, probe: &Image) -> Image {
-    color.zip(probe, |color, probe| {
-        std::array::from_fn(|c| 0.5 * color[c] + 0.01 * probe[c])
-    })
-}
-
-/// Compares the blur of a mixture with the mixture of the blurs. The blur's change counts as at
-/// least a thousandth of the picture, so that rounding does not count as a dependence on colour.
-fn nonlinearity(mixture: &Image, blurred: &Image, expected: &Image) -> f64 {
-    const LEAST_CHANGE: f64 = 1e-3;
-    let length = |a: &Image, b: &Image| {
-        let squares = a.zip(b, |a, b| -> f64 {
-            (0..3).map(|c| f64::from(a[c] - b[c]).powi(2)).sum()
-        });
-        squares.pixels.iter().sum::<f64>().sqrt()
-    };
-    let nothing = mixture.map(|_| [0.0; 3]);
-    let change = length(blurred, mixture).max(LEAST_CHANGE * length(mixture, &nothing));
-    length(blurred, expected) / change.max(f64::MIN_POSITIVE)
-}
-
 /// Runs the filter on the frame's colour with a number of frames of its noise; none if it has no
 /// noise. Outputs are upscaled to `picture` as in [`blur_with_probes`].
 pub(crate) fn blur_noise_frames(
@@ -253,35 +231,5 @@ pub fn filter_input<'a>(frame: &'a FilterFrame, color: &'a [&'a Image]) -> Input
         exposure: frame.exposure,
         frames_per_second: frame.frames_per_second,
         frame_index: 0,
-    }
-}
-
-/// Packs three planes per image; the last image is padded with zeros.
-pub fn pack_planes(planes: &[Plane]) -> Vec<Image> {
-    let pack = |chunk: &[Plane]| {
-        Raster::from_fn(chunk[0].width, chunk[0].height, |x, y| {
-            std::array::from_fn(|c| chunk.get(c).map_or(0.0, |plane| *plane.at(x, y)))
-        })
-    };
-    planes.chunks(3).map(pack).collect()
-}
-
-/// Unpacks planes from images.
-pub fn unpack_planes(images: &[Image], count: usize) -> Vec<Plane> {
-    (0..count)
-        .map(|plane| images[plane / 3].map(|pixel| pixel[plane % 3]))
-        .collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn planes_come_back_in_their_order() {
-        let planes: Vec<Plane> = (0..5)
-            .map(|k| Raster::from_fn(4, 3, |x, y| (k * 100 + y * 4 + x) as f32))
-            .collect();
-        assert_eq!(unpack_planes(&pack_planes(&planes), 5), planes);
     }
 }

@@ -166,9 +166,9 @@ fn pick_pixels(size: Size, shown: &[usize], reach: f64) -> Option<Vec<(u32, u32)
 /// Finds the interval along rays that fits best; returns its squared difference, and the smear that
 /// `nothing` becomes.
 fn fit(rays: &[Ray], nothing: Smear) -> Option<(f64, Smear)> {
-    let none: f64 = rays.par_iter().map(Ray::change).sum();
+    let none: f64 = rays.iter().map(Ray::change).sum();
     let error = |steps: Steps| {
-        let Products { changes, smears } = rays.par_iter().map(|ray| ray.products(steps)).sum();
+        let Products { changes, smears } = rays.iter().map(|ray| ray.products(steps)).sum();
         let weight = if smears > 0.0 {
             (changes / smears).clamp(0.0, 1.0)
         } else {
@@ -233,13 +233,15 @@ fn square(color: &[f64; 3]) -> f64 {
 /// Finds the interval with the least error; returns error, weight and interval.
 fn least(
     all: impl Iterator<Item = Steps>,
-    error: &impl Fn(Steps) -> (f64, f64),
+    error: &(impl Fn(Steps) -> (f64, f64) + Sync),
 ) -> Option<(f64, f64, Steps)> {
-    let errors = all.map(|steps| {
+    let all: Vec<Steps> = all.collect();
+    let errors = all.into_par_iter().map(|steps| {
         let (error, weight) = error(steps);
         (error, weight, steps)
     });
-    errors.min_by(|a, b| a.0.total_cmp(&b.0))
+    // The first of equal ones, whichever thread finds it.
+    errors.min_by(|a, b| a.0.total_cmp(&b.0).then(a.2.cmp(&b.2)))
 }
 
 /// Sums over pixels: of the picture's change times the smear's, and of the smear's squared.

@@ -48,34 +48,37 @@ pub struct LiveFiles<'a> {
 }
 
 impl<'a> LiveFiles<'a> {
-    /// Collects live cases of a run in `folder` for the page at `html`.
-    pub fn new(run: &'a Run, folder: &'a Path, html: &'a Path) -> Self {
-        Self {
+    /// Finds the filters of a run in `folder`, and writes their files next to the page at `html`.
+    /// `cases` are in the page's order.
+    pub fn write(
+        run: &'a Run,
+        cases: impl Iterator<Item = &'a Case>,
+        folder: &'a Path,
+        html: &'a Path,
+    ) -> Result<Self, Error> {
+        let mut live = Self {
             run,
             folder,
             html,
             filters: HashMap::new(),
             written: Vec::new(),
+        };
+        for case in cases.filter(|case| is_filters(case)) {
+            if !live.filters.contains_key(&case.filter[..]) {
+                let filter = live.find_filter(case)?;
+                live.filters.insert(&case.filter, filter);
+            }
         }
+        Ok(live)
     }
 
-    /// Describes a case; `frame` is its scene's, with the guard band. Writes the file of a filter
-    /// that no case had before. None for a picture that no filter made.
-    pub fn describe(
-        &mut self,
-        case: &'a Case,
-        scene: usize,
-        frame: &FilterFrame,
-    ) -> Result<Option<Live>, Error> {
-        // An engine's own picture has no preset.
-        if case.is_reference || case.preset.is_empty() {
-            return Ok(None);
+    /// Describes a case; `frame` is its scene's, with the guard band. None for a picture that no
+    /// filter made.
+    pub fn describe(&self, case: &Case, scene: usize, frame: &FilterFrame) -> Option<Live> {
+        if !is_filters(case) {
+            return None;
         }
-        if !self.filters.contains_key(&case.filter[..]) {
-            let filter = self.find_filter(case)?;
-            self.filters.insert(&case.filter, filter);
-        }
-        Ok(Some(match &self.filters[&case.filter[..]] {
+        Some(match &self.filters[&case.filter[..]] {
             LiveFilter::Ready { number, filter } => {
                 match describe_case(case, scene, frame, *number, filter) {
                     Ok(json) => Live::Case(json),
@@ -83,13 +86,7 @@ impl<'a> LiveFiles<'a> {
                 }
             }
             LiveFilter::Not(reason) => Live::Not(reason.clone()),
-        }))
-    }
-
-    /// Writes a file that the page loads as `name`.
-    pub fn write(&mut self, name: &str, json: &str) -> Result<(), Error> {
-        self.written.push(write_script(self.html, name, json)?);
-        Ok(())
+        })
     }
 
     /// Finds the filter that a case ran, as its run's folder or this program has it, and writes its
@@ -128,12 +125,19 @@ impl<'a> LiveFiles<'a> {
                     .values()
                     .filter(|filter| matches!(filter, LiveFilter::Ready { .. }))
                     .count();
-                self.write(&format!("live_filter_{number}"), &live.to_string())?;
+                let name = format!("live_filter_{number}");
+                let path = write_script(self.html, &name, &live.to_string())?;
+                self.written.push(path);
                 let filter = Box::new(filter);
                 LiveFilter::Ready { number, filter }
             }
         })
     }
+}
+
+/// Returns whether a filter made the picture. An engine's own one has no preset.
+fn is_filters(case: &Case) -> bool {
+    !case.is_reference && !case.preset.is_empty()
 }
 
 /// Returns whether a filter has the parameters of a case.

@@ -51,14 +51,18 @@ impl Planes {
     pub fn json(&self) -> String {
         let references = self.choose_references();
         let texts: Vec<String> = (self.planes.par_iter().zip(references))
-            .map(|(bits, reference)| {
-                let whole = compress(bits, &[&[0], &bits[..]].concat());
-                let other = reference.map(|number| (number, compress(bits, &self.planes[number])));
-                match other {
-                    Some((number, other)) if other.len() < whole.len() => {
-                        format!("\"{number} {}\"", STANDARD.encode(other))
+            .map(|(bits, alike)| {
+                let whole = || compress(bits, &[&[0], &bits[..]].concat());
+                let Some(Alike { number, is_equal }) = alike else {
+                    return format!("\" {}\"", STANDARD.encode(whole()));
+                };
+                let difference = compress(bits, &self.planes[number]);
+                let whole = if is_equal { None } else { Some(whole()) };
+                match whole {
+                    Some(whole) if whole.len() <= difference.len() => {
+                        format!("\" {}\"", STANDARD.encode(whole))
                     }
-                    _ => format!("\" {}\"", STANDARD.encode(whole)),
+                    _ => format!("\"{number} {}\"", STANDARD.encode(difference)),
                 }
             })
             .collect();
@@ -67,26 +71,36 @@ impl Planes {
 
     /// Chooses for every plane the earlier one with the most equal numbers: filters leave most of a
     /// picture unchanged.
-    fn choose_references(&self) -> Vec<Option<usize>> {
+    fn choose_references(&self) -> Vec<Option<Alike>> {
         let samples: Vec<Vec<u16>> = (self.planes.iter())
             .map(|bits| bits.iter().copied().step_by(STRIDE).collect())
             .collect();
         let mut chains = vec![0; samples.len()];
         let mut references = Vec::new();
         for (number, sample) in samples.iter().enumerate() {
-            let unequal = |other: &usize| {
-                let pairs = sample.iter().zip(&samples[*other]);
-                (pairs.filter(|(bits, other)| bits != other).count(), *other)
+            let unequal = |other: usize| {
+                let pairs = sample.iter().zip(&samples[other]);
+                (pairs.filter(|(bits, other)| bits != other).count(), other)
             };
             let short = (0..number)
                 .into_par_iter()
                 .filter(|other| chains[*other] < LONGEST_CHAIN);
-            let reference = short.min_by_key(unequal);
-            chains[number] = reference.map_or(0, |other| chains[other] + 1);
-            references.push(reference);
+            let alike = short.map(unequal).min().map(|(unequal, other)| Alike {
+                number: other,
+                is_equal: 2 * unequal < sample.len(),
+            });
+            chains[number] = (alike.as_ref()).map_or(0, |alike| chains[alike.number] + 1);
+            references.push(alike);
         }
         references
     }
+}
+
+/// An earlier plane that another is like.
+struct Alike {
+    number: usize,
+    /// True if most numbers are equal, so that the difference from it takes the least bytes.
+    is_equal: bool,
 }
 
 /// Compresses the difference of every number from another: first all lower bytes, then all higher

@@ -55,6 +55,11 @@ impl SceneTexts {
         }
     }
 
+    /// Returns the path of the page.
+    pub fn html(&self) -> &Path {
+        &self.html
+    }
+
     /// Adds the text of the next scene.
     pub fn add(&mut self, text: String) -> Result<(), FileError> {
         self.bytes += text.len();
