@@ -283,3 +283,38 @@ fn a_program_runs_again_every_time() {
     assert_eq!(count_runs(), 2 * first);
     assert!(!sandbox.path("out/plate/copy_default/case.json").exists());
 }
+
+/// Runs again; returns if the page was made again.
+fn is_page_made_again(sandbox: &Sandbox, more: &str) -> bool {
+    let page = sandbox.path("out/report.html");
+    let time = || {
+        fs::metadata(&page)
+            .ok()
+            .map(|data| data.modified().unwrap())
+    };
+    let before = time();
+    sandbox.measure(&format!("{FILTERS} {more}"));
+    time() != before
+}
+
+#[test]
+fn a_page_is_made_again_only_if_what_it_shows_or_one_of_its_files_has_changed() {
+    let sandbox = measured();
+    let page = fs::read(sandbox.path("out/report.html")).unwrap();
+    assert!(!is_page_made_again(&sandbox, ""));
+    sandbox.put("out/report.html", "altered");
+    assert!(is_page_made_again(&sandbox, ""));
+    assert_eq!(fs::read(sandbox.path("out/report.html")).unwrap(), page);
+    fs::remove_file(sandbox.path("out/report_files/live_filter_0.js")).unwrap();
+    assert!(is_page_made_again(&sandbox, ""));
+    assert!(sandbox.path("out/report_files/live_filter_0.js").exists());
+    assert!(!is_page_made_again(&sandbox, ""));
+    assert!(is_page_made_again(&sandbox, "--intervals"));
+    // A check writes its findings into the page, and the next run takes them out.
+    let sandbox = checked();
+    let checked = fs::read(sandbox.path("out/report.html")).unwrap();
+    check(&sandbox);
+    assert_eq!(fs::read(sandbox.path("out/report.html")).unwrap(), checked);
+    measure_finely(&sandbox, "");
+    assert_ne!(fs::read(sandbox.path("out/report.html")).unwrap(), checked);
+}

@@ -17,6 +17,21 @@ pub struct Addition {
     pub column: Option<FilterColumn>,
 }
 
+impl Addition {
+    /// Returns all contents as text, by which equal ones are known.
+    pub fn text(&self) -> String {
+        let mut text = self.section.0.clone();
+        if let Some(column) = &self.column {
+            let mut numbers: Vec<String> = (column.numbers.iter())
+                .map(|(filter, number)| format!("{filter:?} {} {}", number.value, number.text))
+                .collect();
+            numbers.sort();
+            text += &format!("{} {} {}", column.name, column.unit, numbers.join("\n"));
+        }
+        text
+    }
+}
+
 /// A number of every filter: a column of the tables of scores, and a line of the filter's section.
 pub struct FilterColumn {
     /// Name, which is also the style of the cells: `cost`.

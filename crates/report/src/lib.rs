@@ -91,7 +91,7 @@ pub fn write_report(report: &RunReport, html: &Path) -> Result<Vec<PathBuf>, Err
     }
     let table = CaseTable::new(run);
     let shown = table.scenes.iter().flat_map(|scene| table.cases_on(scene));
-    let live = LiveFiles::write(run, shown.map(|(_, case)| case), folder, html)?;
+    let live = LiveFiles::find(run, shown.map(|(_, case)| case), folder);
     let mut parts = Parts::new(run, html, report.largest);
     let scenes: Vec<usize> = (0..table.scenes.len()).collect();
     // As many at once as there are threads: their planes take memory.
@@ -102,6 +102,7 @@ pub fn write_report(report: &RunReport, html: &Path) -> Result<Vec<PathBuf>, Err
             parts.add(scene?)?;
         }
     }
+    parts.live.extend(live.write(html)?);
     parts.views.sort_by_key(|view| view.index);
     let view = RunView {
         table: &table,
@@ -123,14 +124,12 @@ pub fn write_report(report: &RunReport, html: &Path) -> Result<Vec<PathBuf>, Err
         sections: &parts.sections,
         numbers: &numbers,
         has_tables: parts.has_tables,
-        has_live: !live.written.is_empty() || !parts.live.is_empty(),
+        has_live: !parts.live.is_empty(),
         links_sequences: html.parent() == Some(folder),
     };
     write_atomically(html, run_page(run, &content, html).as_bytes())?;
     let files = [numbers, parts.tables.place(0)?].into_iter();
-    let files = (files.flat_map(Place::paths))
-        .chain(live.written)
-        .chain(parts.live);
+    let files = files.flat_map(Place::paths).chain(parts.live);
     Ok(std::iter::once(html.to_owned()).chain(files).collect())
 }
 
@@ -142,7 +141,7 @@ struct Parts<'a> {
     numbers: SceneTexts,
     /// Tables that are not in the sections.
     tables: SceneTexts,
-    /// Files of scenes with live cases.
+    /// Files of live cases.
     live: Vec<PathBuf>,
     /// Sections of the cases, in the order of the run.
     sections: Vec<Markup>,

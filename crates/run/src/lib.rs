@@ -20,8 +20,8 @@ pub use self::compare::{CompareArgs, execute as execute_compare};
 pub use self::measured::{MeasuredRun, measure};
 pub use self::noise::choose_samples;
 pub use self::pages::{
-    WrittenFile, page_lines, page_path, refuse_folder, write_judgement, write_page, write_run,
-    write_run_page,
+    RunPage, WrittenFile, page_lines, page_path, refuse_folder, write_judgement, write_page,
+    write_run,
 };
 pub use self::plan::{Margins, add_bounds, apply_options, lock_out, make_plan, read_margins};
 pub use self::previous::PREVIOUS;

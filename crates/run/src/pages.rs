@@ -5,8 +5,10 @@ use terminal::refuse;
 
 use crate::previous;
 use judge::{Finding, Judgement, Verdict};
-use measure::{Error, Run, printable_path};
-use report::{AddToPage, LARGEST_PAGE, RunReport, SEQUENCES_PAGE, sequences_page, write_report};
+use measure::{Error, Run, hash_inputs, hash_program, look_up, printable_path, put};
+use report::{
+    AddToPage, Addition, LARGEST_PAGE, RunReport, SEQUENCES_PAGE, sequences_page, write_report,
+};
 
 /// A file that a command wrote.
 #[derive(serde::Serialize)]
@@ -54,32 +56,98 @@ pub fn page_path(html: Option<&PathBuf>, folder: &Path) -> PathBuf {
     html.cloned().unwrap_or_else(|| folder.join("report.html"))
 }
 
-/// Writes the page of a run with pictures below `folder`, and the page's files next to it.
-/// `additions` make what other crates add.
-pub fn write_run_page(
-    run: &Run,
-    findings: &[Finding],
-    verdict: Option<&Verdict>,
-    folder: &Path,
-    html: &Path,
-    additions: &[AddToPage],
-) -> Result<Vec<WrittenFile>, Error> {
-    let additions = additions.iter().map(|add| add(run, folder));
-    let report = RunReport {
-        run,
-        folder,
-        findings,
-        verdict,
-        additions: &additions.collect::<Result<Vec<_>, _>>()?,
-        largest: LARGEST_PAGE,
-    };
-    let mut files = write_report(&report, html)?;
-    if let Some(page) = sequences_page(run, findings) {
-        let path = folder.join(SEQUENCES_PAGE);
-        frame::write_atomically(&path, page.as_bytes())?;
-        files.insert(1, path);
+/// Record of the page in a run's folder: a run that makes the same page leaves it.
+const PAGE_RECORD: &str = "page.json";
+
+/// A page of a run.
+pub struct RunPage<'a> {
+    /// The run.
+    pub run: &'a Run,
+    /// Findings about it.
+    pub findings: &'a [Finding],
+    /// Verdict of a check.
+    pub verdict: Option<&'a Verdict>,
+    /// Folder of the run's pictures.
+    pub folder: &'a Path,
+    /// The page.
+    pub html: &'a Path,
+    /// Makers of what other crates add.
+    pub additions: &'a [AddToPage],
+}
+
+impl RunPage<'_> {
+    /// Writes the page and the files next to it, and forgets what a run wrote there: pictures may
+    /// have been altered since.
+    pub fn write(&self) -> Result<Vec<WrittenFile>, Error> {
+        // A missing record is as good as removed.
+        let _ = std::fs::remove_file(self.folder.join(PAGE_RECORD));
+        let files = self.write_files(&self.make_additions()?)?;
+        files.into_iter().map(WrittenFile::new).collect()
     }
-    files.into_iter().map(WrittenFile::new).collect()
+
+    /// Writes the page unless it is there already. The run's files are as its `run.json` says:
+    /// altered ones have been made again.
+    fn write_if_changed(&self) -> Result<Vec<WrittenFile>, Error> {
+        let additions = self.make_additions()?;
+        let record = self.record(&additions);
+        let names =
+            (record.as_ref()).and_then(|(path, inputs)| look_up::<Vec<String>>(path, inputs));
+        let files = match names {
+            Some(names) => names.iter().map(|name| self.folder.join(name)).collect(),
+            None => {
+                let files = self.write_files(&additions)?;
+                let name = |path: &PathBuf| {
+                    Some(path.strip_prefix(self.folder).ok()?.to_str()?.to_owned())
+                };
+                let names = files.iter().map(name).collect::<Option<Vec<String>>>();
+                if let (Some((path, inputs)), Some(names)) = (record, names) {
+                    put(&path, inputs, &names, &names)?;
+                }
+                files
+            }
+        };
+        files.into_iter().map(WrittenFile::new).collect()
+    }
+
+    fn make_additions(&self) -> Result<Vec<Addition>, Error> {
+        let makers = self.additions.iter();
+        makers.map(|add| add(self.run, self.folder)).collect()
+    }
+
+    fn write_files(&self, additions: &[Addition]) -> Result<Vec<PathBuf>, Error> {
+        let report = RunReport {
+            run: self.run,
+            folder: self.folder,
+            findings: self.findings,
+            verdict: self.verdict,
+            additions,
+            largest: LARGEST_PAGE,
+        };
+        let mut files = write_report(&report, self.html)?;
+        if let Some(page) = sequences_page(self.run, self.findings) {
+            let path = self.folder.join(SEQUENCES_PAGE);
+            frame::write_atomically(&path, page.as_bytes())?;
+            files.insert(1, path);
+        }
+        Ok(files)
+    }
+
+    /// Returns the file that records the page, and the hash of all that the page is made of. None
+    /// if the page is elsewhere, or if the program cannot be read.
+    fn record(&self, additions: &[Addition]) -> Option<(PathBuf, String)> {
+        let additions: Vec<String> = additions.iter().map(Addition::text).collect();
+        let name = self.html.strip_prefix(self.folder).ok()?;
+        let run = self.run.text();
+        let inputs = (
+            hash_program()?,
+            run,
+            self.findings,
+            self.verdict,
+            additions,
+            name,
+        );
+        Some((self.folder.join(PAGE_RECORD), hash_inputs(&inputs)))
+    }
 }
 
 /// Writes `run.json`. What it replaces becomes the previous run.
@@ -99,15 +167,15 @@ pub fn write_judgement(
 ) -> Result<Vec<WrittenFile>, Error> {
     let judgement = Judgement::new(out, findings.to_vec(), verdict)?;
     judgement.write(out)?;
-    let verdict = judgement.verdict.as_ref();
-    write_run_page(
+    let page = RunPage {
         run,
         findings,
-        verdict,
-        out,
-        &page_path(html, out),
+        verdict: judgement.verdict.as_ref(),
+        folder: out,
+        html: &page_path(html, out),
         additions,
-    )
+    };
+    page.write_if_changed()
 }
 
 /// Writes a page.

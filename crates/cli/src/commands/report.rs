@@ -8,7 +8,7 @@ use judge::Judgement;
 use measure::{Error, StoredRun, printable_path, write_layers};
 use report::{AddToPage, FolderPage, write_gallery};
 
-use run::{WrittenFile, page_lines, page_path, write_page, write_run_page};
+use run::{RunPage, WrittenFile, page_lines, page_path, write_page};
 use terminal::output::{make_monitor, open_page, print, print_json};
 
 /// Contents that other crates add to the page of a run, in their order.
@@ -84,7 +84,15 @@ fn write_run_report(args: &ReportArgs) -> Result<(Vec<WrittenFile>, Vec<WrittenF
                 None => (Vec::new(), None),
                 Some(judgement) => (judgement.findings, judgement.verdict),
             };
-            write_run_page(run, &findings, verdict.as_ref(), folder, &html, &ADDITIONS)?
+            let page = RunPage {
+                run,
+                findings: &findings,
+                verdict: verdict.as_ref(),
+                folder,
+                html: &html,
+                additions: &ADDITIONS,
+            };
+            page.write()?
         }
     };
     if let Some(out) = &args.gallery {

@@ -21,7 +21,7 @@ use report::AddToPage;
 use crate::tables::{annotations, check_text, junit, page_verdict, summary, verdict_text};
 use run::{Margins, add_bounds, make_plan, read_margins};
 use run::{MeasuredRun, measure};
-use run::{WrittenFile, page_lines, refuse_folder, write_judgement, write_run, write_run_page};
+use run::{RunPage, WrittenFile, page_lines, refuse_folder, write_judgement, write_run};
 use terminal::arguments::{AdapterArgs, MeasureArgs, SequenceArgs};
 use terminal::output::{adapter_text, is_verbose, print, print_json, print_note};
 use terminal::result::Ending;
@@ -267,10 +267,15 @@ fn judge_finished(args: &CheckArgs, path: &Path, judging: &Judging) -> Result<Ju
         written => written?,
     }
     let pages = match &args.html {
-        Some(html) => {
-            let additions = judging.additions;
-            write_run_page(&run, findings, Some(&verdict), &folder, html, additions)?
+        Some(html) => RunPage {
+            run: &run,
+            findings,
+            verdict: Some(&verdict),
+            folder: &folder,
+            html,
+            additions: judging.additions,
         }
+        .write()?,
         None => Vec::new(),
     };
     Ok(Judged {

@@ -5,13 +5,14 @@ use std::fs;
 use super::runs::{QUICK, parts};
 use crate::sandbox::{Files, Sandbox, assert_same_files, read_below};
 
-/// Reads all files of a run except the jobs' own, its judgement, and pages.
+/// Reads all files of a run except the jobs' own, its judgement, and pages with their record.
 fn contents(sandbox: &Sandbox, out: &str) -> Files {
     let mut files = read_below(&sandbox.path(out));
     files.retain(|(name, _)| {
         let text = name.to_string_lossy();
         let is_own = text.starts_with("parts/") || text.contains(".shuttertruth");
-        !is_own && text != "judgement.json" && !text.ends_with(".html")
+        let is_page = text == "page.json" || text.ends_with(".html");
+        !is_own && !is_page && text != "judgement.json"
     });
     files
 }

@@ -7,10 +7,8 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use filters::{Filter, Input, Layer};
-use frame::Size;
-use measure::{
-    Case, Error, FilterFrame, InputFormat, MEASURED_FILTERS, PROGRAM, Run, filter_input,
-};
+use frame::{FileError, Size};
+use measure::{Case, FilterFrame, InputFormat, MEASURED_FILTERS, PROGRAM, Run, filter_input};
 use metrics::{Measured, Metric};
 use serde_json::json;
 
@@ -35,41 +33,41 @@ enum LiveFilter {
     Not(String),
 }
 
-/// Live filters of a run, and the files written for them.
+/// Live filters of a run.
 pub struct LiveFiles<'a> {
     run: &'a Run,
     /// Folder of the run.
     folder: &'a Path,
-    /// Path of the page.
-    html: &'a Path,
     /// Filters by name.
     filters: HashMap<&'a str, LiveFilter>,
-    pub written: Vec<PathBuf>,
+    /// Contents of their files, as JSON.
+    texts: Vec<String>,
 }
 
 impl<'a> LiveFiles<'a> {
-    /// Finds the filters of a run in `folder`, and writes their files next to the page at `html`.
-    /// `cases` are in the page's order.
-    pub fn write(
-        run: &'a Run,
-        cases: impl Iterator<Item = &'a Case>,
-        folder: &'a Path,
-        html: &'a Path,
-    ) -> Result<Self, Error> {
+    /// Finds the filters of a run in `folder`; `cases` are in the page's order.
+    pub fn find(run: &'a Run, cases: impl Iterator<Item = &'a Case>, folder: &'a Path) -> Self {
         let mut live = Self {
             run,
             folder,
-            html,
             filters: HashMap::new(),
-            written: Vec::new(),
+            texts: Vec::new(),
         };
         for case in cases.filter(|case| is_filters(case)) {
             if !live.filters.contains_key(&case.filter[..]) {
-                let filter = live.find_filter(case)?;
+                let filter = live.find_filter(case);
                 live.filters.insert(&case.filter, filter);
             }
         }
-        Ok(live)
+        live
+    }
+
+    /// Writes the files of the filters next to the page at `html`; returns their paths.
+    pub fn write(&self, html: &Path) -> Result<Vec<PathBuf>, FileError> {
+        let write = |(number, json): (usize, &String)| {
+            write_script(html, &format!("live_filter_{number}"), json)
+        };
+        self.texts.iter().enumerate().map(write).collect()
     }
 
     /// Describes a case; `frame` is its scene's, with the guard band. None for a picture that no
@@ -89,9 +87,8 @@ impl<'a> LiveFiles<'a> {
         })
     }
 
-    /// Finds the filter that a case ran, as its run's folder or this program has it, and writes its
-    /// file.
-    fn find_filter(&mut self, case: &Case) -> Result<LiveFilter, Error> {
+    /// Finds the filter that a case ran, as its run's folder or this program has it.
+    fn find_filter(&mut self, case: &Case) -> LiveFilter {
         let folder = self.folder.join(MEASURED_FILTERS).join(&case.filter);
         let filter = if folder.join("filter.toml").is_file() {
             Filter::load(&folder)
@@ -106,7 +103,7 @@ impl<'a> LiveFiles<'a> {
                     "This page cannot run the filter: the run's folder does not hold it in WGSL."
                 }
             };
-            return Ok(LiveFilter::Not(reason.to_owned()));
+            return LiveFilter::Not(reason.to_owned());
         };
         let is_as_written = |other: &Case| {
             let mut presets = filter
@@ -117,21 +114,16 @@ impl<'a> LiveFiles<'a> {
             is_unscaled && presets.any(|preset| preset.reference_width.is_some())
         };
         let as_written = self.run.cases.iter().any(is_as_written);
-        Ok(match filter.live(self.run.render.width, as_written) {
+        match filter.live(self.run.render.width, as_written) {
             Err(reason) => LiveFilter::Not(reason),
             Ok(live) => {
-                let number = self
-                    .filters
-                    .values()
-                    .filter(|filter| matches!(filter, LiveFilter::Ready { .. }))
-                    .count();
-                let name = format!("live_filter_{number}");
-                let path = write_script(self.html, &name, &live.to_string())?;
-                self.written.push(path);
-                let filter = Box::new(filter);
-                LiveFilter::Ready { number, filter }
+                self.texts.push(live.to_string());
+                LiveFilter::Ready {
+                    number: self.texts.len() - 1,
+                    filter: Box::new(filter),
+                }
             }
-        })
+        }
     }
 }
 
