@@ -445,7 +445,7 @@ REPLAYS = [
         "by [measuring](threejs.md); no report found",
         "shader: y of the trail flipped",
         Y_FLIPPED,
-        None,
+        "y_flipped",
         three_test,
         THREE_DRAWN,
     ),
@@ -531,10 +531,10 @@ This command plants all defects and writes this page, in four minutes on two cor
 verdicts with the page instead. Captures are our tracer's frames with other vectors; without the defect, the audit passes. Limits of
 `check` are measured without the defect, as [the CI guide](../../crates/gate/guides/ci.md) says; the number of bounds is in brackets.
 
-## Caught, but not named
+## Where it shows
 
-- **Flipped y**: of the five scenes, only `roll` shows it clearly, and there the scores are more like those of half the length. A baseline
-  of `sliding_panel`, `panel_over_texture`, `two_spheres`, `railing` and `fan` passed.
+- **Flipped y**: of the five scenes, only `roll` shows it. A baseline of `sliding_panel`, `panel_over_texture`, `two_spheres`, `railing`
+  and `fan` passed.
 
 ## What their tests do
 

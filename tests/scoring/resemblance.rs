@@ -14,7 +14,9 @@ fn resemblances(scene: &Scene, pictures: &[Picture]) -> Vec<Option<String>> {
     let decoys = Decoys::new(&frame, &truth, None, &reference).unwrap();
     let nearest = |picture| {
         let scores = reference.measure(picture).unwrap().scores;
-        decoys.nearest(&scores).map(|alike| alike.decoy)
+        decoys
+            .nearest(&scores, &picture.color)
+            .map(|alike| alike.decoy)
     };
     pictures.iter().map(nearest).collect()
 }
@@ -64,4 +66,26 @@ fn a_flipped_y_is_no_mistake_of_what_moves_sideways() {
     let mut flipped = wrong.filter(|(name, _)| name == "y_flipped");
     let (_, picture) = flipped.next().unwrap();
     assert_eq!(resemblances(&scene, &[picture]), [None]);
+}
+
+/// Scores alone may be like those of another mistake: the pictures tell which.
+#[test]
+fn a_mistake_is_told_by_the_picture_among_those_with_like_scores() {
+    let scene = sliding_disc();
+    let (frame, truth) = (scene.frame(), scene.truth([Sampling::CLEAN; 2]));
+    let reference = Reference::new(&frame, &truth, None, &VIEWING).unwrap();
+    let decoys = Decoys::new(&frame, &truth, None, &reference).unwrap();
+    let wrong = make_wrong_pictures(&frame, &truth, None);
+    let picture = |name: &str| &wrong.iter().find(|(other, _)| other == name).unwrap().1;
+    let scores = reference.measure(picture("half_length")).unwrap().scores;
+    let alike = |picture: &Picture| {
+        let alike = decoys.nearest(&scores, &picture.color);
+        alike.map(|alike| alike.decoy)
+    };
+    assert_eq!(
+        alike(picture("half_length")),
+        Some("half_length".to_owned())
+    );
+    // Nothing with these scores changes the best blur like this picture.
+    assert_eq!(alike(picture("one_color")), None);
 }

@@ -54,8 +54,11 @@ fn add_evidence_of_truth(
     let decoys = Decoys::new(&frame, &truth, few_subframes, &reference)?;
     let truth = mean.color;
     for (case, findings) in cases {
-        let resembles = decoys.nearest(&case.scores);
         let output = read_exr(&folder.join(&case.folder).join("output.exr"))?.color("")?;
+        if std::env::var("DBG").is_ok() {
+            eprintln!("CASE {} {}", case.scene, case.filter);
+        }
+        let resembles = decoys.nearest(&case.scores, &output);
         let errors = ErrorMaps::read(case, folder)?;
         for finding in findings {
             let metric = finding.metric;

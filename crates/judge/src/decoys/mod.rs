@@ -3,7 +3,7 @@
 
 mod wrong;
 
-use frame::{Frame, Picture, Truth};
+use frame::{Frame, Image, Picture, Truth};
 use metrics::{Ideal, MeasureError, Metric, ObjectMetric, Reference, Scores, scatter_oracle};
 use serde::{Deserialize, Serialize};
 
@@ -21,6 +21,9 @@ pub struct Resemblance {
 
 /// Distance beyond which a picture resembles none.
 const FARTHEST: f64 = 0.5;
+
+/// Cosine below which a picture does not change the best blur as a wrong one does.
+const SMALLEST_COSINE: f64 = 0.5;
 
 /// Smallest number of scores that show a resemblance.
 const MIN_SCORES: usize = 4;
@@ -46,11 +49,18 @@ const COMPARED: [Metric; 15] = [
 
 /// Scores of wrong blurs of one scene against one truth.
 pub struct Decoys {
-    decoys: Vec<(String, Deviations)>,
-    /// Those of the best blur of the frame.
-    best: Deviations,
+    decoys: Vec<Decoy>,
+    /// The best blur of the frame.
+    best: Decoy,
     /// Largest deviation of any wrong blur per score, the unit of its deviations.
     scales: Vec<f64>,
+}
+
+/// A wrong blur, or the best one.
+struct Decoy {
+    name: String,
+    deviations: Deviations,
+    color: Image,
 }
 
 /// Signed distances from perfect of the scores in [`COMPARED`]; none if a score does not apply.
@@ -65,17 +75,19 @@ impl Decoys {
         few_subframes: Option<Picture>,
         reference: &Reference,
     ) -> Result<Self, MeasureError> {
-        let measure = |picture: &Picture| -> Result<Deviations, MeasureError> {
-            Ok(deviations(&reference.measure(picture)?.scores))
+        let measure = |(name, picture): (String, Picture)| -> Result<Decoy, MeasureError> {
+            Ok(Decoy {
+                name,
+                deviations: deviations(&reference.measure(&picture)?.scores),
+                color: picture.color,
+            })
         };
-        let mut decoys = Vec::new();
-        for (name, picture) in make_wrong_pictures(frame, truth, few_subframes) {
-            decoys.push((name, measure(&picture)?));
-        }
+        let wrong = make_wrong_pictures(frame, truth, few_subframes);
+        let decoys: Vec<Decoy> = wrong.into_iter().map(measure).collect::<Result<_, _>>()?;
         let best = scatter_oracle(frame, truth.shutter, &truth.shutter_profile);
-        let best = measure(&best)?;
+        let best = measure(("best".to_owned(), best))?;
         let scale = |score: usize| {
-            let sizes = decoys.iter().filter_map(|(_, decoy)| decoy[score]);
+            let sizes = decoys.iter().filter_map(|decoy| decoy.deviations[score]);
             sizes.map(f64::abs).fold(0.0, f64::max)
         };
         let scales = (0..COMPARED.len()).map(scale).collect();
@@ -86,21 +98,25 @@ impl Decoys {
         })
     }
 
-    /// Finds the wrong blur that these scores resemble most; none if they are far from all, or
-    /// nearer to the best blur of the frame: a flipped y is no mistake where things move sideways.
-    pub fn nearest(&self, scores: &Scores) -> Option<Resemblance> {
+    /// Finds the wrong blur that changes the best blur most like a picture, among those that have
+    /// scores like the picture's. None if these are far from all, or nearer to the best blur of the
+    /// frame: a flipped y is no mistake where things move sideways.
+    pub fn nearest(&self, scores: &Scores, picture: &Image) -> Option<Resemblance> {
         let measured = deviations(scores);
         let perfect = measured.iter().map(|score| score.map(|_| 0.0)).collect();
-        let distances = self.decoys.iter().filter_map(|(name, decoy)| {
-            let apart = self.apart(&measured, decoy)?;
-            let distance = apart / self.apart(&perfect, decoy)?;
-            let is_best = (self.apart(&measured, &self.best)).is_some_and(|best| best <= apart);
-            (distance <= FARTHEST && !is_best).then(|| Resemblance {
-                decoy: name.clone(),
-                distance,
+        let alike = self.decoys.iter().filter_map(|decoy| {
+            let apart = self.apart(&measured, &decoy.deviations)?;
+            let distance = apart / self.apart(&perfect, &decoy.deviations)?;
+            let best = self.apart(&measured, &self.best.deviations);
+            let is_best = best.is_some_and(|best| best <= apart);
+            let cosine = cosine_of_changes(&self.best.color, picture, &decoy.color);
+            (distance <= FARTHEST && !is_best && cosine >= SMALLEST_COSINE).then(|| {
+                let decoy = decoy.name.clone();
+                (cosine, Resemblance { decoy, distance })
             })
         });
-        distances.min_by(|a, b| a.distance.total_cmp(&b.distance))
+        let nearest = alike.max_by(|a, b| a.0.total_cmp(&b.0));
+        nearest.map(|(_, resemblance)| resemblance)
     }
 
     /// Returns the distance over the scores that both have; none if these are too few.
@@ -112,6 +128,19 @@ impl Decoys {
         let steps: Vec<f64> = steps.collect();
         (steps.len() >= MIN_SCORES).then(|| steps.iter().sum::<f64>().sqrt())
     }
+}
+
+/// Returns the cosine between what two pictures change in a third: 1 if they change the same, not a
+/// number if one changes nothing.
+fn cosine_of_changes(from: &Image, one: &Image, other: &Image) -> f64 {
+    let changes = |image: &Image| -> Vec<f64> {
+        let pairs = image.pixels.as_flattened().iter();
+        let pairs = pairs.zip(from.pixels.as_flattened());
+        pairs.map(|(a, b)| f64::from(a - b)).collect()
+    };
+    let (one, other) = (changes(one), changes(other));
+    let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    product(&one, &other) / (product(&one, &one) * product(&other, &other)).sqrt()
 }
 
 fn deviations(scores: &Scores) -> Deviations {
