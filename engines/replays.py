@@ -514,7 +514,8 @@ HEAD = ["defect", "how it was found", "planted", "Shuttertruth", "their test, on
 
 def write_page(rows):
     table = "\n".join(f"| {' | '.join(row)} |" for row in [HEAD, ["---"] * len(HEAD), *rows])
-    named = sum(row[3].startswith("named") for row in rows)
+    count = sum(row[3].startswith("named") for row in rows)
+    named = "each" if count == len(rows) else count
     missed = sum(row[3].startswith("**missed") for row in rows)
     failing = sum(row[4].startswith("fails") for row in rows)
     PAGE.write_text(f"""# Ten reported defects, planted again

@@ -77,6 +77,7 @@ fn watch_runs_again_when_a_file_of_the_filter_changes() {
         assert!(line.is_some(), "the run ended without \"{part}\"");
     };
     let watch = "watching ./my_blur; Ctrl-C ends";
+    next("plate: no blur 0.");
     next(watch);
     let first = sandbox.text("out/run.json");
     // A mistake is shown, and does not end the watch.

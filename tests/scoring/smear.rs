@@ -56,7 +56,7 @@ fn without_names_of_objects_all_that_moves_is_one_mover() {
     assert_eq!(measure_smear(&frame, &blurred), Some(named));
     // Two movers that go different ways have no common smear.
     let other = Object::sliding(Shape::Disc(9.0), [56.3, 15.0], [0.0, 12.0]);
-    frame = crate::scene([112, 84], vec![scene.objects[0].clone(), other]).frame();
+    frame = crate::scene([112, 84], vec![scene.objects[0], other]).frame();
     frame.objects.truncate(1);
     frame.object_id.pixels.fill(0);
     assert_eq!(measure_smear(&frame, &blurred), None);

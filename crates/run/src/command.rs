@@ -14,9 +14,9 @@ use crate::tables::{
     TableArgs, cases_csv, cases_markdown, failures_text, legend_text, ranking_markdown,
     ranking_text, run_table, sequences_text, smears_text,
 };
-use crate::watch::repeat_on_change;
+use crate::watch::{finished_text, repeat_on_change};
 use terminal::arguments::{AdapterArgs, MeasureArgs, RunOptions, parse_named};
-use terminal::output::{Text, adapter_text, clock_text, open_page, print};
+use terminal::output::{Text, adapter_text, clock_text, open_page, print, print_above_bars};
 use terminal::refuse;
 use terminal::selection::filter_folders;
 
@@ -81,6 +81,9 @@ fn run_once(args: &RunArgs, additions: &[AddToPage], open: bool) -> Result<(), E
     let (mut plan, _) = make_plan(&args.measure, args.measure.scenes.out.clone())?;
     apply_options(&mut plan, &args.options)?;
     plan.part = args.part.unwrap_or_default();
+    if args.watch {
+        plan.finished = |cases| print_above_bars(&finished_text(cases));
+    }
     let gpu = open_gpu(&plan.filters, args.adapter.adapter.as_deref(), plan.monitor)?;
     let MeasuredRun {
         run,

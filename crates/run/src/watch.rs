@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 use std::time::{Duration, SystemTime};
 
-use measure::{Error, printable_path};
+use measure::{Case, Error, ReferencePicture, printable_path};
+use metrics::Metric;
 use terminal::output::{INTERRUPTED_TEXT, print_error, print_failure, was_interrupted};
 use walkdir::WalkDir;
 
@@ -36,6 +37,27 @@ pub fn repeat_on_change(
     }
     print_error(INTERRUPTED_TEXT);
     Ok(())
+}
+
+/// Describes a finished scene: `fan: no blur 0.238, my_blur:default 0.143 (FLIP)`.
+pub fn finished_text(cases: &[Case]) -> String {
+    let Some(scene) = cases.first().map(|case| &case.scene) else {
+        return String::new();
+    };
+    let is_shown =
+        |case: &&Case| !case.is_reference || case.reference() == Some(ReferencePicture::Identity);
+    let texts = cases.iter().filter(is_shown).map(|case| {
+        let name = if case.is_reference {
+            "no blur".to_owned()
+        } else {
+            case.name()
+        };
+        match case.scores.get(Metric::FLIP).value() {
+            Some(flip) => format!("{name} {flip:.3}"),
+            None => format!("{name} n/a"),
+        }
+    });
+    format!("{scene}: {} (FLIP)", texts.collect::<Vec<_>>().join(", "))
 }
 
 /// Returns when the files differ from `before` and have settled, or after a signal.

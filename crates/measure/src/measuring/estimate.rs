@@ -12,6 +12,7 @@ use super::frames::visit_frames;
 use super::plan::RunPlan;
 use super::planned_case::PlannedCase;
 use super::scene::SceneContext;
+use super::scenes::count_lanes;
 use crate::render::run_scene::needed_rungs;
 
 /// CPU time in seconds to prepare a scene for rays, and of a sample: means over the shipped scenes,
@@ -54,6 +55,7 @@ pub struct RunEstimate {
 pub fn estimate_run(plan: &RunPlan, gpu: Option<&Gpu>) -> RunEstimate {
     let pixels = count_pixels(&plan.render);
     let mut estimate = RunEstimate::default();
+    let mut memories = Vec::new();
     let program = hash_program();
     let mut visit = |scene: &SceneContext| {
         let planned = PlannedCase::all(plan, scene.scene);
@@ -77,13 +79,16 @@ pub fn estimate_run(plan: &RunPlan, gpu: Option<&Gpu>) -> RunEstimate {
         estimate.disk += pixels as u64 * pictures * PICTURE_BYTES;
         let truths = plan.alignments().len();
         let measured = plan.measured(scene.scene, truths);
-        let memory = (scene.scene).memory(&plan.render, measured);
-        estimate.memory = estimate.memory.max(memory);
+        memories.push((scene.scene).memory(&plan.render, measured));
         Ok(())
     };
-    for scene in plan.all_scenes() {
-        let Ok(()) = visit_frames(plan, gpu, program.as_deref(), scene, &mut visit);
+    let scenes = plan.all_scenes();
+    for scene in &scenes {
+        let Ok(()) = visit_frames(plan, gpu, program.as_deref(), *scene, &mut visit);
     }
+    // The largest scenes may be measured side by side.
+    memories.sort_by(|a, b| b.cmp(a));
+    estimate.memory = memories.iter().take(count_lanes(plan, scenes.len())).sum();
     estimate.seconds += estimate.cases as f64 * pixels * REPORT_PIXEL;
     estimate
 }

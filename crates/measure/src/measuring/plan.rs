@@ -15,6 +15,7 @@ use crate::render::ingested_scene::IngestedScene;
 use crate::render::memory::Measured;
 use crate::render::rendering::Rendering;
 use crate::render::run_scene::RunScene;
+use crate::run::case::Case;
 use crate::run::sequence::Frames;
 use crate::run::{FORMAT, Run};
 use crate::stats::parts::{Groups, MIN_REPLICATES};
@@ -60,6 +61,8 @@ pub struct RunPlan {
     pub truths: Option<PathBuf>,
     /// Listener to progress, which may end the work.
     pub monitor: Monitor,
+    /// Gets the cases of each scene as it is finished, of its first frame, from any thread.
+    pub finished: fn(&[Case]),
 }
 
 /// Nothing to measure: single frames in their full form, with ladders, without intervals and
@@ -83,6 +86,7 @@ impl Default for RunPlan {
             part: Part::default(),
             truths: None,
             monitor: Monitor::SILENT,
+            finished: |_| {},
         }
     }
 }

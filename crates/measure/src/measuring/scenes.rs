@@ -102,10 +102,11 @@ fn measure_all(
             };
             let advance = |done| meter.advance(index, done);
             match measure_scene(plan, gpu, program.as_deref(), *scene, &advance) {
-                Ok(scene) => measured
-                    .lock()
-                    .expect("no lane panics")
-                    .push((index, scene)),
+                Ok(scene) => {
+                    (plan.finished)(&scene.cases);
+                    let mut measured = measured.lock().expect("no lane panics");
+                    measured.push((index, scene));
+                }
                 Err(error) => _ = failed.set(error),
             }
         }
@@ -126,7 +127,7 @@ fn measure_all(
 
 /// Counts the lanes for a plan: one for sequences, for large pictures, and for programs of users,
 /// which may not bear a second one of themselves.
-fn count_lanes(plan: &RunPlan, scenes: usize) -> usize {
+pub(super) fn count_lanes(plan: &RunPlan, scenes: usize) -> usize {
     let runs_program = |choice: &FilterChoice| choice.filter.command.is_some();
     if !plan.frames.is_one() || plan.filters.iter().any(runs_program) {
         return 1;

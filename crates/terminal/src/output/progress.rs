@@ -72,6 +72,11 @@ impl Drop for Bar {
     }
 }
 
+/// Writes a line to standard error, above the bars if any are shown.
+pub fn print_above_bars(text: &str) {
+    BARS.suspend(|| print_error(text));
+}
+
 /// Formats minutes and seconds: `1:30`.
 pub fn clock_text(time: Duration) -> String {
     let seconds = time.as_secs_f64().round() as u64;
