@@ -98,8 +98,8 @@ impl Decoys {
         })
     }
 
-    /// Finds the wrong blur that changes the best blur most like a picture, among those that have
-    /// scores like the picture's. None if these are far from all, or nearer to the best blur of the
+    /// Finds the wrong blur whose scores are most like a picture's, among those that change the best
+    /// blur as the picture does. None if these are far from all, or nearer to the best blur of the
     /// frame: a flipped y is no mistake where things move sideways.
     pub fn nearest(&self, scores: &Scores, picture: &Image) -> Option<Resemblance> {
         let measured = deviations(scores);
@@ -110,13 +110,13 @@ impl Decoys {
             let best = self.apart(&measured, &self.best.deviations);
             let is_best = best.is_some_and(|best| best <= apart);
             let cosine = cosine_of_changes(&self.best.color, picture, &decoy.color);
-            (distance <= FARTHEST && !is_best && cosine >= SMALLEST_COSINE).then(|| {
-                let decoy = decoy.name.clone();
-                (cosine, Resemblance { decoy, distance })
+            let is_alike = distance <= FARTHEST && cosine >= SMALLEST_COSINE;
+            (is_alike && !is_best).then(|| Resemblance {
+                decoy: decoy.name.clone(),
+                distance,
             })
         });
-        let nearest = alike.max_by(|a, b| a.0.total_cmp(&b.0));
-        nearest.map(|(_, resemblance)| resemblance)
+        alike.min_by(|a, b| a.distance.total_cmp(&b.distance))
     }
 
     /// Returns the distance over the scores that both have; none if these are too few.
