@@ -55,9 +55,6 @@ fn add_evidence_of_truth(
     let truth = mean.color;
     for (case, findings) in cases {
         let output = read_exr(&folder.join(&case.folder).join("output.exr"))?.color("")?;
-        if std::env::var("DBG").is_ok() {
-            eprintln!("CASE {} {}", case.scene, case.filter);
-        }
         let resembles = decoys.nearest(&case.scores, &output);
         let errors = ErrorMaps::read(case, folder)?;
         for finding in findings {

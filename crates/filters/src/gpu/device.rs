@@ -182,10 +182,18 @@ mod tests {
     /// Blurs a picture of 4x3 pixels.
     fn run(blur: &mut Blur) -> Result<Vec<Image>, FilterError> {
         let color = Raster::from_fn(4, 3, |x, y| [x as f32, y as f32, 1.0]);
+        run_by(&color, |input| blur.run(input))
+    }
+
+    /// Runs a filter on a colour that moves to the right.
+    fn run_by(
+        color: &Image,
+        run: impl FnOnce(&Input) -> Result<Vec<Image>, FilterError>,
+    ) -> Result<Vec<Image>, FilterError> {
         let velocity: Vectors = Raster::filled(4, 3, [1.0, 0.0]);
         let depth: Plane = Raster::filled(4, 3, 2.0);
-        blur.run(&Input {
-            color: &[&color],
+        run(&Input {
+            color: &[color],
             velocity: &velocity,
             velocity_next: None,
             velocity_z: None,
@@ -223,6 +231,20 @@ mod tests {
         let settings = other.settings(None).unwrap();
         let mut blur = Blur::new(&gpu, &other, &settings, 4, 3).unwrap();
         assert_eq!(run(&mut blur).unwrap()[0].at(3, 2), &[3.0, 2.0, 1.0]);
+    }
+
+    #[test]
+    fn further_colours_are_blurred_as_by_themselves() {
+        let gpu = Gpu::new(None).unwrap();
+        let filter = Filter::builtin("jump_flood").unwrap();
+        let settings = filter.settings(None).unwrap();
+        let make = || Blur::new(&gpu, &filter, &settings, 4, 3).unwrap();
+        let other = Raster::from_fn(4, 3, |x, _| [2.0, 1.0, x as f32]);
+        let mut blur = make();
+        let first = run(&mut blur).unwrap();
+        let further = run_by(&other, |input| blur.run_further(input, input)).unwrap();
+        assert_eq!(further, run_by(&other, |input| make().run(input)).unwrap());
+        assert_ne!(further, first);
     }
 
     #[test]

@@ -63,37 +63,21 @@ pub(crate) struct FilteredFrame<'a> {
 
 impl FilteredFrame<'_> {
     /// Runs a filter on other colours in place of the frame's, and of the previous one's; returns
-    /// the outputs without the guard band.
-    fn run(
+    /// the outputs without the guard band. `run` is [`Runner::run_after`], or
+    /// [`Runner::run_further`] for a filter that has run on this frame before.
+    fn run<'g>(
         &self,
-        runner: &mut Runner,
+        run: fn(&mut Runner<'g>, &Input, &Input) -> Result<Vec<Image>, FilterError>,
+        runner: &mut Runner<'g>,
         colors: &[&Image],
         colors_before: &[&Image],
     ) -> Result<Vec<Image>, FilterError> {
-        let [now, before] = self.inputs(colors, colors_before);
-        let outputs = runner.run_after(&now, &before)?;
-        Ok(crop_all(outputs, self.now.guard_band))
-    }
-
-    /// Runs a filter likewise that [`run`](Self::run) has run on this frame before.
-    fn run_further(
-        &self,
-        runner: &mut Runner,
-        colors: &[&Image],
-        colors_before: &[&Image],
-    ) -> Result<Vec<Image>, FilterError> {
-        let [now, before] = self.inputs(colors, colors_before);
-        let outputs = runner.run_further(&now, &before)?;
-        Ok(crop_all(outputs, self.now.guard_band))
-    }
-
-    /// Makes the inputs of the frame and of the previous one, with other colours.
-    fn inputs<'c>(&'c self, colors: &'c [&Image], colors_before: &'c [&Image]) -> [Input<'c>; 2] {
         let now = Input {
             frame_index: self.index,
             ..filter_input(self.now, colors)
         };
-        [now, filter_input(self.before, colors_before)]
+        let outputs = run(runner, &now, &filter_input(self.before, colors_before))?;
+        Ok(crop_all(outputs, self.now.guard_band))
     }
 }
 
@@ -125,12 +109,16 @@ pub(crate) fn blur_with_probes(
     let color = match runners.wide {
         None => None,
         Some(_) => {
-            let mut outputs =
-                filtered.run(&mut runners.color, &colors[..1], &colors_before[..1])?;
+            let mut outputs = filtered.run(
+                Runner::run_after,
+                &mut runners.color,
+                &colors[..1],
+                &colors_before[..1],
+            )?;
             Some(outputs.remove(0))
         }
     };
-    let outputs = filtered.run(runners.wide(), &colors, &colors_before)?;
+    let outputs = filtered.run(Runner::run_after, runners.wide(), &colors, &colors_before)?;
     let nonlinearity = nonlinearity(
         &mixture.cropped(frame.guard_band),
         &outputs[3],
@@ -159,7 +147,8 @@ pub(crate) fn blur_picture(
     [source, source_before]: [&Picture; 2],
     picture: Size,
 ) -> Result<Picture, FilterError> {
-    let color = filtered.run_further(
+    let color = filtered.run(
+        Runner::run_further,
         &mut runners.color,
         &[&source.color],
         &[&source_before.color],
@@ -168,7 +157,7 @@ pub(crate) fn blur_picture(
         [source, source_before].map(|source| pack_planes(&source.coverage));
     let [mattes, mattes_before]: [Vec<&Image>; 2] =
         [&mattes, &mattes_before].map(|mattes| mattes.iter().collect());
-    let mattes = filtered.run_further(runners.wide(), &mattes, &mattes_before)?;
+    let mattes = filtered.run(Runner::run_further, runners.wide(), &mattes, &mattes_before)?;
     Ok(Picture {
         color: upscale_all(color, picture).remove(0),
         coverage: unpack_planes(&upscale_all(mattes, picture), source.coverage.len()),
