@@ -10,7 +10,7 @@
 # and drives three.js, too. `make engines` builds real engines and lets them draw our scenes: engines/README.md.
 # On macOS and Windows plain cargo commands work.
 
-.PHONY: bpy run site pictures test module wheel try_wheel prove breadth guides engines oracles replays fuzz mutants growth archive action release image publish debootstrap vulkan software_vulkan python chromium node glslang blender mdbook
+.PHONY: bpy run site pictures test module wheel try_wheel prove breadth guides engines godot oracles replays fuzz mutants growth archive action release image publish debootstrap vulkan software_vulkan python chromium node glslang blender mdbook
 
 # Mesa complains on every start where a login session has not set it, as in containers; nothing is written there.
 export XDG_RUNTIME_DIR ?= /tmp
@@ -137,6 +137,20 @@ engines: software_vulkan python chromium node bpy
 	    --size {width}x{height} --samples 16
 	LIBGL_ALWAYS_SOFTWARE=1 $(DRAWN) eevee "$(ENGINES)/eevee" -- "$(BLENDER_5)" -W ignore examples/blender/blender.py -- {scene} {capture} \
 	    --size {width}x{height} --samples 8 --blur eevee
+
+# The Godot of Debian sid, in a folder of its own, as root. `make godot GODOT=PROGRAM` takes yours, on your screen.
+GODOT_ROOT = $(abspath $(TARGET_DIR))/debian_sid
+GODOT ?= engines/godot/debian.sh "$(GODOT_ROOT)"
+
+godot: software_vulkan python glslang $(if $(findstring debian.sh,$(GODOT)),$(GODOT_ROOT))
+	cargo build --locked --bin shuttertruth
+	$(DRAWN) godot "$(ENGINES)/godot" -- $(GODOT) --path "$(CURDIR)/engines/godot" -s draw.gd --quit-after 1000 -- \
+	    {scene} {capture} {width} {height}
+
+$(GODOT_ROOT): | debootstrap
+	rm -rf "$@.part"
+	debootstrap --variant=minbase --include=godot,mesa-vulkan-drivers,xvfb,xauth,ca-certificates sid "$@.part" http://deb.debian.org/debian
+	mv "$@.part" "$@"
 
 # Ten reported defects, planted again: results/studies/replays.md.
 replays: software_vulkan python

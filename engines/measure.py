@@ -31,7 +31,15 @@ PORTS = {
     "babylon": ["babylon:default"],
     "vector_blur": ["blender:compositor"],
     "eevee": ["blender:eevee", "blender:eevee_mean"],
+    "godot": ["godot_blur:default"],
 }
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+# Where ports lie that are no built-in filters.
+FOLDERS = {"godot_blur:default": ROOT / "examples/first_blur/godot"}
+# Engines that run the port's own shader, so that both draw the same numbers.
+SAME_SHADER = {"godot"}
+# The target that measures an engine, if not `make engines`.
+TARGETS = {"godot": "godot"}
 # Where the program that draws lies, if not in a folder of the engine's name.
 PROGRAMS = {"vector_blur": "examples/blender", "eevee": "examples/blender"}
 SIZE, SUBFRAMES = (160, 90), 32
@@ -43,7 +51,7 @@ NOTES = "\n## What it shows\n"
 # How far a number may be from the page's, and a smear, in degrees.
 TOLERANCE, DEGREES = 0.003, 4
 SMEARS = r"has (\d+) degrees with its defaults and (\d+) set"
-RESULTS = pathlib.Path(__file__).resolve().parent.parent / "results/engines"
+RESULTS = ROOT / "results/engines"
 
 
 def size_of(scene):
@@ -69,7 +77,10 @@ def score(engine, folder, scene, capture):
     """
     ingested, out = folder / "ingested" / capture.name, folder / "runs" / scene
     shuttertruth("engine", "ingest", capture, "--out", ingested)
-    shuttertruth("run", ingested, "--filter", ",".join(PORTS[engine]), "--as-written", "--quiet", "--out", out)
+    filters = ",".join(str(FOLDERS.get(port, port)) for port in PORTS[engine])
+    shuttertruth("run", ingested, "--filter", filters, "--as-written", "--quiet", "--out", out)
+    if engine in SAME_SHADER:
+        expect_equal(capture / "blurred.exr", *out.glob(f"*/{PORTS[engine][0].replace(':', '_')}/output.exr"))
     run = json.loads((out / "run.json").read_text())
     flip, smear = {}, None
     for case in run["cases"]:
@@ -80,6 +91,12 @@ def score(engine, folder, scene, capture):
         if is_own and case.get("smear"):
             smear = 360 * case["exposure"] * (case["smear"]["close"] - case["smear"]["open"])
     return flip, smear
+
+
+def expect_equal(theirs, ours):
+    apart = np.abs(read_color(theirs) - read_color(ours)).max()
+    if apart > 0:
+        sys.exit(f"{theirs} and {ours} come from one shader, but differ by up to {apart:.2e}")
 
 
 def score_default(engine, folder, scene, capture):
@@ -93,12 +110,17 @@ def score_default(engine, folder, scene, capture):
     return score(engine, folder / "default", scene, other)
 
 
+def described(capture, key):
+    return re.search(rf'^{key} = "(.*)"', (capture / "capture.toml").read_text(), re.M)[1]
+
+
 def compare_subframes(folder, scene, capture):
     """Returns how bright the engine's sub-frames are beside our truth, and the median difference of a pixel."""
     size = "x".join(map(str, size_of(scene)))
-    shuttertruth("truths", "render", scene, "--size", size, "--samples-per-pixel", 256, "--alignments", "centred", "--quiet", "--out", folder / "truths")
+    alignment = described(capture, "alignment")
+    shuttertruth("truths", "render", scene, "--size", size, "--samples-per-pixel", 256, "--alignments", alignment, "--quiet", "--out", folder / "truths")
     theirs = np.mean([read_color(path) for path in sorted((capture / "subframes").glob("*.exr"))], axis=0)
-    ours = read_color(folder / "truths" / scene / "truth_centred.exr")
+    ours = read_color(folder / "truths" / scene / f"truth_{alignment}.exr")
     return theirs.mean() / ours.mean(), float(np.median(np.abs(theirs - ours)))
 
 
@@ -114,7 +136,7 @@ def measure(engine, folder, command):
     for name in SCENES:
         scene = f"{name}@unlit"
         capture, verdict = draw(folder, command, scene)
-        version = re.search(r'^engine = "(.*)"', (capture / "capture.toml").read_text(), re.M)[1]
+        version = described(capture, "engine")
         flip, smear = score(engine, folder, scene, capture)
         default, default_smear = score_default(engine, folder, scene, capture) or (flip, smear)
         if name == MEASURED:
@@ -130,7 +152,7 @@ def show(folder):
     """Shows a scene's frame, the mean of its sub-frames, the engine's own blur, and our truth."""
     capture = folder / "captures" / SHOWN
     subframes = np.mean([read_color(path) for path in sorted((capture / "subframes").glob("*.exr"))], axis=0)
-    truth = read_color(folder / "truths" / f"{SHOWN}@unlit" / "truth_centred.exr")
+    truth = read_color(*(folder / "truths" / f"{SHOWN}@unlit").glob("truth_*.exr"))
     return sheet([read_color(capture / "color.exr"), subframes, read_color(capture / "blurred.exr"), truth])
 
 
@@ -145,7 +167,7 @@ def write_page(engine, version, rows, smears, picture):
     write_png(RESULTS / f"{engine}.png", picture)
     page.write_text(f"""# {version.partition(" (")[0]}, drawn by the engine itself
 
-Made by `make engines` on {date.today()}, at {SIZE[0]}x{SIZE[1]}, `{MEASURED}` at {LARGE[0]}x{LARGE[1]}, from scenes without light.
+Made by `make {TARGETS.get(engine, "engines")}` on {date.today()}, at {SIZE[0]}x{SIZE[1]}, `{MEASURED}` at {LARGE[0]}x{LARGE[1]}, from scenes without light.
 [{program}](../../{program}) draws them.
 
 {table}
