@@ -118,6 +118,40 @@ fn cases_of_a_scene_that_has_changed_are_dropped() {
     assert_eq!(sorted_names(&sandbox).join(", "), left);
 }
 
+/// Returns the one case of a filter.
+fn case_of(sandbox: &Sandbox, filter: &str) -> measure::Case {
+    let mut cases = sandbox.read_run().cases.into_iter();
+    cases.find(|case| case.id.filter == filter).unwrap()
+}
+
+#[test]
+fn the_truth_s_own_errors_are_kept_for_the_next_filter() {
+    let sandbox = Sandbox::new();
+    sandbox.measure("--filters mcguire:paper");
+    let path = sandbox.path("out/plate/errors_centred.json");
+    let record: serde_json::Value = sandbox.read_json("out/plate/errors_centred.json");
+    sandbox.measure("--filters jimenez:slides_2014");
+    let kept = case_of(&sandbox, "jimenez");
+    assert_eq!(
+        sandbox.read_json::<serde_json::Value>("out/plate/errors_centred.json"),
+        record
+    );
+    sandbox.measure("--filters jimenez:slides_2014 --no-cache");
+    assert_eq!(case_of(&sandbox, "jimenez").scores, kept.scores);
+
+    // They are read: other errors give other scores.
+    let mut errors = record["made"].clone();
+    errors[0]["ends"]["best"]["flip"] = json!(0.0);
+    let inputs = record["inputs"].as_str().unwrap().to_owned();
+    measure::put(&path, inputs, &[], &errors).unwrap();
+    sandbox.measure("--filters mcguire:paper --set mcguire.samples=9");
+    let changed = case_of(&sandbox, "mcguire").scores.skill;
+    sandbox.measure("--filters mcguire:paper --set mcguire.samples=9 --no-cache");
+    let measured = case_of(&sandbox, "mcguire").scores.skill;
+    assert_eq!(measured.mse, changed.mse);
+    assert_ne!(measured.flip, changed.flip);
+}
+
 const FINE: &str = "--filters velocity_gather:fine";
 const COARSER: &str = "--filters velocity_gather:fine --set velocity_gather.samples=2";
 

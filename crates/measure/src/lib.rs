@@ -29,8 +29,8 @@ pub use files::json::{MAX_JSON_BYTES, MAX_RUN_BYTES, read_text, read_text_within
 pub use files::json_lines::to_lines;
 pub use files::place::{MAX_TAKEN_BYTES, is_one_file, place_file};
 pub use files::record::{
-    CASE_RECORD, hash_inputs, hash_program, look_up, look_up_alone, name_program, put, read_record,
-    remove_altered_files,
+    CASE_RECORD, errors_file, hash_inputs, hash_program, look_up, look_up_alone, name_program, put,
+    read_record, remove_altered_files,
 };
 pub use files::render_file::{
     LADDER, MAX_REPLICATES, RenderFile, RenderPath, SHARP, ladder_folder, list_files, list_renders,

@@ -53,7 +53,9 @@ pub use metric::{
 };
 pub use object::sides::{Side, object_sides};
 pub use probe::{ProbeMeasurement, Probes, mix, nonlinearity, pack_planes, unpack_planes};
-pub use reference::{ColorReference, Jitter, Measurement, Reference, Sharp, mark_shared};
+pub use reference::{
+    ColorReference, Jitter, Measurement, Reference, Sharp, TruthErrors, mark_shared,
+};
 pub use scatter_oracle::{make_oracle, make_oracles, scatter_oracle};
 pub use score::{Ideal, Measured, Score};
 pub use scores::Scores;

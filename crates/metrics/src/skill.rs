@@ -1,5 +1,7 @@
 //! Skill: the share of the way from no blur to the best that one frame can give.
 
+use serde::{Deserialize, Serialize};
+
 use crate::picture::pooled::Pooled;
 use crate::picture::scores::Found;
 use crate::{Measured, SkillScores};
@@ -8,7 +10,7 @@ const NO_ENDS: &str =
     "no sharp picture of the shutter's middle was given: the ladder's rung of 1 sub-frame is one";
 
 /// Errors over the moving region of the two pictures that skill is measured between.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Ends {
     /// Errors of the sharp picture of the shutter's middle: skill 0.
     pub sharp: Pooled,

@@ -3,12 +3,12 @@
 use std::ffi::OsStr;
 use std::path::Path;
 
-use frame::FileError;
+use frame::{Alignment, FileError};
 use walkdir::WalkDir;
 
 use crate::Error;
 use crate::files::folder::walk_error;
-use crate::files::record::CASE_RECORD;
+use crate::files::record::{CASE_RECORD, errors_file};
 use crate::files::render_file::RenderFile;
 
 /// Removes frame, truths, replicates and ladders from a scene's folder, with their records and its
@@ -43,7 +43,10 @@ fn is_made(below: &Path) -> bool {
     } else {
         below.to_owned()
     };
-    below.ends_with(CASE_RECORD) || RenderFile::parse(&rendered).is_some()
+    let is_errors = |alignment: &Alignment| below == Path::new(&errors_file(*alignment));
+    below.ends_with(CASE_RECORD)
+        || RenderFile::parse(&rendered).is_some()
+        || Alignment::ALL.iter().any(is_errors)
 }
 
 #[cfg(test)]
@@ -62,6 +65,7 @@ mod tests {
             "ladder_trailing/n64.exr",
             "truth_trailing/replicate_000.exr",
             "identity_default/case.json",
+            "errors_trailing.json",
         ];
         let kept = [
             "frame.png",

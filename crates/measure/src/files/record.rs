@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use frame::{FileError, open_regular, read_bounded, write_atomically};
+use frame::{Alignment, FileError, open_regular, read_bounded, write_atomically};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
@@ -16,6 +16,11 @@ use crate::files::place::MAX_TAKEN_BYTES;
 
 /// Name of a case's record, next to its pictures.
 pub const CASE_RECORD: &str = "case.json";
+
+/// Names the record of a truth's own errors, in a scene's folder.
+pub fn errors_file(alignment: Alignment) -> String {
+    format!("errors_{alignment}.json")
+}
 
 /// A finished piece of work, as its file stores it.
 #[derive(Serialize, Deserialize)]

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::{Error, SHARP, put};
+use crate::{Error, SHARP, errors_file, look_up, put};
 use filters::FilterError;
 use frame::{Alignment, Frame, Ladder, Picture, Truth};
 use metrics::{ColorReference, Reference};
@@ -11,7 +11,7 @@ use tracer::{Defocus, Progress, TraceError, Watch};
 use super::attempt::Attempt;
 use super::case::{CaseContext, CommonTruth};
 use super::planned_case::PlannedCase;
-use super::references::{TruthPart, TruthReferences};
+use super::references::{ReferenceSource, TruthPart, TruthReferences};
 use super::scene::SceneContext;
 use super::stored_frames::{read_replicates, store_frames};
 use crate::inputs::depth_of_field::DepthOfField;
@@ -96,18 +96,33 @@ impl SceneContext<'_> {
         alignments
     }
 
-    /// Prepares a truth for measuring. All pictures of a scene are viewed at its frame's exposures.
+    /// Prepares a truth for measuring, with its own errors as an earlier run left them. All pictures
+    /// of a scene are viewed at its frame's exposures.
     fn references<'t>(
         &self,
         frame: &Frame,
         truth: &'t Truth,
         parts: &'t [TruthPart],
     ) -> Result<TruthReferences<'t>, Error> {
+        let source = ReferenceSource {
+            frame,
+            truth,
+            parts,
+            viewing: frame.display.into(),
+        };
+        let rungs = self.scene.rungs(self.plan.ladders);
+        let path = self.folder().join(errors_file(truth.alignment));
+        let key = (self.keys.as_ref()).map(|keys| keys.errors(truth.alignment, parts.len(), rungs));
+        if let Some(errors) = key.as_ref().and_then(|key| look_up(&path, key)) {
+            return source.with_errors(errors);
+        }
         let read_sharp = || Ok(self.read_rung(truth, SHARP)?.rungs.remove(0));
-        let rungs = self.scene.rungs(self.plan.ladders).iter();
-        let rungs = rungs.map(|rung| self.read_rung(truth, *rung));
-        let viewing = frame.display.into();
-        TruthReferences::new(frame, truth, read_sharp, rungs, parts, &viewing)
+        let rungs = rungs.iter().map(|rung| self.read_rung(truth, *rung));
+        let references = source.measure(read_sharp, rungs)?;
+        if let Some(key) = key {
+            put(&path, key, &[], &references.errors())?;
+        }
+        Ok(references)
     }
 
     /// Prepares the pass of depth of field after filters; none if every filter comes last.

@@ -1,7 +1,7 @@
 //! Truths, prepared for measuring many pictures.
 
 use frame::{Accumulation, Frame, Ladder, Picture, Truth};
-use metrics::{ImageScores, Reference, Sharp, Viewing, make_oracles};
+use metrics::{ImageScores, Reference, Sharp, TruthErrors, Viewing, make_oracles};
 
 use crate::Error;
 use crate::render::ladders::sharp_picture;
@@ -30,27 +30,54 @@ pub(crate) struct TruthPart {
     pub truth: Truth,
 }
 
-impl<'a> TruthReferences<'a> {
-    /// Prepares the truth, and the same for each of `parts`. The ladder's rungs are read one at a
-    /// time, since together they need more memory than all else; `read_sharp` reads the rung that
-    /// is the sharp picture of the shutter's middle.
-    pub fn new(
-        frame: &Frame,
-        truth: &'a Truth,
+/// A frame and its truth, to make references of.
+pub(crate) struct ReferenceSource<'a, 'f> {
+    /// The frame, guard band included.
+    pub frame: &'f Frame,
+    pub truth: &'a Truth,
+    pub parts: &'a [TruthPart],
+    pub viewing: Viewing,
+}
+
+impl<'a> ReferenceSource<'a, '_> {
+    /// Prepares the truth, and the same for each part, with the errors that they had before, in
+    /// this order.
+    pub fn with_errors(&self, errors: Vec<TruthErrors>) -> Result<TruthReferences<'a>, Error> {
+        let (oracle, _) = make_oracles(self.frame, &[], self.truth);
+        let frame = self.frame.cropped();
+        let mut errors = errors.into_iter();
+        let mut next = || {
+            errors
+                .next()
+                .expect("there are errors of the truth and of each part")
+        };
+        let reference = Reference::with_errors(&frame, self.truth, &self.viewing, next())?;
+        let parts = (self.parts.iter())
+            .map(|part| {
+                let frame = self.part_frame(&frame, part);
+                Reference::with_errors(&frame, &part.truth, &self.viewing, next())
+            })
+            .collect::<Result<_, _>>()?;
+        self.finish(&frame, reference, parts, oracle)
+    }
+
+    /// Prepares the truth, and the same for each part, and measures their errors. The ladder's
+    /// rungs are read one at a time, since together they need more memory than all else;
+    /// `read_sharp` reads the rung that is the sharp picture of the shutter's middle.
+    pub fn measure(
+        &self,
         read_sharp: impl FnOnce() -> Result<Accumulation, Error>,
         rungs: impl Iterator<Item = Result<Ladder, Error>>,
-        parts: &'a [TruthPart],
-        viewing: &Viewing,
-    ) -> Result<Self, Error> {
-        let pictures: Vec<Picture> = parts.iter().map(|part| part.picture.clone()).collect();
-        let (oracle, oracles) = make_oracles(frame, &pictures, truth);
-        let band = frame.guard_band;
-        let frame = frame.cropped();
+    ) -> Result<TruthReferences<'a>, Error> {
+        let (truth, viewing) = (self.truth, &self.viewing);
+        let pictures: Vec<Picture> = self.parts.iter().map(|part| part.picture.clone()).collect();
+        let (oracle, oracles) = make_oracles(self.frame, &pictures, truth);
+        let frame = self.frame.cropped();
         let sharp = sharp_picture(&frame, truth, read_sharp)?;
         let mut reference =
             Reference::new(&frame, truth, None, viewing)?.with_ends(&sharp, &oracle)?;
         let of_part = |((group, part), oracle): ((usize, &'a TruthPart), Picture)| {
-            let frame = frame.showing(&part.picture.cropped(band));
+            let frame = self.part_frame(&frame, part);
             // The sharp picture of a centred shutter is the frame.
             let sharp = match &sharp {
                 Sharp::Frame(_) => Sharp::Frame(frame.picture()),
@@ -58,7 +85,7 @@ impl<'a> TruthReferences<'a> {
             };
             Reference::new(&frame, &part.truth, None, viewing)?.with_ends(&sharp, &oracle)
         };
-        let mut references: Vec<Reference> = (parts.iter().enumerate().zip(oracles))
+        let mut references: Vec<Reference> = (self.parts.iter().enumerate().zip(oracles))
             .map(of_part)
             .collect::<Result<_, _>>()?;
         for rung in rungs {
@@ -68,16 +95,39 @@ impl<'a> TruthReferences<'a> {
                 reference.add_rungs(&rung.without(group))?;
             }
         }
-        let still = match parts {
+        self.finish(&frame, reference, references, oracle)
+    }
+
+    /// Makes the frame of a part. `frame` has no guard band.
+    fn part_frame(&self, frame: &Frame, part: &TruthPart) -> Frame {
+        frame.showing(&part.picture.cropped(self.frame.guard_band))
+    }
+
+    fn finish(
+        &self,
+        frame: &Frame,
+        reference: Reference<'a>,
+        parts: Vec<Reference<'a>>,
+        oracle: Picture,
+    ) -> Result<TruthReferences<'a>, Error> {
+        let still = match &parts[..] {
             [] => None,
             _ => Some(reference.measure(&frame.picture())?.scores.still),
         };
-        Ok(Self {
-            truth,
+        Ok(TruthReferences {
+            truth: self.truth,
             reference,
-            parts: references,
+            parts,
             still,
             oracle,
         })
+    }
+}
+
+impl TruthReferences<'_> {
+    /// Returns the errors of the truth, then of its parts, for [`ReferenceSource::with_errors`].
+    pub fn errors(&self) -> Vec<&TruthErrors> {
+        let all = std::iter::once(&self.reference).chain(&self.parts);
+        all.map(Reference::errors).collect()
     }
 }

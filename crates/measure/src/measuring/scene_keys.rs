@@ -43,6 +43,16 @@ struct TruthInputs<'a> {
     truth: &'a [String; 2],
 }
 
+/// What the errors of a truth depend on.
+#[derive(Serialize)]
+struct ErrorInputs<'a> {
+    scene: &'a str,
+    frame: &'a str,
+    truth: &'a [String; 2],
+    parts: usize,
+    rungs: &'a [u32],
+}
+
 /// What the scores of a case depend on.
 #[derive(Serialize)]
 struct CaseInputs<'a> {
@@ -91,6 +101,18 @@ impl SceneKeys {
         hash_inputs(&TruthInputs {
             scene: &self.scene,
             truth: &self.truths[&alignment],
+        })
+    }
+
+    /// Returns the hash for the errors of a truth and of this many parts of it, with these rungs of
+    /// its ladder.
+    pub fn errors(&self, alignment: Alignment, parts: usize, rungs: &[u32]) -> String {
+        hash_inputs(&ErrorInputs {
+            scene: &self.scene,
+            frame: &self.frame,
+            truth: &self.truths[&alignment],
+            parts,
+            rungs,
         })
     }
 

@@ -13,6 +13,7 @@ use crate::object::patch::Patch;
 use crate::object::row_mass::RowMass;
 use crate::object::sides::{Side, find_sides};
 use crate::picture::error_maps::ErrorMaps;
+use crate::reference::truth_errors::ObjectNoise;
 use crate::{Measured, ObjectMetric, ObjectScores};
 
 /// One object of the truth, with the scores of the truth's own noise on it.
@@ -25,9 +26,8 @@ pub struct ObjectReference {
     mover: Result<Moving, &'static str>,
     /// Mass scores of the truth's first half.
     mass_noise: Option<Mass>,
-    /// Mean errors of the first half's labels and colour on the object.
-    label_noise: Option<f64>,
-    flip_noise: Option<f64>,
+    /// Errors of the truth's first half on the object.
+    noise: ObjectNoise,
     /// True if the object is seen at the picture's border, at the instant or while the shutter is
     /// open.
     is_at_border: bool,
@@ -77,7 +77,7 @@ impl ObjectReference {
         frame: &Frame,
         truth: &Truth,
         mean: &Picture,
-        noise: &ErrorMaps,
+        noise: ObjectNoise,
         regions: &Regions,
         id: usize,
     ) -> Self {
@@ -109,8 +109,7 @@ impl ObjectReference {
             name: truth.objects[id].clone(),
             mover: Mover::new(frame, id as u32).map(moving),
             mass_noise: measure_mass(half, &matte, &core),
-            label_noise: average_on_object(&noise.label, &matte, &regions.moving),
-            flip_noise: average_on_object(&noise.flip, &matte, &regions.moving),
+            noise,
             core,
             is_at_border,
             truth: matte,
@@ -152,13 +151,13 @@ impl ObjectReference {
             label_total_variation: score(
                 ObjectMetric::LabelTotalVariation,
                 variation,
-                self.label_noise,
+                self.noise.label,
                 "is not seen in the moving region",
             ),
             flip: score(
                 ObjectMetric::Flip,
                 flip,
-                self.flip_noise,
+                self.noise.flip,
                 "is not seen in the moving region",
             ),
             gradient_error: self.score_gradient(gradient, regions),

@@ -2,6 +2,7 @@
 
 use frame::{Raster, Region, Regions};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use crate::color::cross_error::scatter;
 use crate::color::grain::{pool_grain, scatter_grain};
@@ -9,7 +10,7 @@ use crate::math::pooling::{mean, percentile, percentile_of, weighted_median};
 use crate::picture::error_maps::ErrorMaps;
 
 /// Error maps pooled over one region.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pooled {
     /// Mean of `squared`.
     pub mse: f64,

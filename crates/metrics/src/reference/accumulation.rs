@@ -33,7 +33,7 @@ impl Reference<'_> {
             }
         };
         let ends = sharp.zip(self.pool_moving(best, self.half_colors()));
-        self.ends = ends.map(|(sharp, best)| Ends { sharp, best });
+        self.errors.ends = ends.map(|(sharp, best)| Ends { sharp, best });
         Ok(self)
     }
 

@@ -40,7 +40,7 @@ impl From<Reference<'_>> for ColorReference {
             viewing: reference.viewing,
             regions: reference.regions,
             windows: reference.windows,
-            noise: reference.noise[Region::Moving as usize],
+            noise: reference.errors.noise[Region::Moving as usize],
         }
     }
 }

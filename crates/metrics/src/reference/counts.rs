@@ -29,14 +29,16 @@ impl Reference<'_> {
             seen: &self.seen.display,
         };
         for rung in &ladder.rungs {
-            self.curves.add(rung, &truth, &self.regions, &self.viewing);
+            self.errors
+                .curves
+                .add(rung, &truth, &self.regions, &self.viewing);
         }
         Ok(())
     }
 
     /// Returns the errors of the rungs.
     pub fn curves(&self) -> &Curves {
-        &self.curves
+        &self.errors.curves
     }
 
     /// Measures the errors alone that equivalent sub-frames are counted by; none if nothing moves.
@@ -66,10 +68,10 @@ impl Reference<'_> {
         let mut counts = scores.equivalent_subframes.clone();
         let without = without.iter();
         let without: Vec<(Errors, &Curves)> = without
-            .map(|(reference, errors)| (*errors, &reference.curves))
+            .map(|(reference, errors)| (*errors, &reference.errors.curves))
             .collect();
         if let Some((own, noise)) = measured_errors(scores)
-            && !self.curves.is_empty()
+            && !self.errors.curves.is_empty()
         {
             let found = self.count_all(&own, &noise, &without);
             for metric in EquivalentMetric::ALL {
@@ -88,7 +90,7 @@ impl Reference<'_> {
         noise: &Errors,
         without: &[(Errors, &Curves)],
     ) -> EquivalentScores {
-        let count = |kind| equivalent(kind, errors, &self.curves, noise, without);
+        let count = |kind| equivalent(kind, errors, &self.errors.curves, noise, without);
         EquivalentScores {
             mse: count(ErrorKind::Mse),
             flip: count(ErrorKind::Flip),
@@ -102,7 +104,7 @@ impl Reference<'_> {
             flip: Equivalent::not_applicable(reason),
             label_total_variation: Equivalent::not_applicable(reason),
         };
-        if self.curves.is_empty() {
+        if self.errors.curves.is_empty() {
             return missing("no ladder of accumulations was given");
         }
         match moving {

@@ -11,6 +11,7 @@ mod measurement;
 mod shared_noise;
 mod sharp;
 mod still;
+pub(crate) mod truth_errors;
 
 use frame::{Frame, Image, Ladder, Picture, Plane, Raster, Size, Truth, regions};
 use rayon::prelude::*;
@@ -23,8 +24,7 @@ use crate::picture::pooled::Pooled;
 use crate::picture::scores::{Found, score_image, score_labels};
 use crate::picture::seen_truth::SeenTruth;
 use crate::probe::{OriginReference, ProbeMeasurement, Probes};
-use crate::skill::{Ends, score_skill};
-use crate::subframes::ladder::Curves;
+use crate::skill::score_skill;
 use crate::{MeasureError, Measured, ObjectScores, ProbeScores, Region, Regions, Scores, Viewing};
 use check::{check_agreement, check_brightness, check_picture, check_viewing};
 use frozen::FrozenReference;
@@ -35,6 +35,7 @@ pub use color::ColorReference;
 pub use jitter::Jitter;
 pub use measurement::Measurement;
 pub use sharp::Sharp;
+pub use truth_errors::TruthErrors;
 
 const NO_INSTANT: &str =
     "an engine's sub-frames do not say where their surfaces were at the instant";
@@ -49,22 +50,16 @@ pub struct Reference<'a> {
     /// The mean as a display shows it and as FLIP sees it.
     seen: SeenTruth,
     viewing: Viewing,
-    /// Noise floors of every region in the order of [`Region::ALL`], from the errors of the truth's
-    /// first half against the mean: the two differ by as much as the mean's own noise.
-    noise: [Option<Pooled>; Region::ALL.len()],
+    errors: TruthErrors,
     /// The instant: the picture of a filter that does nothing.
     instant: Image,
     /// Pixels in which the instant has the truth's noise.
     shared: Raster<bool>,
-    /// The two pictures that skill is measured between; none until they are given.
-    ends: Option<Ends>,
     /// Pixels with their SSIM window in the picture.
     windows: Raster<bool>,
     frozen: FrozenReference,
     origins: OriginReference,
     pub(crate) objects: Vec<ObjectReference>,
-    /// Errors of the rungs of the ladder; none without a ladder.
-    curves: Curves,
 }
 
 impl<'a> Reference<'a> {
@@ -74,6 +69,32 @@ impl<'a> Reference<'a> {
         truth: &'a Truth,
         ladder: Option<&Ladder>,
         viewing: &Viewing,
+    ) -> Result<Self, MeasureError> {
+        let mut reference = Self::prepare(frame, truth, viewing, None)?;
+        if let Some(ladder) = ladder {
+            reference.add_rungs(ladder)?;
+        }
+        Ok(reference)
+    }
+
+    /// Prepares frame and truth with the errors that a reference of the same two and the same
+    /// viewing had: see [`Reference::errors`].
+    pub fn with_errors(
+        frame: &Frame,
+        truth: &'a Truth,
+        viewing: &Viewing,
+        errors: TruthErrors,
+    ) -> Result<Self, MeasureError> {
+        Self::prepare(frame, truth, viewing, Some(errors))
+    }
+
+    /// Checks that frame and truth belong together; measures the truth's noise if its errors are
+    /// not known.
+    fn prepare(
+        frame: &Frame,
+        truth: &'a Truth,
+        viewing: &Viewing,
+        errors: Option<TruthErrors>,
     ) -> Result<Self, MeasureError> {
         check_viewing(viewing)?;
         check_agreement(frame, truth)?;
@@ -90,34 +111,41 @@ impl<'a> Reference<'a> {
         let windows = mark_whole_windows(truth.size());
         let halves = truth.halves.each_ref().map(|half| &half.color);
         let seen = SeenTruth::new(&mean.color, halves, viewing);
-        let half = &truth.halves[0];
-        let displayed = Displayed::new(&half.color, viewing);
-        let noise = ErrorMaps::new(half, &displayed, [&mean.color; 2], &mean, &seen);
+        let measure_noise = || {
+            let half = &truth.halves[0];
+            let displayed = Displayed::new(&half.color, viewing);
+            let maps = ErrorMaps::new(half, &displayed, [&mean.color; 2], &mean, &seen);
+            let noise = Pooled::of_noise(&maps, &masks, &windows);
+            TruthErrors::of_noise(noise, &maps, &mean, &masks)
+        };
+        let errors = errors.unwrap_or_else(measure_noise);
         let at_instant = truth.at_instant_mean();
         let frozen = at_instant.frozen(&mean.color);
-        let mut reference = Self {
-            noise: Pooled::of_noise(&noise, &masks, &windows),
+        Ok(Self {
             shared: mark_shared(&instant.color, halves, &mean.color, &masks),
-            ends: None,
             windows,
             frozen: FrozenReference::new(truth, &frozen, &masks, viewing),
             origins: OriginReference::new(truth, &at_instant, &masks),
             objects: (1..truth.objects.len())
                 .into_par_iter()
-                .map(|id| ObjectReference::new(frame, truth, &mean, &noise, &masks, id))
+                .map(|id| {
+                    let noise = errors.objects[id - 1];
+                    ObjectReference::new(frame, truth, &mean, noise, &masks, id)
+                })
                 .collect(),
-            curves: Curves::default(),
+            errors,
             regions: masks,
             truth,
             mean,
             seen,
             instant: instant.color,
             viewing: *viewing,
-        };
-        if let Some(ladder) = ladder {
-            reference.add_rungs(ladder)?;
-        }
-        Ok(reference)
+        })
+    }
+
+    /// Returns the errors of the truth itself, for [`Reference::with_errors`].
+    pub fn errors(&self) -> &TruthErrors {
+        &self.errors
     }
 
     /// Pools a picture's errors over the moving region; none if nothing moves.
@@ -155,7 +183,7 @@ impl<'a> Reference<'a> {
         let static_change = self.map_static_change(&output.color);
         let pooled = Pooled::over_all(&errors, &self.regions, &self.windows);
         let pooled = Region::ALL.map(|region| -> Found {
-            let (own, noise) = (pooled[region as usize], self.noise[region as usize]);
+            let (own, noise) = (pooled[region as usize], self.errors.noise[region as usize]);
             own.zip(noise).ok_or(explain_empty(region))
         });
         let image = |region: Region| score_image(&pooled[region as usize]);
@@ -173,7 +201,7 @@ impl<'a> Reference<'a> {
                 label_total_variation: score_labels(moving),
                 objects,
                 probes: ProbeScores::not_applicable("no probes were run through the filter"),
-                skill: score_skill(moving, self.ends.as_ref()),
+                skill: score_skill(moving, self.errors.ends.as_ref()),
                 equivalent_subframes: self.score_equivalents(moving),
             },
             maps: errors.into_maps(

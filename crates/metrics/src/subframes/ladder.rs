@@ -1,6 +1,7 @@
 //! Errors of the accumulation ladder by number of sub-frames.
 
 use frame::{Accumulation, Image, Picture, Raster};
+use serde::{Deserialize, Serialize};
 
 use crate::color::cross_error::multiply;
 use crate::color::flip::{Displayed, SeenExposures};
@@ -9,7 +10,7 @@ use crate::math::pooling::mean_over;
 use crate::{Region, Regions, Viewing};
 
 /// Errors over the moving region that sub-frames are counted by.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Errors {
     /// Unbiased squared error of colour.
     pub mse: f64,
@@ -43,7 +44,7 @@ impl Errors {
 }
 
 /// Errors of a rung.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rung {
     /// Number of sub-frames.
     pub subframes: u32,
@@ -55,7 +56,7 @@ pub struct Rung {
 }
 
 /// Errors of the rungs that were added, in rising order of sub-frames.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Curves {
     /// The rungs.
     pub rungs: Vec<Rung>,
