@@ -55,7 +55,7 @@ impl<'a> ReferenceSource<'a, '_> {
         let parts = (self.parts.iter())
             .map(|part| {
                 let frame = self.part_frame(&frame, part);
-                Reference::with_errors(&frame, &part.truth, &self.viewing, next())
+                reference.part(&frame, &part.truth, Some(next()))
             })
             .collect::<Result<_, _>>()?;
         self.finish(&frame, reference, parts, oracle)
@@ -83,7 +83,7 @@ impl<'a> ReferenceSource<'a, '_> {
                 Sharp::Frame(_) => Sharp::Frame(frame.picture()),
                 rung => rung.without(group),
             };
-            Reference::new(&frame, &part.truth, None, viewing)?.with_ends(&sharp, &oracle)
+            (reference.part(&frame, &part.truth, None)?).with_ends(&sharp, &oracle)
         };
         let mut references: Vec<Reference> = (self.parts.iter().enumerate().zip(oracles))
             .map(of_part)

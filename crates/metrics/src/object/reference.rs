@@ -1,5 +1,7 @@
 //! The truth about one object's matte, ready to score any number of outputs against.
 
+use std::sync::Arc;
+
 use frame::{Frame, Picture, Plane, Raster, Region, Regions, Truth};
 
 use crate::label::average_on_object;
@@ -36,7 +38,7 @@ pub struct ObjectReference {
 /// Facts about an object that moves.
 struct Moving {
     mover: Mover,
-    sides: Option<Raster<Side>>,
+    sides: Option<Arc<Raster<Side>>>,
     /// Bleed of the truth's first half.
     bleed_noise: Option<Bleed>,
     rows: Result<AlongMotion, String>,
@@ -73,6 +75,7 @@ struct MassScores {
 
 impl ObjectReference {
     /// Prepares object `id` of a truth and its frame. `noise` are the errors of the first half.
+    /// `whole` is the same object of a truth that this one is a part of.
     pub fn new(
         frame: &Frame,
         truth: &Truth,
@@ -80,6 +83,7 @@ impl ObjectReference {
         noise: ObjectNoise,
         regions: &Regions,
         id: usize,
+        whole: Option<&Self>,
     ) -> Self {
         let matte = mean.coverage[id].clone();
         let half = &truth.halves[0].coverage[id];
@@ -90,7 +94,10 @@ impl ObjectReference {
         let is_at_border = touches_border(&seen) || touches_border(instant);
         let moving = |(mover, directions): (Mover, Directions)| {
             let gradient = gradient_magnitude(&matte);
-            let sides = find_sides(support, &directions);
+            let sides = match whole.map(Self::moving) {
+                Some(Ok(whole)) => whole.sides.clone(),
+                _ => find_sides(support, &directions).map(Arc::new),
+            };
             drop(directions);
             Moving {
                 bleed_noise: (sides.as_ref())

@@ -70,7 +70,7 @@ impl<'a> Reference<'a> {
         ladder: Option<&Ladder>,
         viewing: &Viewing,
     ) -> Result<Self, MeasureError> {
-        let mut reference = Self::prepare(frame, truth, viewing, None)?;
+        let mut reference = Self::prepare(frame, truth, viewing, None, None)?;
         if let Some(ladder) = ladder {
             reference.add_rungs(ladder)?;
         }
@@ -85,16 +85,35 @@ impl<'a> Reference<'a> {
         viewing: &Viewing,
         errors: TruthErrors,
     ) -> Result<Self, MeasureError> {
-        Self::prepare(frame, truth, viewing, Some(errors))
+        Self::prepare(frame, truth, viewing, Some(errors), None)
+    }
+
+    /// Prepares a part of the replicates of this reference's frame and truth. It measures the
+    /// part's noise if its errors are not known.
+    ///
+    /// # Panics
+    /// The truth has another support.
+    pub fn part<'b>(
+        &self,
+        frame: &Frame,
+        truth: &'b Truth,
+        errors: Option<TruthErrors>,
+    ) -> Result<Reference<'b>, MeasureError> {
+        assert!(
+            truth.support == self.truth.support,
+            "a part shares the support"
+        );
+        Reference::prepare(frame, truth, &self.viewing, errors, Some(&self.objects))
     }
 
     /// Checks that frame and truth belong together; measures the truth's noise if its errors are
-    /// not known.
+    /// not known. `whole` are the objects of the truth that this one is a part of.
     fn prepare(
         frame: &Frame,
         truth: &'a Truth,
         viewing: &Viewing,
         errors: Option<TruthErrors>,
+        whole: Option<&[ObjectReference]>,
     ) -> Result<Self, MeasureError> {
         check_viewing(viewing)?;
         check_agreement(frame, truth)?;
@@ -130,7 +149,8 @@ impl<'a> Reference<'a> {
                 .into_par_iter()
                 .map(|id| {
                     let noise = errors.objects[id - 1];
-                    ObjectReference::new(frame, truth, &mean, noise, &masks, id)
+                    let whole = whole.map(|whole| &whole[id - 1]);
+                    ObjectReference::new(frame, truth, &mean, noise, &masks, id, whole)
                 })
                 .collect(),
             errors,
