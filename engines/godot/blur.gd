@@ -1,6 +1,8 @@
 # The blur that our page of Godot begins with: one pass, which reads colour and velocity.
 extends "compute.gd"
 
+# Beside this project.
+const SHADER := "../../examples/first_blur/godot/blur.glsl"
 # Writes the result over the colour.
 const COPY := """
 #version 450
@@ -16,7 +18,7 @@ void main() {
 # How long the trails are, in frames.
 var intensity := 1.0
 var samples := 8
-var _blur := compile(FileAccess.get_file_as_string(ProjectSettings.globalize_path("res://").path_join("../../examples/first_blur/godot/blur.glsl")))
+var _blur := compile(FileAccess.get_file_as_string(ProjectSettings.globalize_path("res://") + SHADER))
 var _copy := compile(COPY)
 
 

@@ -20,7 +20,7 @@ const ALIGNMENT := "trailing"
 func _initialize() -> void:
 	var words := OS.get_cmdline_user_args()
 	if words.size() < 4:
-		printerr("usage: godot --path engines/godot -s draw.gd --quit-after 1000 -- SCENE_FOLDER CAPTURE_FOLDER WIDTH HEIGHT [EFFECT.gd ..]")
+		printerr("usage: godot --path engines/godot -s draw.gd -- SCENE_FOLDER CAPTURE_FOLDER WIDTH HEIGHT [EFFECT.gd ..]")
 		quit(2)
 		return
 	if RenderingServer.get_rendering_device() == null:
@@ -81,14 +81,22 @@ func save(picture: Image, out: String, name: String) -> void:
 # Says what the pictures show, and what Godot's vectors and depth mean.
 func describe(stage: Stage, out: String) -> void:
 	var version := Engine.get_version_info()
-	var engine := "Godot %d.%d.%d (%s)" % [version.major, version.minor, version.patch, RenderingServer.get_video_adapter_name()]
-	var capture := FileAccess.open(out.path_join("capture.toml"), FileAccess.WRITE)
-	capture.store_string("engine = \"%s\"\nscene = \"%s\"\nexposure = %s\nalignment = \"%s\"\n" % [engine, stage.manifest.scene, stage.manifest.exposure, ALIGNMENT])
-	var conventions := FileAccess.open(out.path_join("engine.toml"), FileAccess.WRITE)
-	conventions.store_string("""[convention]
-velocity = "uv"
-velocity_sign = "previous_minus_current"
-depth = "reversed"
-near = %s
-far = %s
-""" % [Stage.NEAR, Stage.FAR])
+	var adapter := RenderingServer.get_video_adapter_name()
+	write(out.path_join("capture.toml"), [
+		"engine = \"Godot %d.%d.%d (%s)\"" % [version.major, version.minor, version.patch, adapter],
+		"scene = \"%s\"" % stage.manifest.scene,
+		"exposure = %s" % stage.manifest.exposure,
+		"alignment = \"%s\"" % ALIGNMENT,
+	])
+	write(out.path_join("engine.toml"), [
+		"[convention]",
+		"velocity = \"uv\"",
+		"velocity_sign = \"previous_minus_current\"",
+		"depth = \"reversed\"",
+		"near = %s" % Stage.NEAR,
+		"far = %s" % Stage.FAR,
+	])
+
+
+func write(path: String, lines: Array) -> void:
+	FileAccess.open(path, FileAccess.WRITE).store_string("\n".join(lines) + "\n")
