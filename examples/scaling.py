@@ -103,7 +103,7 @@ def triangles(out):
         scene.mkdir(parents=True)
         (scene / "scene.toml").write_text(SCENE)
         write_sheet(scene / "sheet.obj", round((millions * 1e6 / 2) ** 0.5))
-        words = [*RUN.split(), "64", *SMALL, "--filter", "mcguire:paper", "sheet", "--scenes-dir", "scenes"]
+        words = [*RUN.split(), "16", *SMALL, "--filter", "mcguire:paper", "sheet", "--scenes-dir", "scenes"]
         yield millions, f"{millions:g} million", words, folder
         shutil.rmtree(scene)
 

@@ -12,7 +12,7 @@ use metrics::{
 use tests::random::Random;
 use tests::synthetic::{Blur, VIEWING};
 
-use crate::{assert_near, find_score, measure_scores, noisy, sliding_disc, smear};
+use crate::{assert_near, dilated, find_score, measure_scores, noisy, sliding_disc, smear};
 
 static FRAME: LazyLock<Frame> = LazyLock::new(|| sliding_disc().frame());
 
@@ -238,4 +238,24 @@ fn a_filter_without_noise_has_no_variance() {
     assert_eq!((jitter.variance, jitter.noise_share()), (0.0, 0.0));
     let whole = find_score(&score(&FRAME.picture(), &TRUTH), "mse_moving").value;
     assert_near("bias", jitter.bias, whole, 1e-9);
+}
+
+#[test]
+fn a_reference_with_known_errors_and_one_of_a_part_score_like_one_by_itself() {
+    let scene = sliding_disc();
+    let whole = scene.truth([noisy(8, 1), noisy(8, 2)]);
+    let part = scene.truth([noisy(4, 3), noisy(4, 4)]);
+    let frame = scene.frame();
+    let output = scene.render(&dilated(2.0), noisy(8, 5));
+    let whole_reference = Reference::new(&frame, &whole, None, &VIEWING).unwrap();
+    let by_itself = Reference::new(&frame, &part, None, &VIEWING).unwrap();
+    let scores = |reference: &Reference| reference.measure(&output).unwrap().scores;
+    assert_ne!(scores(&whole_reference), scores(&by_itself));
+
+    let of_part = whole_reference.part(&frame, &part, None).unwrap();
+    assert_eq!(scores(&of_part), scores(&by_itself));
+    let known = by_itself.errors().clone();
+    assert_eq!(of_part.errors(), &known);
+    let again = Reference::with_errors(&frame, &part, &VIEWING, known).unwrap();
+    assert_eq!(scores(&again), scores(&by_itself));
 }
