@@ -113,7 +113,7 @@ def pixels(out):
         folder = out / f"{width}x{height}"
         copy_scene("fan", folder / "scenes/fan")
         size = f"{width}x{height}"
-        yield width * height, size, [*RUN.split(), "4", "--size", size, "--filter", "mcguire:paper", "fan", "--scenes-dir", "scenes"], folder
+        yield width * height, size, [*RUN.split(), "8", "--size", size, "--filter", "mcguire:paper", "fan", "--scenes-dir", "scenes"], folder
 
 
 def copy_scene(name, folder):

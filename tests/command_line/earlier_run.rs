@@ -128,12 +128,13 @@ fn case_of(sandbox: &Sandbox, filter: &str) -> measure::Case {
 fn the_truth_s_own_errors_are_kept_for_the_next_filter() {
     let sandbox = Sandbox::new();
     sandbox.measure("--filters mcguire:paper");
-    let path = sandbox.path("out/plate/errors_centred.json");
-    let record: serde_json::Value = sandbox.read_json("out/plate/errors_centred.json");
+    let path = sandbox.path("out/plate/.shuttertruth.errors_centred.json");
+    let record: serde_json::Value =
+        sandbox.read_json("out/plate/.shuttertruth.errors_centred.json");
     sandbox.measure("--filters jimenez:slides_2014");
     let kept = case_of(&sandbox, "jimenez");
     assert_eq!(
-        sandbox.read_json::<serde_json::Value>("out/plate/errors_centred.json"),
+        sandbox.read_json::<serde_json::Value>("out/plate/.shuttertruth.errors_centred.json"),
         record
     );
     sandbox.measure("--filters jimenez:slides_2014 --no-cache");

@@ -65,7 +65,7 @@ mod tests {
             "ladder_trailing/n64.exr",
             "truth_trailing/replicate_000.exr",
             "identity_default/case.json",
-            "errors_trailing.json",
+            ".shuttertruth.errors_trailing.json",
         ];
         let kept = [
             "frame.png",

@@ -17,9 +17,10 @@ use crate::files::place::MAX_TAKEN_BYTES;
 /// Name of a case's record, next to its pictures.
 pub const CASE_RECORD: &str = "case.json";
 
-/// Names the record of a truth's own errors, in a scene's folder.
+/// Names the record of a truth's own errors, in a scene's folder. It is hidden, since it is no
+/// result: runs that are merged leave it behind.
 pub fn errors_file(alignment: Alignment) -> String {
-    format!("errors_{alignment}.json")
+    format!(".shuttertruth.errors_{alignment}.json")
 }
 
 /// A finished piece of work, as its file stores it.

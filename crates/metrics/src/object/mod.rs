@@ -7,6 +7,7 @@ pub mod mass;
 pub mod misplacement;
 pub mod mover;
 pub mod nearest;
+pub mod noise;
 pub mod patch;
 pub mod reference;
 pub mod row_mass;

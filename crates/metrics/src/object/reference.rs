@@ -11,11 +11,11 @@ use crate::object::gradient::{gradient_error, gradient_magnitude};
 use crate::object::mass::{Mass, measure_mass};
 use crate::object::misplacement::{Misplacement, measure_misplacement};
 use crate::object::mover::{Directions, Mover};
+use crate::object::noise::ObjectNoise;
 use crate::object::patch::Patch;
 use crate::object::row_mass::RowMass;
 use crate::object::sides::{Side, find_sides};
 use crate::picture::error_maps::ErrorMaps;
-use crate::reference::truth_errors::ObjectNoise;
 use crate::{Measured, ObjectMetric, ObjectScores};
 
 /// One object of the truth, with the scores of the truth's own noise on it.

@@ -11,7 +11,7 @@ mod measurement;
 mod shared_noise;
 mod sharp;
 mod still;
-pub(crate) mod truth_errors;
+mod truth_errors;
 
 use frame::{Frame, Image, Ladder, Picture, Plane, Raster, Size, Truth, regions};
 use rayon::prelude::*;

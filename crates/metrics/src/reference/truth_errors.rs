@@ -3,7 +3,7 @@
 use frame::{Picture, Region, Regions};
 use serde::{Deserialize, Serialize};
 
-use crate::label::average_on_object;
+use crate::object::noise::ObjectNoise;
 use crate::picture::error_maps::ErrorMaps;
 use crate::picture::pooled::Pooled;
 use crate::skill::Ends;
@@ -25,13 +25,6 @@ pub struct TruthErrors {
     pub(crate) curves: Curves,
 }
 
-/// Mean errors of a truth's first half on one object; none if it is not seen where anything moves.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct ObjectNoise {
-    pub label: Option<f64>,
-    pub flip: Option<f64>,
-}
-
 impl TruthErrors {
     /// Pools the errors of the first half against the mean.
     pub(crate) fn of_noise(
@@ -40,10 +33,7 @@ impl TruthErrors {
         mean: &Picture,
         regions: &Regions,
     ) -> Self {
-        let of_object = |matte| ObjectNoise {
-            label: average_on_object(&errors.label, matte, &regions.moving),
-            flip: average_on_object(&errors.flip, matte, &regions.moving),
-        };
+        let of_object = |matte| ObjectNoise::new(errors, matte, regions);
         Self {
             noise,
             objects: mean.coverage[1..].iter().map(of_object).collect(),
