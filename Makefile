@@ -10,7 +10,7 @@
 # and drives three.js, too. `make engines` builds real engines and lets them draw our scenes: engines/README.md.
 # On macOS and Windows plain cargo commands work.
 
-.PHONY: bpy run site pictures test module wheel try_wheel prove breadth guides engines godot oracles replays fuzz mutants growth archive action release image publish debootstrap vulkan software_vulkan python chromium node glslang blender mdbook
+.PHONY: bpy run site pictures test module wheel try_wheel prove breadth guides engines godot oracles price replays fuzz mutants growth archive action release image publish debootstrap vulkan software_vulkan python chromium node glslang blender mdbook
 
 # Mesa complains on every start where a login session has not set it, as in containers; nothing is written there.
 export XDG_RUNTIME_DIR ?= /tmp
@@ -123,6 +123,8 @@ bpy:
 
 DRAWN = PATH="$(dir $(abspath $(PROGRAM))):$$PATH" $(SOFTWARE) "$(PYTHON)" engines/measure.py
 
+EEVEE = "$(BLENDER_5)" -W ignore examples/blender/blender.py -- {scene} {capture} --size {width}x{height} --blur eevee
+
 engines: software_vulkan python chromium node bpy
 	cargo build --locked --bin shuttertruth
 	cargo build --locked --manifest-path engines/bevy/Cargo.toml --target-dir "$(ENGINES)/build"
@@ -135,8 +137,8 @@ engines: software_vulkan python chromium node bpy
 	$(DRAWN) babylon "$(ENGINES)/babylon" -- node engines/babylon/capture.mjs {scene} --out {capture} --size {width}x{height}
 	$(DRAWN) vector_blur "$(ENGINES)/vector_blur" -- "$(BLENDER_5)" -W ignore examples/blender/blender.py -- {scene} {capture} \
 	    --size {width}x{height} --samples 16
-	LIBGL_ALWAYS_SOFTWARE=1 $(DRAWN) eevee "$(ENGINES)/eevee" -- "$(BLENDER_5)" -W ignore examples/blender/blender.py -- {scene} {capture} \
-	    --size {width}x{height} --samples 8 --blur eevee
+	LIBGL_ALWAYS_SOFTWARE=1 $(DRAWN) eevee "$(ENGINES)/eevee" -- $(EEVEE) --samples 8
+	LIBGL_ALWAYS_SOFTWARE=1 $(DRAWN) eevee_one_sample "$(ENGINES)/eevee_one_sample" -- $(EEVEE) --samples 1
 
 # The Godot of Debian sid, in a folder of its own, as root. `make godot GODOT=PROGRAM` takes yours, on your screen.
 GODOT_ROOT = $(abspath $(TARGET_DIR))/debian_sid
@@ -168,6 +170,13 @@ oracles: software_vulkan python bpy
 	    "$(LUXCORE)/bin/python3" -m pip install -q pyluxcore==2.11.2 numpy==2.4.6 OpenEXR==3.5.3 pillow==13.0.0; }
 	$(ORACLE) luxcore "$(ENGINES)/luxcore" -- "$(abspath $(LUXCORE))/bin/python3" engines/luxcore/draw.py
 	$(ORACLE) cycles "$(ENGINES)/cycles" -- "$(BLENDER_5)" -W ignore examples/blender/blender.py --
+
+# The price of our truths beside that of Cycles: crates/tracer/BENCHMARKS.md. It takes about ten minutes on two cores.
+price: software_vulkan python bpy
+	cargo bench --locked -p shuttertruth-tracer -- truths
+	cargo build --locked --release --bin shuttertruth
+	PATH="$(abspath $(TARGET_DIR))/release:$$PATH" $(SOFTWARE) "$(PYTHON)" engines/price.py "$(TARGET_DIR)/tmp/price" "$(ENGINES)/price" -- \
+	    "$(BLENDER_5)" -W ignore examples/blender/blender.py --
 
 # How long to fuzz, what, and from which seed on: `make fuzz MINUTES=1 TARGETS=scene,obj SEED=7`. See docs/fuzzing.md.
 SEED ?= $(shell date +%s)

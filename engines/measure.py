@@ -31,6 +31,7 @@ PORTS = {
     "babylon": ["babylon:default"],
     "vector_blur": ["blender:compositor"],
     "eevee": ["blender:eevee", "blender:eevee_mean"],
+    "eevee_one_sample": ["blender:eevee"],
     "godot": ["godot_blur:default"],
 }
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -41,7 +42,7 @@ SAME_SHADER = {"godot"}
 # The target that measures an engine, if not `make engines`.
 TARGETS = {"godot": "godot"}
 # Where the program that draws lies, if not in a folder of the engine's name.
-PROGRAMS = {"vector_blur": "examples/blender", "eevee": "examples/blender"}
+PROGRAMS = {name: "examples/blender" for name in ("vector_blur", "eevee", "eevee_one_sample")}
 SIZE, SUBFRAMES = (160, 90), 32
 SHOWN = "fan"
 # The scene that smears are measured on, in a picture in which they are many pixels long.

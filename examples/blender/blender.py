@@ -362,6 +362,8 @@ def render_buffers():
 def describe():
     """Writes engine.toml and capture.toml, the latter from the export's template."""
     blur = {"vectors": " Vector Blur", "cycles": " Cycles", "eevee": " EEVEE", "none": ""}[options.blur]
+    if options.blur == "eevee" and options.samples == 1:
+        blur += " with one sample"
     lines = {"engine": f"Blender {bpy.app.version_string}{blur}", "alignment": options.alignment}
     with open(f"{folder}/capture.toml") as file:
         text = file.read().split("\n", 1)[1]

@@ -14,9 +14,8 @@ use crate::triangle::Crossing;
 
 /// Leaves of triangles side by side, and a tree over the leaves.
 pub struct RigidTree {
-    /// Tree over the leaves; dropped if the leaves of every object that shows the mesh are in the
-    /// world tree.
-    tree: Option<Tree>,
+    /// Tree over the leaves.
+    tree: Tree,
     leaves: Vec<Leaf>,
     /// A ball around the mesh.
     pub ball: Ball,
@@ -72,22 +71,17 @@ impl RigidTree {
             .map(|leaf| Leaf::new(&mesh, listed.items(leaf)))
             .collect();
         Self {
-            tree: Some(tree),
+            tree,
             leaves,
             ball: Ball::around(union.centre(), vertices),
             largest_coordinate: union.largest_coordinate(),
         }
     }
 
-    /// Drops the tree over the leaves; only [`RigidTree::intersect_leaf`] remains.
-    pub fn drop_tree(&mut self) {
-        self.tree = None;
-    }
-
     /// Size of the stack that [`RigidTree::traverse`] needs.
     #[inline]
     pub fn stack_size(&self) -> usize {
-        self.tree.as_ref().map_or(0, |tree| tree.stack_size)
+        self.tree.stack_size
     }
 
     /// Number of leaves.
@@ -131,12 +125,8 @@ impl RigidTree {
         let Some(ray) = self.prepare_ray(ray) else {
             return;
         };
-        let tree = self
-            .tree
-            .as_ref()
-            .expect("only meshes with trees are traversed");
         let mut limit = limit;
-        tree.traverse::<L, SORTED>(
+        self.tree.traverse::<L, SORTED>(
             lanes,
             stack,
             (&ray.approach.ray, Child::ROOT),

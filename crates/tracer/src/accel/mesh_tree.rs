@@ -1,13 +1,16 @@
 //! The tree of a mesh, rigid or deforming, in object space.
 
+use std::sync::Arc;
+
 use bvh::{Crossing, Lanes, Ray, RigidTree};
 use scene::Mesh;
 
 use crate::accel::deforming_tree::DeformingTree;
+use crate::accel::kept_trees::rigid_tree;
 
 /// A mesh and its trees; shared by every object that shows it.
 pub(crate) enum MeshTree<'a> {
-    Rigid(RigidTree),
+    Rigid(Arc<RigidTree>),
     Deforming(DeformingTree<'a>),
 }
 
@@ -17,7 +20,7 @@ impl<'a> MeshTree<'a> {
         if mesh.deforms() {
             MeshTree::Deforming(DeformingTree::build(mesh, from, to))
         } else {
-            MeshTree::Rigid(RigidTree::build(&mesh.positions, &mesh.triangles))
+            MeshTree::Rigid(rigid_tree(mesh))
         }
     }
 

@@ -2,6 +2,7 @@
 
 pub(crate) mod coordinates;
 pub(crate) mod deforming_tree;
+pub(crate) mod kept_trees;
 pub(crate) mod mesh_tree;
 pub(crate) mod scene_tree;
 pub(crate) mod world_leaves;

@@ -4,6 +4,7 @@ use bvh::{Aabb, Crossing, Lanes, LeafRay, Part, Ray, RigidTree, WorldTree};
 use scene::Scene;
 
 use crate::accel::coordinates::check_coordinates;
+use crate::accel::kept_trees::drop_old_trees;
 use crate::accel::mesh_tree::MeshTree;
 use crate::accel::world_leaves::collect_world_leaves;
 use crate::error::TraceError;
@@ -70,7 +71,7 @@ impl<'a> SceneTree<'a> {
         let (slices, swept) = sweep_slices(scene, from, to);
         check_coordinates(scene, &swept)?;
         let shown: Vec<usize> = scene.objects.iter().map(|object| object.mesh).collect();
-        let mut meshes: Vec<Option<MeshTree>> = scene
+        let meshes: Vec<Option<MeshTree>> = scene
             .meshes
             .iter()
             .enumerate()
@@ -80,21 +81,22 @@ impl<'a> SceneTree<'a> {
                     .then(|| MeshTree::build(mesh, from, to))
             })
             .collect();
+        drop_old_trees(meshes.iter().flatten().count());
         let coordinates = swept.iter().flatten().map(|aabb| aabb.largest_coordinate());
         let largest = coordinates.fold(0.0, f64::max);
         let leaves = collect_world_leaves(scene, &meshes, poses, largest);
         let world = WorldTree::build(&leaves, slices, &swept);
-        for (index, mesh) in meshes.iter_mut().enumerate() {
-            let is_traversed = (leaves.iter().zip(&shown))
-                .any(|(leaves, shown)| *shown == index && leaves.is_none());
-            if let (Some(MeshTree::Rigid(tree)), false) = (mesh, is_traversed) {
-                tree.drop_tree();
-            }
-        }
-        let in_meshes = meshes.iter().flatten().map(MeshTree::stack_size).max();
+        let in_meshes = leaves
+            .iter()
+            .zip(&shown)
+            .map(|(leaves, mesh)| match leaves {
+                // Rays go from the world tree to a leaf.
+                Some(_) => 0,
+                None => meshes[*mesh].as_ref().map_or(0, MeshTree::stack_size),
+            });
         Ok(Self {
             scene,
-            stack_size: world.tree.stack_size + in_meshes.unwrap_or(0),
+            stack_size: world.tree.stack_size + in_meshes.max().unwrap_or(0),
             meshes,
             world,
             movers: (0..scene.objects.len())
