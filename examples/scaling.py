@@ -22,6 +22,8 @@ SMALL = ["--size", "160x90"]
 TOLERANCE = 1.15
 # Shorter times scatter by more.
 LEAST_SECONDS = 1
+# The chart shows shorter times as this one.
+LEAST_DRAWN = 0.1
 SCENE = """
 size = [160, 90]
 exposure = 0.5
@@ -180,7 +182,8 @@ def chart(rows):
         parts.append(f'<polyline points="{place(0, 0)} {place(most, most)}" stroke="#bbb" stroke-dasharray="4" fill="none"/>')
         parts.append(f'<text x="{left}" y="{gap - 10}">{name}: {mine[0][2]} to {mine[-1][2]}</text>')
         for at, (command, color) in enumerate(colors.items()):
-            points = [(log2(row[1] / mine[0][1]), log2(row[3][at][0] / mine[0][3][at][0])) for row in mine]
+            seconds = [max(row[3][at][0], LEAST_DRAWN) for row in mine]
+            points = [(log2(row[1] / mine[0][1]), log2(time / seconds[0])) for row, time in zip(mine, seconds)]
             parts.append(f'<polyline points="{" ".join(place(*point) for point in points)}" stroke="{color}" fill="none" stroke-width="2"/>')
     legend = "".join(
         f'<text x="{gap + 90 * at}" y="{2 * gap + side - 20}" fill="{color}">{command}</text>' for at, (command, color) in enumerate(colors.items())
