@@ -56,9 +56,9 @@ pub use display::{
     Display, FlipExposures, MAX_STOPS, decode_srgb, display_srgb, luminance, scene_linear,
 };
 pub use exr::{
-    Channel, ColorMeaning, ExrFile, LARGEST_EXR_RATIO, LARGEST_EXR_SIDE, MAX_EXR_BYTES,
-    MAX_EXR_CHANNELS, Samples, decode_exr, read_attribute, read_exr, read_exr_header, read_passes,
-    write_exr, write_half_exr, write_small_exr,
+    Channel, ColorMeaning, ExrClaims, ExrFile, LARGEST_EXR_RATIO, LARGEST_EXR_SIDE, MAX_EXR_BYTES,
+    MAX_EXR_CHANNELS, Samples, decode_exr, read_attribute, read_exr, read_exr_claims,
+    read_exr_header, read_passes, write_exr, write_half_exr, write_small_exr,
 };
 pub use file::{
     FileError, open_regular, read_bounded, remove_leftovers, write_atomically, write_streamed,

@@ -170,18 +170,26 @@ pub fn find_broken(values: &[f32], least: f32) -> Option<usize> {
 
 /// Averages at least one plane, all of one size; sums in `f64`, in their order.
 pub(crate) fn mean_plane<'a>(planes: impl IntoIterator<Item = &'a Plane>) -> Plane {
-    let planes: Vec<&Plane> = planes.into_iter().collect();
-    gather(&planes, |pixel| {
-        mean_number(planes.iter().map(|plane| plane.pixels[pixel]))
-    })
+    mean_of_planes(&planes.into_iter().collect::<Vec<_>>())
 }
 
 /// Averages rasters of several numbers per pixel in the same way.
 pub(crate) fn mean_vectors<'a, const N: usize>(
     rasters: impl IntoIterator<Item = &'a Raster<[f32; N]>>,
 ) -> Raster<[f32; N]> {
-    let rasters: Vec<&Raster<[f32; N]>> = rasters.into_iter().collect();
-    gather(&rasters, |pixel| {
+    mean_of_vectors(&rasters.into_iter().collect::<Vec<_>>())
+}
+
+// Without the iterators of their callers, these are compiled once.
+
+fn mean_of_planes(planes: &[&Plane]) -> Plane {
+    gather(planes, |pixel| {
+        mean_number(planes.iter().map(|plane| plane.pixels[pixel]))
+    })
+}
+
+fn mean_of_vectors<const N: usize>(rasters: &[&Raster<[f32; N]>]) -> Raster<[f32; N]> {
+    gather(rasters, |pixel| {
         std::array::from_fn(|component| {
             mean_number(rasters.iter().map(|raster| raster.pixels[pixel][component]))
         })

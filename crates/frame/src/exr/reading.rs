@@ -7,6 +7,7 @@ use std::path::Path;
 use exr::block::reader::Reader;
 use exr::error::Error;
 use exr::meta::attribute::{AttributeValue, Text};
+use exr::meta::header::Header;
 use exr::prelude::{FlatSamples, ReadChannels, ReadLayers};
 use half::slice::HalfFloatSliceExt;
 
@@ -16,12 +17,23 @@ use super::header::{check_header, describe_odd_pixels, from_exr};
 use crate::FileError;
 use crate::file::open_regular;
 
+/// The bytes of a file, on disk or in memory: one type, so that the decoder is compiled once.
+type Source<'a> = BufReader<Box<dyn ReadSeek + 'a>>;
+
+trait ReadSeek: Read + Seek {}
+
+impl<T: Read + Seek> ReadSeek for T {}
+
+fn source<'a>(bytes: impl Read + Seek + 'a) -> Source<'a> {
+    BufReader::new(Box::new(bytes))
+}
+
 /// Reads a single-part OpenEXR file; refuses one that is cut short, has several parts, or claims
 /// more pixels, channels or bytes than [`MAX_EXR_BYTES`](crate::MAX_EXR_BYTES) and its neighbours
 /// allow. Half floats are widened.
 pub fn read_exr(path: &Path) -> Result<ExrFile, FileError> {
     let (handle, bytes) = open_regular(path, u64::MAX)?;
-    decode(BufReader::new(handle), bytes, path)
+    decode(source(handle), bytes, path)
 }
 
 /// Reads an OpenEXR file as [`read_exr`] does, from a program that writes no checksum of the
@@ -29,19 +41,19 @@ pub fn read_exr(path: &Path) -> Result<ExrFile, FileError> {
 /// those pixels black that no chunk has.
 pub(super) fn read_foreign_exr(path: &Path) -> Result<ExrFile, FileError> {
     let (handle, bytes) = open_regular(path, u64::MAX)?;
-    check_places(BufReader::new(handle), bytes, path)?;
+    check_places(source(handle), bytes, path)?;
     read_exr(path)
 }
 
 /// Decodes the bytes of a foreign OpenEXR file, with the same checks; `path` names it in errors.
 pub fn decode_exr(bytes: &[u8], path: &Path) -> Result<ExrFile, FileError> {
     let size = bytes.len() as u64;
-    check_places(Cursor::new(bytes), size, path)?;
-    decode(Cursor::new(bytes), size, path)
+    check_places(source(Cursor::new(bytes)), size, path)?;
+    decode(source(Cursor::new(bytes)), size, path)
 }
 
 /// Refuses two chunks in one place.
-fn check_places(source: impl Read + Seek, bytes: u64, path: &Path) -> Result<(), FileError> {
+fn check_places(source: Source, bytes: u64, path: &Path) -> Result<(), FileError> {
     let chunks = read_header(source, bytes, path)?;
     let header = chunks.headers()[0].clone();
     let find_places = || {
@@ -58,7 +70,11 @@ fn check_places(source: impl Read + Seek, bytes: u64, path: &Path) -> Result<(),
 }
 
 /// Reads the header of an OpenEXR file, and refuses disallowed ones.
-fn read_header<S: Read + Seek>(source: S, bytes: u64, path: &Path) -> Result<Reader<S>, FileError> {
+fn read_header<'a>(
+    source: Source<'a>,
+    bytes: u64,
+    path: &Path,
+) -> Result<Reader<Source<'a>>, FileError> {
     let chunks = exr::block::read(source, false).map_err(|error| broken(path, error))?;
     check_header(chunks.headers(), bytes).map_err(|reason| FileError::foreign(path, reason))?;
     Ok(chunks)
@@ -77,7 +93,7 @@ fn broken(path: &Path, error: Error) -> FileError {
     }
 }
 
-fn decode(source: impl Read + Seek, bytes: u64, path: &Path) -> Result<ExrFile, FileError> {
+fn decode(source: Source, bytes: u64, path: &Path) -> Result<ExrFile, FileError> {
     let broken = |error| broken(path, error);
     let chunks = read_header(source, bytes, path)?;
     let header = &chunks.headers()[0];
@@ -115,11 +131,38 @@ fn decode(source: impl Read + Seek, bytes: u64, path: &Path) -> Result<ExrFile, 
     Ok(file)
 }
 
+/// What the headers of an OpenEXR file claim.
+pub struct ExrClaims {
+    /// Columns and rows of the first part.
+    pub size: [u64; 2],
+    /// Values in all channels of all parts.
+    pub values: u64,
+}
+
+/// Reads what the bytes of an OpenEXR file claim to hold, without its pixels; `path` names it in
+/// errors.
+pub fn read_exr_claims(bytes: &[u8], path: &Path) -> Result<ExrClaims, FileError> {
+    let chunks = exr::block::read(source(Cursor::new(bytes)), false);
+    let chunks = chunks.map_err(|error| broken(path, error))?;
+    let size = |header: &Header| {
+        [header.layer_size.width(), header.layer_size.height()].map(|side| side as u64)
+    };
+    let values = |header: &Header| {
+        let [width, height] = size(header);
+        (width * height).saturating_mul(header.channels.list.len() as u64)
+    };
+    let headers = chunks.headers();
+    Ok(ExrClaims {
+        size: size(&headers[0]),
+        values: (headers.iter().map(values)).fold(0, u64::saturating_add),
+    })
+}
+
 /// Reads size and text attributes of an OpenEXR file without its pixels, as a file without
 /// channels; none if the file is missing or broken.
 pub fn read_exr_header(path: &Path) -> Option<ExrFile> {
     let (handle, _) = open_regular(path, u64::MAX).ok()?;
-    let chunks = exr::block::read(BufReader::new(handle), false).ok()?;
+    let chunks = exr::block::read(source(handle), false).ok()?;
     let header = chunks.headers().first()?;
     let size = header.layer_size;
     let mut file = ExrFile::new(size.width() as u32, size.height() as u32);

@@ -1,9 +1,11 @@
 //! Rasters made from others pixel by pixel, on all threads.
 
+use std::ops::Range;
+
 use frame::Raster;
 use rayon::prelude::*;
 
-/// Fewest pixels worth a thread of their own.
+/// Pixels that a thread makes at once.
 const PART: usize = 1 << 14;
 
 /// Makes a raster of the same size, each pixel from the other's.
@@ -35,12 +37,27 @@ pub fn index_pixels<T, U: Send>(
     Raster {
         width: like.width,
         height: like.height,
-        pixels: (0..like.pixels.len())
-            .into_par_iter()
-            .with_min_len(PART)
-            .map(value)
-            .collect(),
+        pixels: make_parts(like.pixels.len(), &|part| part.map(&value).collect()),
     }
+}
+
+/// Makes pixels part by part, each from the range of their indices. No closure is a part of its
+/// type, so that the code of threads is compiled once per type of pixel.
+fn make_parts<U: Send>(
+    count: usize,
+    make: &(dyn Fn(Range<usize>) -> Vec<U> + Send + Sync),
+) -> Vec<U> {
+    if count <= PART {
+        return make(0..count);
+    }
+    let starts: Vec<usize> = (0..count).step_by(PART).collect();
+    let parts = (starts.par_iter()).map(|start| make(*start..(start + PART).min(count)));
+    let parts: Vec<Vec<U>> = parts.collect();
+    let mut pixels = Vec::with_capacity(count);
+    for part in parts {
+        pixels.extend(part);
+    }
+    pixels
 }
 
 /// Lists the indices of the pixels of a raster in the square around one, row by row.

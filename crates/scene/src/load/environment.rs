@@ -1,25 +1,31 @@
 //! Environment maps from EXR and HDR files.
 
-use std::io::Cursor;
 use std::path::Path;
 
-use frame::decode_exr;
+use frame::{decode_exr, read_exr_claims};
 use image::ImageFormat;
 
 use super::files::Files;
-use super::picture::Header;
+use super::picture::{Header, check_size};
 use crate::EnvironmentMap;
 use crate::limits::{
     BRIGHTEST, LARGEST_IMAGE_FILE, MAX_ENVIRONMENT_TEXELS, MAX_ENVIRONMENT_VALUES,
 };
+
+/// Formats of maps.
+#[derive(Clone, Copy)]
+enum Format {
+    OpenExr,
+    Hdr,
+}
 
 /// Reads a map with strength 1 and rotation 0. The error is a reason alone: the caller knows the
 /// line that names the file.
 pub(super) fn read_map(files: &mut Files, path: &Path) -> Result<EnvironmentMap, String> {
     let name = path.display();
     let format = match path.extension().and_then(|extension| extension.to_str()) {
-        Some("exr") => ImageFormat::OpenExr,
-        Some("hdr") => ImageFormat::Hdr,
+        Some("exr") => Format::OpenExr,
+        Some("hdr") => Format::Hdr,
         _ => {
             return Err(format!(
                 "the background's image {name} is neither .exr nor .hdr; other formats do not hold radiance"
@@ -33,23 +39,10 @@ pub(super) fn read_map(files: &mut Files, path: &Path) -> Result<EnvironmentMap,
 }
 
 /// Decodes a map. The error follows the file's name.
-fn decode(bytes: &[u8], path: &Path, format: ImageFormat) -> Result<EnvironmentMap, String> {
-    let undecodable = |error: String| format!("cannot be decoded: {error}");
-    let header = Header::read(bytes, format).map_err(undecodable)?;
-    header.check(MAX_ENVIRONMENT_TEXELS)?;
-    if u64::from(header.width) != 2 * u64::from(header.height) {
-        return Err(format!(
-            "is {} x {}; allowed: a map in longitude and latitude, twice as wide as high",
-            header.width, header.height
-        ));
-    }
-    let (width, height) = (header.width, header.height);
-    let texels: Vec<[f32; 3]> = if format == ImageFormat::OpenExr {
-        check_exr_values(bytes)?;
-        read_exr_colors(bytes, path)?
-    } else {
-        let image = header.decode().map_err(undecodable)?.into_rgb32f();
-        image.pixels().map(|pixel| pixel.0).collect()
+fn decode(bytes: &[u8], path: &Path, format: Format) -> Result<EnvironmentMap, String> {
+    let ([width, height], texels) = match format {
+        Format::OpenExr => decode_open_exr(bytes, path)?,
+        Format::Hdr => decode_hdr(bytes)?,
     };
     let is_wrong = |texel: &[f32; 3]| !texel.iter().all(|part| (0.0..=BRIGHTEST).contains(part));
     if let Some(index) = texels.iter().position(is_wrong) {
@@ -69,31 +62,46 @@ fn decode(bytes: &[u8], path: &Path, format: ImageFormat) -> Result<EnvironmentM
     })
 }
 
-/// Reads the colours of an EXR file as any picture's: in Rec.709, from a whole picture.
-fn read_exr_colors(bytes: &[u8], path: &Path) -> Result<Vec<[f32; 3]>, String> {
+type Texels = ([u32; 2], Vec<[f32; 3]>);
+
+/// Decodes an EXR file as any picture: in Rec.709, from a whole picture. Limits all its values: the
+/// decoder reads every channel and layer, and pixels outside the picture.
+fn decode_open_exr(bytes: &[u8], path: &Path) -> Result<Texels, String> {
+    let claims = read_exr_claims(bytes, path)
+        .map_err(|error| format!("cannot be decoded: {}", error.reason()))?;
+    check_map(claims.size)?;
+    let values = claims.values;
+    if values > MAX_ENVIRONMENT_VALUES {
+        return Err(format!(
+            "holds {values} values in all its channels and layers; allowed: {MAX_ENVIRONMENT_VALUES}; scale it down, \
+             or save only R, G and B"
+        ));
+    }
     let read = || {
         let file = decode_exr(bytes, path)?;
         file.expect_plain_pixels()?;
         file.color("")
     };
     let color = read().map_err(|error| format!("cannot be used: {}", error.reason()))?;
-    Ok(color.pixels)
+    Ok(([color.width, color.height], color.pixels))
 }
 
-/// Limits all values of an EXR file: the decoder reads every channel and layer, and pixels outside
-/// the picture.
-fn check_exr_values(bytes: &[u8]) -> Result<(), String> {
-    let file = exr::block::read(Cursor::new(bytes), false)
-        .map_err(|error| format!("cannot be decoded: {error}"))?;
-    let count = |layer: &exr::meta::header::Header| {
-        let texels = layer.layer_size.width() as u64 * layer.layer_size.height() as u64;
-        texels.saturating_mul(layer.channels.list.len() as u64)
-    };
-    let values = (file.headers().iter().map(count)).fold(0, u64::saturating_add);
-    if values > MAX_ENVIRONMENT_VALUES {
+fn decode_hdr(bytes: &[u8]) -> Result<Texels, String> {
+    let undecodable = |error: String| format!("cannot be decoded: {error}");
+    let header = Header::read(bytes, ImageFormat::Hdr).map_err(undecodable)?;
+    let size = [header.width, header.height];
+    check_map(size.map(u64::from))?;
+    let image = header.decode().map_err(undecodable)?.into_rgb32f();
+    Ok((size, image.pixels().map(|pixel| pixel.0).collect()))
+}
+
+/// Refuses a map of too many texels, and of another shape than that of longitude and latitude.
+fn check_map(size: [u64; 2]) -> Result<(), String> {
+    check_size(size, MAX_ENVIRONMENT_TEXELS)?;
+    let [width, height] = size;
+    if width != 2 * height {
         return Err(format!(
-            "holds {values} values in all its channels and layers; allowed: {MAX_ENVIRONMENT_VALUES}; scale it down, \
-             or save only R, G and B"
+            "is {width} x {height}; allowed: a map in longitude and latitude, twice as wide as high"
         ));
     }
     Ok(())

@@ -34,19 +34,23 @@ impl<'a> Header<'a> {
     /// Refuses an empty picture and one of more than `most` texels. The error follows the name of
     /// the picture.
     pub(super) fn check(&self, most: u64) -> Result<(), String> {
-        if (1..=most).contains(&self.texels()) {
-            return Ok(());
-        }
-        Err(format!(
-            "is {} x {}, {} texels; allowed: 1 to {most}; scale it down",
-            self.width,
-            self.height,
-            self.texels()
-        ))
+        check_size([self.width, self.height].map(u64::from), most)
     }
 
     /// Decodes the picture.
     pub(super) fn decode(self) -> Result<DynamicImage, String> {
         DynamicImage::from_decoder(self.decoder).map_err(|error| error.to_string())
     }
+}
+
+/// Refuses columns and rows of no texel, and of more than `most`. The error follows the name of the
+/// picture.
+pub(super) fn check_size([width, height]: [u64; 2], most: u64) -> Result<(), String> {
+    let texels = width.saturating_mul(height);
+    if (1..=most).contains(&texels) {
+        return Ok(());
+    }
+    Err(format!(
+        "is {width} x {height}, {texels} texels; allowed: 1 to {most}; scale it down"
+    ))
 }
