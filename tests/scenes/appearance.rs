@@ -1,6 +1,9 @@
 //! Finishes and environments read from a scene's files.
 
-use image::{ImageBuffer, Rgb32FImage};
+use std::path::Path;
+
+use frame::{ExrFile, Image, Raster, write_exr};
+use image::Rgb32FImage;
 use scene::{Background, Finish};
 use tests::exr_attribute::{ACES_CG, bytes_of, set_exr_attribute, to_aces_cg};
 
@@ -49,8 +52,21 @@ fn roughness_makes_gloss_and_metallic_makes_metal_and_a_scene_changes_them() {
 }
 
 /// Makes an image of two rows of four texels that count up from 0.
-pub fn counting_image() -> Rgb32FImage {
-    ImageBuffer::from_fn(4, 2, |x, y| image::Rgb([(x + 4 * y) as f32, 1.0, 0.5]))
+pub fn counting_image() -> Image {
+    Raster::from_fn(4, 2, |x, y| [(x + 4 * y) as f32, 1.0, 0.5])
+}
+
+/// Writes a background's image as OpenEXR.
+pub fn write_sky(path: &Path, image: &Image) {
+    let mut file = ExrFile::new(image.width, image.height);
+    file.push_color("", image);
+    write_exr(path, &file).unwrap();
+}
+
+fn write_hdr(path: &Path, image: &Image) {
+    let parts = image.pixels.as_flattened().to_vec();
+    let picture = Rgb32FImage::from_raw(image.width, image.height, parts).unwrap();
+    picture.save(path).unwrap();
 }
 
 /// Makes the scene's folder with another background.
@@ -65,11 +81,7 @@ fn an_environment_in_other_primaries_is_converted_and_one_of_odd_pixels_is_refus
     let folder = folder_with_background("image = \"sky.exr\"");
     let path = folder.path.join("sky.exr");
     let color = [0.25, 0.5, 0.125];
-    let [r, g, b] = to_aces_cg(color);
-    let save = || {
-        let image: Rgb32FImage = ImageBuffer::from_pixel(4, 2, image::Rgb([r, g, b]));
-        image.save(&path).unwrap();
-    };
+    let save = || write_sky(&path, &Raster::filled(4, 2, to_aces_cg(color)));
     save();
     set_exr_attribute(
         &path,
@@ -117,10 +129,11 @@ fn an_environment_in_other_primaries_is_converted_and_one_of_odd_pixels_is_refus
 
 #[test]
 fn an_environment_is_read_from_exr_and_hdr() {
-    for name in ["sky.exr", "sky.hdr"] {
+    let writers: [(&str, fn(&Path, &Image)); 2] = [("sky.exr", write_sky), ("sky.hdr", write_hdr)];
+    for (name, write) in writers {
         let folder =
             folder_with_background(&format!("image = \"{name}\"\nstrength = 2\nrotation = 90"));
-        counting_image().save(folder.path.join(name)).unwrap();
+        write(&folder.path.join(name), &counting_image());
         let Background::Map(map) = folder.load().unwrap().background else {
             panic!("{name} is a map");
         };
@@ -131,15 +144,16 @@ fn an_environment_is_read_from_exr_and_hdr() {
         assert_eq!(map.texels, expected, "{name}");
     }
     let folder = folder_with_background("image = \"sky.exr\"");
-    counting_image().save(folder.path.join("sky.exr")).unwrap();
+    let path = folder.path.join("sky.exr");
+    write_sky(&path, &counting_image());
     let before = folder.load().unwrap();
     let Background::Map(map) = before.background else {
         panic!("it is a map");
     };
     assert_eq!((map.strength, map.rotation), (1.0, 0.0));
     let mut brighter = counting_image();
-    brighter.put_pixel(0, 0, image::Rgb([9.0; 3]));
-    brighter.save(folder.path.join("sky.exr")).unwrap();
+    brighter.pixels[0] = [9.0; 3];
+    write_sky(&path, &brighter);
     // The hash follows the image.
     assert_ne!(folder.load().unwrap().hash, before.hash);
 }

@@ -3,11 +3,11 @@
 //!
 //! Most are in `slips/`, one file per kind of file.
 
-use image::{ImageBuffer, Rgb32FImage};
+use frame::Raster;
 use scene::{SceneError, list_scenes, load_scene};
 use serde::Deserialize;
 
-use crate::appearance::{counting_image, folder_with_background};
+use crate::appearance::{counting_image, folder_with_background, write_sky};
 use crate::{Folder, OBJ, SCENE};
 
 /// A mistake in a file of a scene.
@@ -125,19 +125,21 @@ fn glass_that_no_light_passes_may_have_any_index_and_other_glass_not() {
 
 #[test]
 fn environments_of_other_shapes_and_numbers_are_refused() {
-    let mut holed: Rgb32FImage = ImageBuffer::from_pixel(4, 2, image::Rgb([1.0, 1.0, 0.0]));
-    holed.put_pixel(2, 1, image::Rgb([1.0, f32::NAN, 0.0]));
+    let holed = Raster::from_fn(4, 2, |x, y| {
+        let green = if (x, y) == (2, 1) { f32::NAN } else { 1.0 };
+        [1.0, green, 0.0]
+    });
     let shape = "12: the background's image sky.exr is 3 x 2; allowed: a map in longitude and latitude, twice as wide as high";
     let number =
         "12: the background's image sky.exr holds [1.0, NaN, 0.0] at (2, 1); allowed: 0 to 1e12";
     let dark = ("\nstrength = 0", counting_image());
     for ((keys, image), message) in [
-        (("", ImageBuffer::new(3, 2)), shape),
+        (("", Raster::filled(3, 2, [0.0; 3])), shape),
         (("", holed), number),
         (dark, "13: strength is 0; allowed: above 0"),
     ] {
         let folder = folder_with_background(&format!("image = \"sky.exr\"{keys}"));
-        image.save(folder.path.join("sky.exr")).unwrap();
+        write_sky(&folder.path.join("sky.exr"), &image);
         assert_refused(&folder, "sky.exr", &format!("scene.toml:{message}"));
     }
 }
