@@ -56,17 +56,17 @@ pub fn counting_image() -> Image {
     Raster::from_fn(4, 2, |x, y| [(x + 4 * y) as f32, 1.0, 0.5])
 }
 
-/// Writes a background's image as OpenEXR.
+/// Writes a background's image, as Radiance HDR or OpenEXR by the ending of its name.
 pub fn write_sky(path: &Path, image: &Image) {
-    let mut file = ExrFile::new(image.width, image.height);
+    let (width, height) = (image.width, image.height);
+    if path.extension().is_some_and(|ending| ending == "hdr") {
+        let parts = image.pixels.as_flattened().to_vec();
+        let picture = Rgb32FImage::from_raw(width, height, parts).unwrap();
+        return picture.save(path).unwrap();
+    }
+    let mut file = ExrFile::new(width, height);
     file.push_color("", image);
     write_exr(path, &file).unwrap();
-}
-
-fn write_hdr(path: &Path, image: &Image) {
-    let parts = image.pixels.as_flattened().to_vec();
-    let picture = Rgb32FImage::from_raw(image.width, image.height, parts).unwrap();
-    picture.save(path).unwrap();
 }
 
 /// Makes the scene's folder with another background.
@@ -129,11 +129,10 @@ fn an_environment_in_other_primaries_is_converted_and_one_of_odd_pixels_is_refus
 
 #[test]
 fn an_environment_is_read_from_exr_and_hdr() {
-    let writers: [(&str, fn(&Path, &Image)); 2] = [("sky.exr", write_sky), ("sky.hdr", write_hdr)];
-    for (name, write) in writers {
+    for name in ["sky.exr", "sky.hdr"] {
         let folder =
             folder_with_background(&format!("image = \"{name}\"\nstrength = 2\nrotation = 90"));
-        write(&folder.path.join(name), &counting_image());
+        write_sky(&folder.path.join(name), &counting_image());
         let Background::Map(map) = folder.load().unwrap().background else {
             panic!("{name} is a map");
         };
