@@ -171,7 +171,8 @@ oracles: software_vulkan python bpy
 	$(ORACLE) luxcore "$(ENGINES)/luxcore" -- "$(abspath $(LUXCORE))/bin/python3" engines/luxcore/draw.py
 	$(ORACLE) cycles "$(ENGINES)/cycles" -- "$(BLENDER_5)" -W ignore examples/blender/blender.py --
 
-# The price of our truths beside that of Cycles: crates/tracer/BENCHMARKS.md. It takes about ten minutes on two cores.
+# The price of our truths beside that of Cycles: crates/tracer/BENCHMARKS.md. It takes about twenty minutes on two cores, half of them
+# to compile.
 price: software_vulkan python bpy
 	cargo bench --locked -p shuttertruth-tracer -- truths
 	cargo build --locked --release --bin shuttertruth

@@ -124,6 +124,17 @@ fn glass_that_no_light_passes_may_have_any_index_and_other_glass_not() {
 }
 
 #[test]
+fn an_environment_that_cannot_be_decoded_is_refused() {
+    for name in ["sky.exr", "sky.hdr"] {
+        let folder = folder_with_background(&format!("image = \"{name}\""));
+        std::fs::write(folder.path.join(name), "no picture").unwrap();
+        let refusal = folder.load().unwrap_err().to_string();
+        let part = format!("{name} cannot be decoded: ");
+        assert!(refusal.contains(&part), "{refusal}");
+    }
+}
+
+#[test]
 fn environments_of_other_shapes_and_numbers_are_refused() {
     let holed = Raster::from_fn(4, 2, |x, y| {
         let green = if (x, y) == (2, 1) { f32::NAN } else { 1.0 };

@@ -142,8 +142,16 @@ pub struct ExrClaims {
 /// Reads what the bytes of an OpenEXR file claim to hold, without its pixels; `path` names it in
 /// errors.
 pub fn read_exr_claims(bytes: &[u8], path: &Path) -> Result<ExrClaims, FileError> {
+    let refuse = |reason| FileError::Broken {
+        path: path.to_owned(),
+        reason,
+    };
     let chunks = exr::block::read(source(Cursor::new(bytes)), false);
-    let chunks = chunks.map_err(|error| broken(path, error))?;
+    let chunks = chunks.map_err(|error| refuse(error.to_string()))?;
+    let headers = chunks.headers();
+    let first = headers
+        .first()
+        .ok_or_else(|| refuse("it has no part".to_owned()))?;
     let size = |header: &Header| {
         [header.layer_size.width(), header.layer_size.height()].map(|side| side as u64)
     };
@@ -151,9 +159,8 @@ pub fn read_exr_claims(bytes: &[u8], path: &Path) -> Result<ExrClaims, FileError
         let [width, height] = size(header);
         (width * height).saturating_mul(header.channels.list.len() as u64)
     };
-    let headers = chunks.headers();
     Ok(ExrClaims {
-        size: size(&headers[0]),
+        size: size(first),
         values: (headers.iter().map(values)).fold(0, u64::saturating_add),
     })
 }
