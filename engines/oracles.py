@@ -77,14 +77,14 @@ class Cycles(Renderer):
 
     def draw(self, exported, out):
         """Draws two halves with different seeds; returns them."""
-        halves = []
-        for seed in (1, 2):
-            half = out / str(seed)
-            # The blur has four times the samples of other pictures.
-            settings = ["--size", SIZE, "--samples", str(SAMPLES // 8), "--blur", "cycles", "--blur-only", "--seed", str(seed)]
-            subprocess.run([*self.command, exported, half, *settings], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=True)
-            halves.append(read_color(half / "blurred.exr"))
-        return halves
+        return [self.render(exported, out / str(seed), SIZE, SAMPLES // 2, seed) for seed in (1, 2)]
+
+    def render(self, exported, out, size, samples, seed):
+        """Renders the mean over a centred shutter with a number of samples per pixel; returns it."""
+        # Blender draws the blur with four times the samples that it is given.
+        settings = ["--size", size, "--samples", str(samples // 4), "--blur", "cycles", "--blur-only", "--seed", str(seed)]
+        subprocess.run([*self.command, exported, out, *settings], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=True)
+        return read_color(out / "blurred.exr")
 
 
 def copy_flat(scenes, out):

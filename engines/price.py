@@ -10,17 +10,17 @@ change with the number of samples if noise falls with their root. Of two times t
 import pathlib
 import resource
 import shutil
-import subprocess
 import sys
 
 import numpy as np
 
-from pictures import read_color, read_colors
+from oracles import Cycles
+from pictures import read_colors
 from program import shuttertruth
 
 SIZE, SAMPLES = "320x180", 512
-# Blender draws the blur with four times the samples that it is given.
-FACTOR = 4
+# The fewest samples of Cycles, whose time is that of starting.
+FEWEST = 4
 
 
 def processor_time(work):
@@ -31,16 +31,10 @@ def processor_time(work):
     return used() - before, result
 
 
-def render_cycles(command, exported, out, samples, seed=1):
-    settings = ["--size", SIZE, "--samples", str(samples // FACTOR), "--blur", "cycles", "--blur-only", "--seed", str(seed)]
-    subprocess.run([*command, exported, out, *settings], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=True)
-    return read_color(out / "blurred.exr")
-
-
-def measure_cycles(command, exported, out):
+def measure_cycles(cycles, exported, out):
     """Returns seconds of rendering, without those of starting and of building trees, the noise, and the mean radiance."""
-    start, _ = processor_time(lambda: render_cycles(command, exported, out / "start", FACTOR))
-    renders = [processor_time(lambda: render_cycles(command, exported, out / str(seed), SAMPLES, seed)) for seed in (1, 2)]
+    start, _ = processor_time(lambda: cycles.render(exported, out / "start", SIZE, FEWEST, seed=1))
+    renders = [processor_time(lambda: cycles.render(exported, out / str(seed), SIZE, SAMPLES, seed)) for seed in (1, 2)]
     seconds, (first, second) = zip(*renders)
     return min(seconds) - start, np.sqrt(((first - second) ** 2).mean() / 2), np.mean([first, second])
 
@@ -68,7 +62,7 @@ def main():
     for scene in sorted(path.parent.name for path in scenes.glob("*/scene.toml")):
         shuttertruth("engine", "export", scene, "--scenes-dir", scenes, "--gltf", out / "gltf")
         seconds, noise, mean = measure_ours(scene, scenes, out / "truths")
-        theirs, their_noise, their_mean = measure_cycles(command, out / "gltf" / scene, out / "cycles" / scene)
+        theirs, their_noise, their_mean = measure_cycles(Cycles(command), out / "gltf" / scene, out / "cycles" / scene)
         price = seconds * noise**2 / (theirs * their_noise**2)
         print(f"| {scene} | {mean / their_mean:.4f} | {seconds:.1f} | {noise:.5f} | {theirs:.1f} | {their_noise:.5f} | {price:.2f} |", flush=True)
 
