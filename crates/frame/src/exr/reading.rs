@@ -195,3 +195,21 @@ fn set_texts<'a>(
 pub fn read_attribute(path: &Path, name: &str) -> Option<String> {
     read_exr_header(path)?.attributes.remove(name)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Raster, write_exr};
+
+    #[test]
+    fn a_header_claims_the_values_of_all_its_channels() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("picture.exr");
+        let mut file = ExrFile::new(5, 2);
+        file.push_color("", &Raster::filled(5, 2, [0.5; 3]));
+        file.push_plane("Z", &Raster::filled(5, 2, 1.0));
+        write_exr(&path, &file).unwrap();
+        let claims = read_exr_claims(&std::fs::read(&path).unwrap(), &path).unwrap();
+        assert_eq!((claims.size, claims.values), ([5, 2], 40));
+    }
+}

@@ -73,3 +73,16 @@ pub fn around<T>(
     let (rows, columns) = (reach(y, height), reach(x, width));
     rows.flat_map(move |row| columns.clone().map(move |column| row * width + column))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_of_a_large_raster_are_in_order_and_whole() {
+        for count in [0, 1, PART, PART + 1, 3 * PART - 1] {
+            let made = index_pixels(&Raster::filled(count as u32, 1, ()), |at| at);
+            assert!(made.pixels.iter().copied().eq(0..count), "{count}");
+        }
+    }
+}
