@@ -15,8 +15,9 @@ pub const LEAST_CORRELATION: f64 = 0.8;
 const LEAST_SEARCHED: f64 = 0.9;
 /// Places closer to the best one than this are the same, in pixels.
 const SAME_PLACE: f64 = 2.0;
-/// Largest ratio of what the best place leaves unexplained to what any other place does.
-const LEAST_LEAD: f64 = 0.5;
+/// Standard errors by which the best place must explain more than any other place: many are
+/// compared.
+const LEAST_LEAD: f64 = 4.0;
 /// Upper limit on the pixels that a search compares.
 const SEARCHED_PIXELS: usize = 64;
 /// Largest shift of a right block, in pixels.
@@ -120,8 +121,15 @@ fn search(pair: &FramePair, block: &Block, velocity: &Vectors, reach: i32) -> Op
     let second = others
         .map(|(_, correlation)| *correlation)
         .fold(0.0, f64::max);
-    let is_alone = 1.0 - best.1 <= LEAST_LEAD * (1.0 - second);
+    let lead = ((1.0 - second) / (1.0 - best.1)).ln();
+    let is_alone = lead >= LEAST_LEAD * lead_error(pixels.len());
     (best.1 >= LEAST_CORRELATION && is_alone).then_some(best.0)
+}
+
+/// The standard error of the logarithm of the ratio of two places' unexplained parts, each the
+/// variance of so many differences.
+fn lead_error(pixels: usize) -> f64 {
+    2.0 / (pixels as f64).sqrt()
 }
 
 /// Correlates pairs of values; 0 if fewer than half of `all` are there.

@@ -15,6 +15,8 @@ use crate::statistics::median;
 const LEAST_GAIN: f64 = 0.5;
 /// Ratio of what two causes leave unexplained up to which they look the same.
 const LOOKS_SAME: f64 = 1.15;
+/// Standard errors of the difference up to which they do, too.
+const LEAST_CERTAINTY: f64 = 2.0;
 /// Part of the blocks that a right velocity may leave unexplained.
 const LITTLE: f64 = 0.005;
 /// Smallest median difference of a cause's velocity from the engine's, in pixels.
@@ -180,19 +182,27 @@ pub fn find_cause(
         .chain(tried)
         .chain(&offset)
         .collect();
-    let mut left = measure_unexplained(pair, blocks, &all);
-    let now = left.remove(0);
-    let least = left[..candidates.len()]
-        .iter()
-        .copied()
-        .fold(f64::INFINITY, f64::min);
-    let limit = LOOKS_SAME * least + LITTLE;
-    let offset = left.get(candidates.len()).copied().unwrap_or(f64::INFINITY);
-    if least > LEAST_GAIN * now || least > LOOKS_SAME * offset + LITTLE {
+    let mut left = measure_unexplained(pair, blocks, &all).into_iter();
+    let now = left.next()?;
+    let tried: Vec<(SimpleCause, Unexplained)> = (candidates.iter())
+        .map(|candidate| candidate.cause)
+        .zip(left.by_ref())
+        .collect();
+    let parts = tried.iter().map(|(_, unexplained)| unexplained);
+    let best = parts.min_by(|one, other| one.part.total_cmp(&other.part))?;
+    let limit = |part: f64| LOOKS_SAME * part + LITTLE;
+    let offset = left.next().map_or(f64::INFINITY, |offset| offset.part);
+    if best.part > LEAST_GAIN * now.part || best.part > limit(offset) {
         return None;
     }
-    let as_good = std::iter::zip(&candidates, &left).filter(|(_, left)| **left <= limit);
-    let mut causes = as_good.map(|(candidate, _)| candidate.cause);
+    let is_as_good = |other: &Unexplained| {
+        other.part <= limit(best.part)
+            || other.part - best.part <= LEAST_CERTAINTY * other.error_beside(best)
+    };
+    let as_good = tried
+        .iter()
+        .filter(|(_, unexplained)| is_as_good(unexplained));
+    let mut causes = as_good.map(|(cause, _)| *cause);
     Some(NamedCause {
         cause: causes.next()?,
         looks_like: causes.collect(),
@@ -225,13 +235,45 @@ impl Outcome {
     }
 }
 
+/// The part of some blocks that a velocity does not explain.
+struct Unexplained {
+    part: f64,
+    /// How far each block moves the part.
+    influences: Vec<f64>,
+}
+
+impl Unexplained {
+    /// Sums up pairs of what is left of a block and all of it.
+    fn of(blocks: &[[f64; 2]]) -> Self {
+        let sum = |which: usize| blocks.iter().map(|block| block[which]).sum::<f64>();
+        let all = sum(1) + f64::EPSILON;
+        let part = sum(0) / all;
+        let influence = |[left, of]: &[f64; 2]| (left - part * of) / all;
+        Self {
+            part,
+            influences: blocks.iter().map(influence).collect(),
+        }
+    }
+
+    /// The standard error of the difference from another part of the same blocks (Cochran 1977,
+    /// "Sampling Techniques", section 6.4).
+    fn error_beside(&self, other: &Self) -> f64 {
+        let pairs = std::iter::zip(&self.influences, &other.influences);
+        let squares = pairs.map(|(one, other)| (one - other).powi(2));
+        squares.sum::<f64>().sqrt()
+    }
+}
+
 /// Measures the part of some blocks that each velocity does not explain. Pixels that it leads to
 /// other surfaces count whole, and those that it leads out of the picture do not count. The detail
 /// of a block counts if one of the velocities makes both pictures of it alike: light may change
 /// too.
-fn measure_unexplained(pair: &FramePair, blocks: &[Block], velocities: &[&Vectors]) -> Vec<f64> {
-    let mut left = vec![0.0; velocities.len()];
-    let mut all = vec![f64::EPSILON; velocities.len()];
+fn measure_unexplained(
+    pair: &FramePair,
+    blocks: &[Block],
+    velocities: &[&Vectors],
+) -> Vec<Unexplained> {
+    let mut parts = vec![Vec::with_capacity(blocks.len()); velocities.len()];
     for block in blocks {
         let outcomes = velocities
             .iter()
@@ -242,17 +284,42 @@ fn measure_unexplained(pair: &FramePair, blocks: &[Block], velocities: &[&Vector
             .map(|outcome| outcome.correlation)
             .fold(0.0, f64::max);
         let counts = best >= LEAST_CORRELATION && has_detail(pair, block);
-        for (index, outcome) in outcomes.iter().enumerate() {
+        for (part, outcome) in parts.iter_mut().zip(&outcomes) {
             let unlike = if counts {
                 1.0 - outcome.correlation
             } else {
                 0.0
             };
-            left[index] += outcome.wrong + outcome.same * unlike;
-            all[index] += outcome.wrong + outcome.same;
+            part.push([
+                outcome.wrong + outcome.same * unlike,
+                outcome.wrong + outcome.same,
+            ]);
         }
     }
-    std::iter::zip(left, all)
-        .map(|(left, all)| left / all)
-        .collect()
+    parts.iter().map(|part| Unexplained::of(part)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Makes the unexplained part of four blocks of ten pixels.
+    fn part_of(left: [f64; 4]) -> Unexplained {
+        Unexplained::of(&left.map(|left| [left, 10.0]))
+    }
+
+    #[test]
+    fn a_difference_is_as_certain_as_the_blocks_agree() {
+        let least = part_of([1.0, 2.0, 3.0, 2.0]);
+        assert!((least.part - 0.2).abs() < 1e-12);
+        // All blocks agree.
+        let more = part_of([2.0, 3.0, 4.0, 3.0]);
+        assert!((more.part - 0.3).abs() < 1e-12);
+        assert!(more.error_beside(&least) < 1e-12);
+        // The same difference comes from one block: 4 pixels of 40, less their mean of 1 per block.
+        let noisy = part_of([1.0, 2.0, 7.0, 2.0]);
+        assert!((noisy.part - 0.3).abs() < 1e-12);
+        let expected = 12_f64.sqrt() / 40.0;
+        assert!((noisy.error_beside(&least) - expected).abs() < 1e-12);
+    }
 }

@@ -118,13 +118,29 @@ fn pictures_without_detail_tell_nothing() {
 #[test]
 fn without_ids_the_picture_has_nine_parts() {
     let mut frames = FAN.clone();
-    for frame in &mut frames {
-        frame.object_id = None;
-    }
+    remove_ids(&mut frames);
     let audit = audit(&frames);
     assert_passes("fan without ids", &audit);
     assert_eq!(audit.pairs[0].regions.len(), 9);
     region(&audit, 1, "bottom right");
+}
+
+/// Removes what tells objects apart.
+fn remove_ids(frames: &mut [Capture]) {
+    for frame in frames {
+        frame.object_id = None;
+    }
+}
+
+#[test]
+#[ignore = "prove: many seeds of the frames' noise"]
+fn noise_is_no_wrong_velocity() {
+    for seed in 1..=24 {
+        let mut frames = draw_frames("fan", &TIMES[..2], seed);
+        assert_passes(&format!("fan {seed}"), &audit(&frames));
+        remove_ids(&mut frames);
+        assert_passes(&format!("fan {seed} without ids"), &audit(&frames));
+    }
 }
 
 #[test]
