@@ -74,13 +74,13 @@ fn a_metal_seen_straight_on_has_its_own_colour() {
     expect_near("metal", radiance, 0.3, 1e-6);
 }
 
-/// A sky bright above is sampled as a light, and so is one bright below. Their sum is even, so it
-/// is not.
+/// An image of a sky bright above is sampled as a light, and so is one of a sky bright below. Their
+/// sum is even, so it is not.
 #[test]
 fn sampled_light_and_light_met_by_chance_agree() {
     for finish in METALS.into_iter().chain(COATS) {
         let [above, below] = [heights(0.0, 0.0, 1.0), heights(1.0, 1.0, 0.0)]
-            .map(|sky| lit_floor(finish, 0.5, sky, 512));
+            .map(|sky| lit_floor(finish, 0.5, image_of(&sky), 512));
         let whole = lit_floor(finish, 0.5, white(), 512);
         // 144 pixels of 512 stratified samples: 4e-4 at most (measured).
         expect_near(&format!("{finish:?}"), above + below, whole, 1.5e-3);

@@ -1,11 +1,11 @@
 //! Poses, skies and floors shared by several tests; renders, means of their colours, and comparison
 //! with known numbers.
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use frame::{Alignment, Frame, Image, Ladder, Truth, VelocityKind};
 use glam::{DQuat, DVec3, Vec3};
-use scene::{Background, Key, Material, Motion, Scene, Sun, load_scene};
+use scene::{Background, EnvironmentMap, Key, Material, Motion, Scene, Sun, load_scene};
 pub use tests::near::expect_near;
 pub use tests::shapes::*;
 use tests::{scenes, settings_of};
@@ -94,6 +94,31 @@ pub fn heights(ground: f32, horizon: f32, zenith: f32) -> Background {
         horizon: Vec3::splat(horizon),
         zenith: Vec3::splat(zenith),
     }
+}
+
+/// Makes an environment map of these texels by column and row.
+pub fn map(width: u32, rotation: f64, texel: impl Fn(u32, u32) -> [f32; 3]) -> Background {
+    let height = width / 2;
+    let texels = (0..width * height).map(|at| texel(at % width, at / width));
+    Background::Map(EnvironmentMap {
+        path: "made by a test".into(),
+        width,
+        height,
+        texels: texels.collect(),
+        strength: 1.0,
+        rotation,
+    })
+}
+
+/// Makes an environment map of `sky`.
+pub fn image_of(sky: &Background) -> Background {
+    map(128, 0.3, |x, y| {
+        let [x, y] = [x, y].map(|place| f64::from(place) + 0.5);
+        let (across, ahead) = (TAU * (x / 128.0 - 0.5)).sin_cos();
+        let (level, up) = (PI * y / 64.0).sin_cos();
+        let direction = DVec3::new(level * across, up, -level * ahead);
+        sky.radiance(direction).into()
+    })
 }
 
 /// Makes a white sun; its angular radius is in radians.

@@ -98,8 +98,8 @@ fn the_shadow_of_glass_is_what_fresnel_lets_pass() {
     assert!(range.contains(&actual.x), "{actual} {direct}");
 }
 
-/// A sky bright above is sampled as a light, and so is one bright below. Their sum is even, so it
-/// is not.
+/// An image of a sky bright above is sampled as a light, and so is one of a sky bright below. Their
+/// sum is even, so it is not.
 #[test]
 fn light_that_is_sampled_and_light_that_is_met_agree_behind_panes() {
     let panes = [
@@ -111,7 +111,8 @@ fn light_that_is_sampled_and_light_that_is_met_agree_behind_panes() {
         scene.background = sky;
         mean(&scene, samples)
     };
-    let sum = render(heights(0.0, 0.0, 1.0), 512) + render(heights(1.0, 1.0, 0.0), 512);
+    let [above, below] = [heights(0.0, 0.0, 1.0), heights(1.0, 1.0, 0.0)];
+    let sum = render(image_of(&above), 512) + render(image_of(&below), 512);
     let whole = render(Background::Constant(Vec3::ONE), 512);
     // 144 pixels of 512 stratified samples: 1e-4 (measured).
     let error = (sum - whole).abs().max_element();

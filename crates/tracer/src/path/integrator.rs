@@ -17,7 +17,7 @@ use crate::sampler::Sampler;
 use crate::stage::Stage;
 
 /// Bounce at which roulette begins; before it every path goes on.
-const ROULETTE_FROM: u32 = 3;
+const ROULETTE_FROM: u32 = 4;
 /// Most bounces of a path. Roulette ends nearly all paths long before: at albedo 0.8 one in a
 /// million gets here.
 const MAX_BOUNCES: u32 = 64;
@@ -97,7 +97,9 @@ impl<'a> Integrator<'a> {
             throughput *= sampled.weight;
             if depth >= ROULETTE_FROM {
                 let [_, _, roulette, _] = sampler.bounce(depth);
-                let survival = f64::from(throughput.max_element()).min(1.0);
+                // Paths that survive by the throughput itself are too few and too bright: their
+                // noise would cost more than the rays that end.
+                let survival = f64::from(throughput.max_element()).min(1.0).sqrt();
                 if roulette >= survival {
                     return (radiance, depth + 1);
                 }
