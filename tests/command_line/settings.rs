@@ -96,7 +96,7 @@ fn wrong_keys_and_values_are_refused_at_their_line() {
         ),
         (
             "samples_per_pixel = 17\n",
-            ["1 | samples_per_pixel", "^^", "8 times a power of two"],
+            ["1 | samples_per_pixel", "^^", "multiples of 8"],
         ),
         (
             "scenes = \"plate\"\n",

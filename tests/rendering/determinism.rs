@@ -233,11 +233,11 @@ type Change = fn(&mut RenderSettings);
 const BAD_SETTINGS: [(Change, &str); 6] = [
     (
         |settings| settings.samples_per_pixel = 100,
-        "is 100 over 8 replicates; allowed: 8 times a power of two up to 65536, such as 128",
+        "is 100 over 8 replicates; allowed: 8 times a number up to 65536, such as 96",
     ),
     (
         |settings| settings.samples_per_pixel = 4,
-        "is 4 over 8 replicates; allowed: 8 times a power of two up to 65536, such as 8",
+        "is 4 over 8 replicates; allowed: 8 times a number up to 65536, such as 8",
     ),
     (
         |settings| settings.replicates = 3,

@@ -20,10 +20,10 @@ pub enum TraceError {
     /// Replicates that cannot be halved, or too few to have a spread.
     #[error("replicates is {0}; allowed: even numbers from 2, such as 8")]
     Replicates(u32),
-    /// Samples that do not give each replicate a power of two.
+    /// Samples that give replicates no equal number, or too many.
     #[error(
         "samples per pixel is {samples_per_pixel} over {replicates} replicates; allowed: {replicates} times a \
-         power of two up to {MAX_SAMPLES}, such as {nearest}"
+         number up to {MAX_SAMPLES}, such as {nearest}"
     )]
     Samples {
         /// Samples asked for.

@@ -15,9 +15,9 @@ pub struct RenderSettings {
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// Mean samples per pixel of a frame or of a truth over all its replicates; each takes a power
-    /// of two up to 65536. Time grows with them, noise falls faster than their square root: a pilot
-    /// shares them out.
+    /// Mean samples per pixel of a frame or of a truth over all its replicates, a multiple of their
+    /// number; each takes up to 65536. Time grows with them, noise falls faster than their square
+    /// root: a pilot shares them out.
     pub samples_per_pixel: u32,
     /// Independent, complete renders; an even number for a truth. More of them measure the noise
     /// better and stratify worse.
@@ -138,16 +138,13 @@ fn check_samples(samples_per_pixel: u32, replicates: u32) -> Result<(), TraceErr
         return Err(TraceError::Replicates(replicates));
     }
     let each = samples_per_pixel / replicates;
-    if each * replicates == samples_per_pixel && each.is_power_of_two() && each <= MAX_SAMPLES {
+    if each * replicates == samples_per_pixel && (1..=MAX_SAMPLES).contains(&each) {
         return Ok(());
     }
     Err(TraceError::Samples {
         samples_per_pixel,
         replicates,
-        nearest: each
-            .clamp(1, MAX_SAMPLES)
-            .next_power_of_two()
-            .saturating_mul(replicates),
+        nearest: each.clamp(1, MAX_SAMPLES).saturating_mul(replicates),
     })
 }
 

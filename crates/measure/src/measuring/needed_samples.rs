@@ -97,11 +97,11 @@ impl RunPlan {
     }
 }
 
-/// Rounds up to samples that every replicate has a power of two of, no fewer than the small render
-/// had; none if they are too many.
+/// Rounds up to samples that every replicate has as many of, no fewer than the small render had;
+/// none if they are too many.
 fn round_up(needed: f64, replicates: u32) -> Option<u32> {
     let needed = needed.max(f64::from(PILOT.max(replicates)));
-    let each = (needed / f64::from(replicates)).log2().ceil().exp2();
+    let each = (needed / f64::from(replicates)).ceil();
     (each * f64::from(replicates) <= f64::from(MAX_SAMPLES)).then(|| each as u32 * replicates)
 }
 
@@ -117,11 +117,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn each_replicate_has_a_power_of_two() {
+    fn replicates_have_equal_numbers() {
         assert_eq!(round_up(3.0, 8), Some(PILOT));
         assert_eq!(round_up(64.0, 8), Some(64));
-        assert_eq!(round_up(64.1, 8), Some(128));
-        assert_eq!(round_up(81.0, 10), Some(160));
+        assert_eq!(round_up(64.1, 8), Some(72));
+        assert_eq!(round_up(81.0, 10), Some(90));
         assert_eq!(round_up(f64::from(MAX_SAMPLES), 8), Some(MAX_SAMPLES));
         assert_eq!(round_up(f64::from(MAX_SAMPLES) + 1.0, 8), None);
     }

@@ -13,10 +13,12 @@ use crate::{Error, LADDER, Monitor, SHARP};
 /// Noise falls with this power of the samples: faster than with their root, since they are
 /// stratified. Measured on fan and railing: 0.63 and 0.71.
 const DECAY: f64 = 0.6;
-/// Part of the predicted samples that is rendered, so that few predictions fail.
-const MARGIN: f64 = 1.05;
-/// Fewest replicates of a clean truth; more of them would stratify worse.
-const REPLICATES: u32 = 8;
+/// Part of the predicted samples that is rendered, so that few predictions fail: pixels get powers of
+/// two, and numbers in between are up to 8 % noisier.
+const MARGIN: f64 = 1.15;
+/// Replicates of a clean truth. More of them would stratify worse, and fewer would hardly know each
+/// pixel's error.
+const REPLICATES: u32 = 4;
 
 /// A scene, and what to render of it.
 #[derive(Clone, Copy)]
@@ -63,7 +65,12 @@ impl MemoryRender<'_> {
                 "noise is {noise}; allowed: numbers above 0, such as 0.002"
             )));
         }
-        let (rendered, truth, traced) = self.trace_until_clean()?;
+        let mut start = *self;
+        if self.noise.is_some() {
+            let asked = self.settings.samples_per_pixel.into();
+            start.settings = share_samples(self.settings, asked).unwrap_or(self.settings);
+        }
+        let (rendered, truth, traced) = start.trace_until_clean()?;
         let frame_noise = estimate_frame_noise(&traced.replicates);
         let grid = PixelGrid::of_picture(self.settings.width, self.settings.height);
         let frame = add_further_velocities(traced.frame, self.scene, &self.settings, &grid)?;
@@ -97,7 +104,7 @@ impl MemoryRender<'_> {
                 self.scene.id,
                 self.alignment,
                 worst / excess,
-                REPLICATES * MAX_SAMPLES / 2
+                REPLICATES * MAX_SAMPLES
             ))
         })?;
         Self { settings, ..self }.trace_until_clean()
@@ -167,14 +174,10 @@ fn worst_noise(truth: &Truth, traced: &TracedFrame) -> f64 {
 
 /// Shares at least `needed` samples per pixel out to few replicates; none if that is too many.
 fn share_samples(settings: RenderSettings, needed: f64) -> Option<RenderSettings> {
-    let each = (needed / f64::from(REPLICATES)).log2().floor().exp2();
-    if each > f64::from(MAX_SAMPLES / 2) {
-        return None;
-    }
-    let replicates = ((needed / each / 2.0).ceil() * 2.0) as u32;
-    Some(RenderSettings {
-        samples_per_pixel: each as u32 * replicates,
-        replicates,
+    let each = (needed / f64::from(REPLICATES)).ceil();
+    (each <= f64::from(MAX_SAMPLES)).then(|| RenderSettings {
+        samples_per_pixel: each as u32 * REPLICATES,
+        replicates: REPLICATES,
         ..settings
     })
 }
@@ -198,16 +201,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn samples_are_shared_out_to_eight_to_sixteen_replicates() {
+    fn samples_are_shared_out_to_four_replicates() {
         let shared = |needed: f64| {
             let settings = share_samples(RenderSettings::default(), needed)?;
             Some((settings.samples_per_replicate(), settings.replicates))
         };
-        assert_eq!(shared(64.0), Some((8, 8)));
-        assert_eq!(shared(64.1), Some((8, 10)));
-        assert_eq!(shared(127.9), Some((8, 16)));
-        assert_eq!(shared(128.0), Some((16, 8)));
-        assert_eq!(shared(8.0 * 65536.0), None);
+        assert_eq!(shared(64.0), Some((16, 4)));
+        assert_eq!(shared(64.1), Some((17, 4)));
+        assert_eq!(shared(4.0 * 65536.0), Some((65536, 4)));
+        assert_eq!(shared(4.0 * 65536.0 + 1.0), None);
     }
 
     #[test]

@@ -78,7 +78,7 @@ def render(
     scene: a name of `scenes()`, with an optional variant such as "fan@seal7" or "fan@24fps", or the path of a scene's folder.
     size: columns and rows, 16 to 16384.
     exposure: time that the shutter is open, in frames: 0.5 is 180 degrees. None takes the scene's own.
-    samples: mean samples per pixel, 8 times a power of two. Time grows with them; noise falls with about their square root.
+    samples: mean samples per pixel, a multiple of 8. Time grows with them; noise falls with about their square root.
     seed: seed of all random numbers. The same arguments render the same bytes.
     subframes: sharp pictures to render over the shutter. Each takes as long as the frame.
     alignment: "centred" (the frame shows the middle of the shutter), "trailing" (it shows the end) or "leading".

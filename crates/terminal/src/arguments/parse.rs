@@ -71,12 +71,12 @@ pub fn parse_samples(text: &str) -> Result<u32, String> {
         .map_err(|error: ParseIntError| error.to_string())?;
     // A frame has as many samples as all replicates of a truth together.
     let (each, most) = (samples / replicates, MAX_SAMPLES / replicates);
-    if each.is_power_of_two() && each <= most && each * replicates == samples {
+    if (1..=most).contains(&each) && each * replicates == samples {
         return Ok(samples);
     }
-    let nearest = each.clamp(1, most).next_power_of_two() * replicates;
+    let nearest = each.clamp(1, most) * replicates;
     Err(format!(
-        "allowed: {replicates} times a power of two, up to {MAX_SAMPLES}, such as {nearest}"
+        "allowed: multiples of {replicates} up to {MAX_SAMPLES}, such as {nearest}"
     ))
 }
 

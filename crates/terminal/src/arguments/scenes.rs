@@ -47,9 +47,9 @@ pub struct SceneArgs {
     /// Folder of scenes.
     #[command(flatten)]
     pub root: RootArgs,
-    /// Mean samples per pixel of a truth with 8 replicates, 8 times a power of two. Noisy parts of
-    /// the picture get more, quiet ones fewer [default: 256; for `run` and `check`, of scenes that
-    /// are not built in as many as --noise 0.005 takes].
+    /// Mean samples per pixel of a truth with 8 replicates, a multiple of 8. Noisy parts of the
+    /// picture get more, quiet ones fewer [default: 256; for `run` and `check`, of scenes that are
+    /// not built in as many as --noise 0.005 takes].
     #[arg(long, value_name = "N", value_parser = parse_samples)]
     pub samples_per_pixel: Option<u32>,
     /// Exposure in frames; 0.5 is a shutter of 180 degrees [default: each scene's own].

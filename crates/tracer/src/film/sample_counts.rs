@@ -34,7 +34,7 @@ impl SampleCounts {
             .map(|&pixel| demand[pixel as usize])
             .fold(0.0, f64::max);
         if largest <= 0.0 {
-            return SampleCounts::Uniform(mean);
+            return SampleCounts::Uniform(1 << mean.ilog2());
         }
         let budget = u64::from(mean) * picture.len() as u64;
         let fits = |scale: f64| {
@@ -89,8 +89,9 @@ impl SampleCounts {
 /// The allowed power of two that is nearest to a number, by ratio.
 fn nearest_count(number: f64, mean: u32) -> u32 {
     let [least, most] = RANGE.map(|factor| factor * f64::from(mean));
-    let bounded = number.clamp(least.max(1.0), most.min(f64::from(MAX_SAMPLES)));
-    1 << (bounded.log2().round() as u32)
+    let least = least.max(1.0).log2().ceil();
+    let most = most.min(f64::from(MAX_SAMPLES)).log2().floor();
+    1 << number.log2().round().clamp(least, most) as u32
 }
 
 #[cfg(test)]
@@ -109,6 +110,25 @@ mod tests {
             assert!(counts.of(pair[0]) <= counts.of(pair[1]));
         }
         assert_eq!([counts.of(0), counts.of(31)], [4, 256]);
+    }
+
+    #[test]
+    fn any_mean_gives_powers_of_two_within_the_range() {
+        let canvas = Canvas::bare(8, 4);
+        let demand: Vec<f64> = (0..32).map(|pixel| 1.5_f64.powi(pixel - 16)).collect();
+        for mean in [1, 3, 9, 24, 100, 65536] {
+            let counts = SampleCounts::share(canvas, &demand, mean);
+            for pixel in 0..32 {
+                let count = counts.of(pixel);
+                assert!(
+                    count.is_power_of_two() && count <= MAX_SAMPLES,
+                    "{mean}: {count}"
+                );
+                assert!(8 * count >= mean && count <= 8 * mean, "{mean}: {count}");
+            }
+            assert!(counts.sum(&canvas.pixels()) <= 32 * u64::from(mean));
+        }
+        assert_eq!(SampleCounts::share(canvas, &[0.0; 32], 24).of(0), 16);
     }
 
     #[test]
