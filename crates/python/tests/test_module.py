@@ -228,6 +228,12 @@ class Filters(unittest.TestCase):
         # The colours of another picture of the frame, with the same weights.
         np.testing.assert_allclose(st.blur(made, "jump_flood:corrected", color=2 * made.frame), 2 * blurred, rtol=1e-3)
 
+    def test_samples_are_refused_with_a_noise_as_without(self):
+        for noise in (None, 0.5):
+            with self.assertRaises(st.Error) as caught:
+                render("two_spheres", samples=101, noise=noise)
+            self.assertIn("is 101 over 8 replicates", str(caught.exception))
+
     def test_a_filter_for_another_shutter_is_refused(self):
         with self.assertRaises(st.Error) as caught:
             st.blur(render(), "jump_flood:corrected")

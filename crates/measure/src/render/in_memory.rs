@@ -11,7 +11,7 @@ use super::velocities::add_further_velocities;
 use crate::{Error, LADDER, Monitor, SHARP};
 
 /// Noise falls with this power of the samples: faster than with their root, since they are
-/// stratified. Measured on fan and railing: 0.63 and 0.71.
+/// stratified. Measured on nine scenes, from 64 to 512 samples: 0.58 to 0.73.
 const DECAY: f64 = 0.6;
 /// Part of the predicted samples that is rendered, so that few predictions fail: pixels get powers of
 /// two, and numbers in between are up to 8 % noisier.
@@ -65,6 +65,8 @@ impl MemoryRender<'_> {
                 "noise is {noise}; allowed: numbers above 0, such as 0.002"
             )));
         }
+        // Sharing out anew would mend what must be refused.
+        self.settings.check_truth(self.scene, self.alignment)?;
         let mut start = *self;
         if self.noise.is_some() {
             let asked = self.settings.samples_per_pixel.into();
