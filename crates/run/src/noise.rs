@@ -32,7 +32,11 @@ pub fn choose_samples(plan: &mut RunPlan) -> Result<(), Error> {
         return Ok(());
     };
     let unknown = plan.count_unknown_samples(noise);
-    let seconds = unknown as f64 * estimate_render_seconds(&plan.pilot(), 1);
+    let pilots = plan.pilots();
+    let each: f64 = (pilots.iter())
+        .map(|settings| estimate_render_seconds(settings, 1))
+        .sum();
+    let seconds = unknown as f64 * each;
     let scenes = count_text(unknown, "scene", "scenes");
     print_expected_time(seconds, &format!("to measure the noise of {scenes}"));
     let needed = plan.find_needed_samples(noise)?;

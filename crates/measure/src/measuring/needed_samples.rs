@@ -7,10 +7,11 @@ use serde::Serialize;
 use tracer::{MAX_SAMPLES, RenderSettings};
 
 use super::plan::RunPlan;
+use crate::render::in_memory::small_settings;
 use crate::render::run_scene::RunScene;
 use crate::{Error, MemoryRender, RenderFile, hash_inputs, look_up, put};
 
-/// Samples per pixel of the render that the noise is measured on.
+/// Samples per pixel of the renders that the noise is measured on.
 const PILOT: u32 = 64;
 /// File with the number of samples, next to the frame.
 const RECORD: &str = "samples.json";
@@ -31,8 +32,8 @@ struct Record {
 
 impl RunPlan {
     /// Finds the samples per pixel that bring truth and frame of each scene to the noise `target`,
-    /// a root mean square of radiance where anything moves. A small render of every scene tells
-    /// it; the folder keeps the number. Engines' scenes have the samples that they have.
+    /// a root mean square of radiance where anything moves. Two small renders of every scene
+    /// tell it; the folder keeps the number. Engines' scenes have the samples that they have.
     ///
     /// # Errors
     /// More samples than allowed would be needed, a scene cannot be rendered with the plan's
@@ -68,7 +69,8 @@ impl RunPlan {
             subframes: 0,
             monitor: self.monitor,
         };
-        let samples = round_up(render.predict_samples()?, settings.replicates)
+        let [truth, frame] = render.predict_samples(target)?;
+        let samples = round_up(truth.max(frame), settings.replicates)
             .ok_or_else(|| too_many(&scene.id.to_string(), target))?;
         let record = self.samples_record(scene, target);
         put(&record.path, record.inputs, &[], &samples)?;
@@ -86,8 +88,13 @@ impl RunPlan {
         }
     }
 
-    /// Returns the settings of the renders that [`RunPlan::find_needed_samples`] makes.
-    pub fn pilot(&self) -> RenderSettings {
+    /// Returns the settings of the renders that [`RunPlan::find_needed_samples`] makes of a scene.
+    pub fn pilots(&self) -> [RenderSettings; 2] {
+        small_settings(self.pilot())
+    }
+
+    /// The samples of the renders that measure the noise, at the picture's size.
+    fn pilot(&self) -> RenderSettings {
         RenderSettings {
             samples_per_pixel: PILOT,
             replicates: RenderSettings::default().replicates,

@@ -85,7 +85,7 @@ def render(
     velocity: "instantaneous" (the derivative, in pixels per frame), "previous_frame" (the motion since the frame before, as
         engines have it) or "camera_only".
     at_frame: renders the scene as many frames later. Scenes end with their keys; beyond them is an error.
-    noise: most noise of truth and frame, a root mean square of radiance; both are rendered with more samples until they reach it.
+    noise: most noise of truth and frame, a root mean square of radiance. Each takes the samples that it needs for it, `samples` at least.
 
     Uses all cores; other threads of Python go on meanwhile, and Ctrl-C ends it.
     """

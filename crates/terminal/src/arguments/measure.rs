@@ -42,8 +42,8 @@ pub struct MeasureArgs {
     /// at].
     #[arg(help_heading = "Scenes and files", long, value_name = "WxH", value_parser = parse_size)]
     pub size: Option<Size>,
-    /// Noise of truth and frame, a root mean square of radiance where anything moves: a small
-    /// render tells how many samples per pixel the noisiest of the scenes takes for it.
+    /// Noise of truth and frame, a root mean square of radiance where anything moves: two small
+    /// renders tell how many samples per pixel the noisiest of the scenes takes for it.
     #[arg(help_heading = "Scenes and files", long, value_name = "TARGET", value_parser = above_zero(f64::MAX), conflicts_with = "samples_per_pixel")]
     pub noise: Option<f64>,
     /// Independent renders per truth, an even number; each has an eighth of --samples-per-pixel.
