@@ -67,6 +67,7 @@ impl MemoryRender<'_> {
                 "noise is {noise}; allowed: numbers above 0, such as 0.002"
             )));
         }
+        // Shared out anew, samples that must be refused would be allowed.
         self.settings.check_truth(self.scene, self.alignment)?;
         let [for_truth, for_frame] = match self.noise {
             Some(noise) => self.with_samples(0.0)?.predict_samples(noise)?,
