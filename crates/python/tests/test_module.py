@@ -100,6 +100,13 @@ class Render(unittest.TestCase):
         self.assertLessEqual(fine.noise, 0.7 * coarse.noise)
         self.assertLessEqual(fine.frame_noise, 0.7 * coarse.noise)
 
+    def test_frame_and_truth_take_the_samples_that_each_needs(self):
+        # With the same samples, the truth of walker has half of its frame's noise.
+        made = render("walker", size=(128, 72), samples=16, noise=0.016)
+        for noise in (made.noise, made.frame_noise):
+            self.assertLessEqual(noise, 0.016)
+            self.assertGreater(noise, 0.7 * 0.016)
+
     def test_a_later_frame_is_another_picture(self):
         self.assertFalse(np.array_equal(render(at_frame=1).frame, render().frame))
 
